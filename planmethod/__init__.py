@@ -1,0 +1,1 @@
+"""The graphical plan method of the theory of mechanisms."""

@@ -1,0 +1,245 @@
+"""Steps of a construction (шаги построения): a closed set of frozen records.
+
+A step names what it makes and what it uses, and holds no numbers that depend on the position and
+no pens. Readings of a step (evaluate, narrate, draw) are functions that match on it. Points are in
+paper millimetres, x right, y up; lines are directed; angles are in degrees, as on a protractor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from enum import Enum
+from typing import NewType, TypeAlias, get_args, get_type_hints
+
+PointName = NewType("PointName", str)
+LineName = NewType("LineName", str)
+NumberName = NewType("NumberName", str)
+Name: TypeAlias = PointName | LineName | NumberName
+
+
+class Side(Enum):
+    """Side of a directed line (сторона направленной прямой): which of two arc meetings is meant."""
+
+    LEFT = 1
+    RIGHT = -1
+
+
+class Way(Enum):
+    """Sense along a directed line: which of two meetings of a line and an arc is meant."""
+
+    FORWARD = 1
+    BACKWARD = -1
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """Point given before the construction starts (данная точка), mm."""
+
+    out: PointName
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """Number given before the construction starts (данная величина), in its own unit."""
+
+    out: NumberName
+
+
+@dataclass(frozen=True, slots=True)
+class Join:
+    """Line through two points, directed from the first to the second (прямая через две точки)."""
+
+    out: LineName
+    tail: PointName
+    head: PointName
+
+
+@dataclass(frozen=True, slots=True)
+class Parallel:
+    """Line through a point parallel to a line, same sense (параллельная прямая)."""
+
+    out: LineName
+    through: PointName
+    to: LineName
+
+
+@dataclass(frozen=True, slots=True)
+class Perpendicular:
+    """Line through a point, a line's direction turned by +90 degrees (перпендикуляр)."""
+
+    out: LineName
+    through: PointName
+    to: LineName
+
+
+@dataclass(frozen=True, slots=True)
+class AtAngle:
+    """Line through a point at an angle to a line, or to +x when there is none (под углом)."""
+
+    out: LineName
+    through: PointName
+    to: LineName | None
+    angle: NumberName
+
+
+@dataclass(frozen=True, slots=True)
+class LayOff:
+    """Point at a signed length along a line from a point (отложить отрезок), mm."""
+
+    out: PointName
+    origin: PointName
+    along: LineName
+    length: NumberName
+
+
+@dataclass(frozen=True, slots=True)
+class MeetLines:
+    """Intersection of two lines (точка пересечения прямых)."""
+
+    out: PointName
+    first: LineName
+    second: LineName
+
+
+@dataclass(frozen=True, slots=True)
+class MeetLineCircle:
+    """Intersection of a line and an arc, the forward or the backward one (засечка на прямой)."""
+
+    out: PointName
+    line: LineName
+    centre: PointName
+    radius: NumberName
+    way: Way
+
+
+@dataclass(frozen=True, slots=True)
+class MeetCircles:
+    """Intersection of two arcs on a side of the line of centres (засечки)."""
+
+    out: PointName
+    centre1: PointName
+    radius1: NumberName
+    centre2: PointName
+    radius2: NumberName
+    side: Side
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """Point where a line from a point touches a circle (точка касания).
+
+    ``side`` is the side of the directed line centre → source on which the touching point lies.
+    """
+
+    out: PointName
+    centre: PointName
+    radius: NumberName
+    source: PointName
+    side: Side
+
+
+@dataclass(frozen=True, slots=True)
+class Similar:
+    """Point of a plan similar to a point of the link, letters in the same order (теорема подобия).
+
+    Triangle plan_b plan_c out is similar to link_b link_c link_s. ``span`` is the length of
+    link_b link_c measured on the drawing, where no given length tells it; only the hand asks it.
+    """
+
+    out: PointName
+    plan_b: PointName
+    plan_c: PointName
+    link_s: PointName
+    link_b: PointName
+    link_c: PointName
+    span: NumberName | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """Length between two points read with the ruler (измерить отрезок), mm."""
+
+    out: NumberName
+    tail: PointName
+    head: PointName
+
+
+@dataclass(frozen=True, slots=True)
+class MeasureAlong:
+    """Signed length between two points of a line: positive along its direction, mm."""
+
+    out: NumberName
+    tail: PointName
+    head: PointName
+    along: LineName
+
+
+@dataclass(frozen=True, slots=True)
+class Compute:
+    """Number from numbers: ``factor`` times a product of powers (вычислить).
+
+    ``powers`` are (name, exponent): omega = mu_v·bc / l_BC is factor 1, (mu_v, 1), (bc, 1), (l_BC, -1).
+    """
+
+    out: NumberName
+    factor: float
+    powers: tuple[tuple[NumberName, int], ...]
+
+
+Step: TypeAlias = (
+    Given
+    | Known
+    | Join
+    | Parallel
+    | Perpendicular
+    | AtAngle
+    | LayOff
+    | MeetLines
+    | MeetLineCircle
+    | MeetCircles
+    | Touch
+    | Similar
+    | Measure
+    | MeasureAlong
+    | Compute
+)
+STEP_TYPES: tuple[type[Step], ...] = get_args(Step)
+
+_KINDS = (PointName, LineName, NumberName)
+
+
+def _kind(hint: object) -> object | None:
+    """Return the kind of name an annotation stands for, looking through ``| None``."""
+    for candidate in (hint, *get_args(hint)):
+        if candidate in _KINDS:
+            return candidate
+    return None
+
+
+_HINTS = {kind: get_type_hints(kind) for kind in STEP_TYPES}
+_OPERANDS = {
+    kind: tuple(
+        (field.name, named)
+        for field in fields(kind)
+        if field.name != "out" and (named := _kind(_HINTS[kind][field.name])) is not None
+    )
+    for kind in STEP_TYPES
+}
+
+
+def operands(step: Step) -> Iterator[tuple[Name, object]]:
+    """Yield each name the step uses together with the kind it must have."""
+    if isinstance(step, Compute):
+        for name, _ in step.powers:
+            yield name, NumberName
+        return
+    for field, kind in _OPERANDS[type(step)]:
+        name = getattr(step, field)
+        if name is not None:
+            yield name, kind
+
+
+def makes(step: Step) -> object:
+    """Return the kind of object (point, line, number) a step makes."""
+    return _HINTS[type(step)]["out"]

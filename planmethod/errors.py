@@ -1,0 +1,86 @@
+"""Errors of the package: one root, one class per kind of trouble.
+
+Every message says what, where, with numbers, and the next action; the command line prints it
+as it stands and turns `exit_code` into the exit code of the process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """Exit codes of the command line (коды завершения)."""
+
+    DONE = 0
+    FINDINGS = 1
+    USAGE = 2
+    PROBLEM = 3
+    ASSEMBLY = 4
+    SELF_CHECK = 5
+
+
+class PlanMethodError(Exception):
+    """Root of all errors that the package raises on purpose."""
+
+    exit_code: ExitCode = ExitCode.SELF_CHECK
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One fault of a problem file (ошибка в файле задачи).
+
+    ``path`` is where, as ``links.2.slides.on``; ``expected`` and ``got`` say what stands there;
+    ``hint`` is the next action, for instance the nearest name.
+    """
+
+    path: str
+    message: str
+    hint: str = ""
+
+    def __str__(self) -> str:
+        text = f"{self.path}: {self.message}" if self.path else self.message
+        return f"{text}. {self.hint}" if self.hint else text
+
+
+class ProblemError(PlanMethodError):
+    """A problem file is faulty; all its faults are in `faults`."""
+
+    exit_code = ExitCode.PROBLEM
+
+    def __init__(self, source: str, faults: Sequence[Fault]) -> None:
+        self.source = source
+        self.faults = tuple(faults)
+        count = len(self.faults)
+        head = f"{source}: {count} fault{'s' if count != 1 else ''} in the problem file"
+        super().__init__("\n".join([head, *(f"  {fault}" for fault in self.faults)]))
+
+
+class ProgramError(PlanMethodError):
+    """A construction program is malformed: a mistake of ours, never of the user."""
+
+
+class AssemblyError(PlanMethodError):
+    """The mechanism cannot be assembled, or a plan cannot be closed, where it was asked."""
+
+    exit_code = ExitCode.ASSEMBLY
+
+
+class LayoutError(PlanMethodError):
+    """The blocks of a sheet do not fit the paper."""
+
+    exit_code = ExitCode.USAGE
+
+
+class OutputError(PlanMethodError):
+    """A file cannot be written."""
+
+    exit_code = ExitCode.USAGE
+
+
+class StructureError(PlanMethodError):
+    """The links and pairs do not make a mechanism that the stated driver moves definitely."""
+
+    exit_code = ExitCode.PROBLEM

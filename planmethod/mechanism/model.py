@@ -1,0 +1,59 @@
+"""Links, pairs and driver of a planar mechanism: who is joined with whom, no coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+FRAME = "0"
+"""Name of the frame (стойка) among the links."""
+
+
+@dataclass(frozen=True, slots=True)
+class Revolute:
+    """Point shared by links (шарнир); k links make k - 1 revolute pairs.
+
+    ``links`` are in file order, the frame (if the point is fixed) first.
+    """
+
+    point: str
+    links: tuple[str, ...]
+
+    @property
+    def pairs(self) -> int:
+        """Number of revolute pairs in the point."""
+        return len(self.links) - 1
+
+
+@dataclass(frozen=True, slots=True)
+class Prismatic:
+    """Pair of a slider and the link that carries its line (поступательная пара)."""
+
+    slider: str
+    host: str
+    pin: str
+
+
+@dataclass(frozen=True, slots=True)
+class Mechanism:
+    """Links and joints of a planar mechanism (механизм).
+
+    Attributes
+    ----------
+    links : tuple of str
+        Moving links in file order (the frame, `FRAME`, is not among them).
+    revolutes : tuple of Revolute
+        Every point shared by two or more links.
+    prismatics : tuple of Prismatic
+    driver : str
+        Name of the driving link (начальное звено), joined with the frame.
+    """
+
+    links: tuple[str, ...]
+    revolutes: tuple[Revolute, ...]
+    prismatics: tuple[Prismatic, ...]
+    driver: str
+
+    @property
+    def lower_pairs(self) -> int:
+        """Number of lower one-mobility pairs p1 (низшие пары)."""
+        return sum(joint.pairs for joint in self.revolutes) + len(self.prismatics)

@@ -1,0 +1,193 @@
+"""What a problem file says, checked and put into plain records (SI units).
+
+Lengths are metres. Angles are degrees, as in the file, wherever a protractor would lay them off:
+then quadrants stay exact; the arithmetic of a reading turns them into directions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+from planmethod.mechanism.model import Mechanism
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """Points of a link in the link's own axes (собственные оси звена).
+
+    The own axis is the real axis: the line of the link's first length (from its first letter,
+    which is the origin, towards the second); for a slider the direction of its slide, the pin
+    being the origin; for a host with one point the line it carries. Left of the axis is positive
+    imaginary. The frame is a body whose axes are those of the paper.
+
+    Attributes
+    ----------
+    points : mapping of str to complex, m
+        In file order. Every point of the link has coordinates.
+    axis : tuple of two str, or None
+        Letters of the own axis (("B", "C")); None for a slider and for a one-point link.
+    """
+
+    points: Mapping[str, complex]
+    axis: tuple[str, str] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """Line of a prismatic pair on the link that carries it (направляющая).
+
+    Attributes
+    ----------
+    slider, host : str
+        The slider's own axis has the direction of the line. The host may be the frame.
+    pin : str
+        Point of the slider at its origin.
+    base : complex, m
+        A point of the line in the host's axes.
+    angle : float, degrees
+        Direction of the line from the host's own axis (from +x when the host is the frame).
+    offset : float, m
+        Pin to the left of the line (смещение оси ползуна), counted along the directed line.
+    label : str
+        What the drawing calls the line: ``x-x`` (a guide) or ``CD`` (a line of a link) or ``C``.
+    through : str or None
+        Name of the host's point at ``base`` when it has one.
+    towards : str or None
+        Name of the host's second point of the line (``D`` of ``along = "CD"``), if so given.
+    """
+
+    slider: str
+    host: str
+    pin: str
+    base: complex
+    angle: float
+    offset: float
+    label: str
+    through: str | None = None
+    towards: str | None = None
+
+
+class Where(Enum):
+    """How an assembly rule tells the two closings of a group apart."""
+
+    RIGHT = "right"
+    LEFT = "left"
+    ABOVE = "above"
+    BELOW = "below"
+    LEFT_OF = "left of"
+    RIGHT_OF = "right of"
+    NEAR = "near"
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """Assembly rule of a point (способ сборки).
+
+    ``right|left|above|below`` compare with one point (``refs`` has one name), ``left of`` and
+    ``right of`` with a directed line (two names), ``near`` with a place ``at`` in metres.
+    """
+
+    point: str
+    where: Where
+    refs: tuple[str, ...] = ()
+    at: complex = 0j
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """Law of motion of the driving link (начальное звено) in the asked positions.
+
+    Attributes
+    ----------
+    link : str
+    pivot : str or None
+        Fixed point that a crank turns about; None for a driving slider.
+    positions : tuple of float
+        phi of the crank's own axis, degrees; or s of the slider's pin along its guide from the
+        guide's base point, m.
+    rate, acceleration : float
+        omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s².
+    """
+
+    link: str
+    pivot: str | None
+    positions: tuple[float, ...]
+    rate: float
+    acceleration: float
+
+    @property
+    def is_crank(self) -> bool:
+        """True when the driver turns, False when it slides."""
+        return self.pivot is not None
+
+
+class Convention(Enum):
+    """The two textbook conventions of a scale."""
+
+    UNIT_PER_MM = "unit/mm"
+    MM_PER_UNIT = "mm/unit"
+
+
+@dataclass(frozen=True, slots=True)
+class Scales:
+    """Scales asked for in the file; None where the program chooses.
+
+    ``mu_l, mu_v, mu_a`` are always stored as unit per millimetre, whichever convention the file
+    and the sheet use.
+    """
+
+    convention: Convention = Convention.UNIT_PER_MM
+    mu_l: float | None = None
+    mu_v: float | None = None
+    mu_a: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """One value that the source prints (напечатанное значение)."""
+
+    name: str
+    value: float
+    unit: str = ""
+    per_mm: float | None = None
+    what: str = ""
+    note: str = ""
+    position: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Task as read (задача).
+
+    Attributes
+    ----------
+    name : str
+        Stem of the file.
+    lengths : tuple of (str, str, float)
+        (link, name, metres) of every length as written, in file order: the sheet's "Дано".
+    guides : mapping of str to (str or None, complex, float)
+        Frame guides by name: fixed point's name if so given, base in m, angle in degrees.
+    assembly : tuple of Rule
+    tables : mapping
+        Tables that later parts read ([dynamics], [[loads]], [gears], [point]), as parsed.
+    """
+
+    name: str
+    title: str
+    source: str
+    mechanism: Mechanism
+    bodies: Mapping[str, Body]
+    slides: Mapping[str, Slide]
+    drive: Drive
+    lengths: tuple[tuple[str, str, float], ...] = ()
+    guides: Mapping[str, tuple[str | None, complex, float]] = field(default_factory=dict)
+    assembly: tuple[Rule, ...] = ()
+    scales: Scales = Scales()
+    stamp: Mapping[str, str] = field(default_factory=dict)
+    published: tuple[Published, ...] = ()
+    variants: tuple[str, ...] = ()
+    variant: str | None = None
+    tables: Mapping[str, Any] = field(default_factory=dict)
