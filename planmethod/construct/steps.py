@@ -143,8 +143,9 @@ class Touch:
 class Similar:
     """Point of a plan similar to a point of the link, letters in the same order (теорема подобия).
 
-    Triangle plan_b plan_c out is similar to link_b link_c link_s. ``span`` is the length of
-    link_b link_c measured on the drawing, where no given length tells it; only the hand asks it.
+    Triangle plan_b plan_c out is similar to link_b link_c link_s. The hand computes the sides from
+    the read length of plan_b plan_c; ``read_span`` and ``read_arm`` say that link_b link_c and
+    link_b link_s, too, are read on the drawing because no given length tells them.
     """
 
     out: PointName
@@ -153,7 +154,8 @@ class Similar:
     link_s: PointName
     link_b: PointName
     link_c: PointName
-    span: NumberName | None = None
+    read_span: bool = False
+    read_arm: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +181,8 @@ class MeasureAlong:
 class Compute:
     """Number from numbers: ``factor`` times a product of powers (вычислить).
 
-    ``powers`` are (name, exponent): omega = mu_v·bc / l_BC is factor 1, (mu_v, 1), (bc, 1), (l_BC, -1).
+    ``powers`` are (name, exponent): omega = mu_v·bc / l_BC is factor 1 and (mu_v, 1), (bc, 1),
+    (l_BC, -1).
     """
 
     out: NumberName
@@ -209,11 +212,12 @@ STEP_TYPES: tuple[type[Step], ...] = get_args(Step)
 _KINDS = (PointName, LineName, NumberName)
 
 
-def _kind(hint: object) -> object | None:
+def _kind(hint: object) -> object:
     """Return the kind of name an annotation stands for, looking through ``| None``."""
     for candidate in (hint, *get_args(hint)):
-        if candidate in _KINDS:
-            return candidate
+        for kind in _KINDS:
+            if candidate is kind:
+                return kind
     return None
 
 

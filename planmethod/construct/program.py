@@ -1,0 +1,224 @@
+"""Program of construction steps: single assignment, checked when it is made."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from planmethod.construct.steps import (
+    AtAngle,
+    Compute,
+    Given,
+    Join,
+    Known,
+    LayOff,
+    LineName,
+    Measure,
+    MeasureAlong,
+    MeetCircles,
+    MeetLineCircle,
+    MeetLines,
+    Name,
+    NumberName,
+    Parallel,
+    Perpendicular,
+    PointName,
+    Side,
+    Similar,
+    Step,
+    Touch,
+    Way,
+    makes,
+    operands,
+)
+from planmethod.errors import ProgramError
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """Ordered steps of a construction (программа построения).
+
+    Each name is made once and before it is used; a line is never used as a point. Both are
+    checked here, so no reading has to.
+    """
+
+    steps: tuple[Step, ...]
+
+    def __post_init__(self) -> None:
+        made: dict[Name, object] = {}
+        for number, step in enumerate(self.steps, 1):
+            for name, kind in operands(step):
+                if name not in made:
+                    near = get_close_matches(name, made, 1)
+                    hint = f"; did you mean {near[0]!r}?" if near else ""
+                    raise ProgramError(
+                        f"step {number} ({step.out}): no earlier step makes {name!r}{hint}"
+                    )
+                if made[name] is not kind:
+                    raise ProgramError(f"step {number} ({step.out}): {name!r} is not a {kind}")
+            if step.out in made:
+                raise ProgramError(f"step {number}: {step.out!r} is already made")
+            made[step.out] = makes(step)
+
+    def needed_for(self, asked: Iterable[Name]) -> Program:
+        """Return the program of the steps on which the asked names depend (только нужное).
+
+        Raises
+        ------
+        ProgramError
+            When an asked name is made by no step.
+        """
+        need: set[Name] = set(asked)
+        unknown = need - {step.out for step in self.steps}
+        if unknown:
+            raise ProgramError(f"no step makes {', '.join(sorted(unknown))}")
+        kept: list[Step] = []
+        for step in reversed(self.steps):
+            if step.out in need:
+                kept.append(step)
+                need.update(name for name, _ in operands(step))
+        return Program(tuple(reversed(kept)))
+
+
+@dataclass(slots=True)
+class Builder:
+    """Collect the steps of a construction; each verb returns the name it makes.
+
+    The verbs are the steps; a line that was drawn once is found again instead of drawn twice,
+    so callers ask for the line they need without keeping count.
+    """
+
+    steps: list[Step] = field(default_factory=list)
+    _drawn: dict[tuple[object, ...], LineName] = field(default_factory=dict)
+    _count: int = 0
+
+    def program(self) -> Program:
+        """Return what was collected."""
+        return Program(tuple(self.steps))
+
+    def given(self, out: str) -> PointName:
+        """Take a point as given."""
+        name = PointName(out)
+        self.steps.append(Given(name))
+        return name
+
+    def known(self, out: str) -> NumberName:
+        """Take a number as given."""
+        name = NumberName(out)
+        self.steps.append(Known(name))
+        return name
+
+    def _line(self, key: tuple[object, ...]) -> tuple[LineName, bool]:
+        name = self._drawn.get(key)
+        if name is not None:
+            return name, False
+        self._count += 1
+        name = self._drawn[key] = LineName(f"line{self._count}")
+        return name, True
+
+    def join(self, tail: PointName, head: PointName) -> LineName:
+        """Draw the line from ``tail`` through ``head``."""
+        name, new = self._line((Join, tail, head))
+        if new:
+            self.steps.append(Join(name, tail, head))
+        return name
+
+    def parallel(self, through: PointName, to: LineName) -> LineName:
+        """Draw a parallel."""
+        name, new = self._line((Parallel, through, to))
+        if new:
+            self.steps.append(Parallel(name, through, to))
+        return name
+
+    def perpendicular(self, through: PointName, to: LineName) -> LineName:
+        """Draw a perpendicular, directed as ``to`` turned by +90 degrees."""
+        name, new = self._line((Perpendicular, through, to))
+        if new:
+            self.steps.append(Perpendicular(name, through, to))
+        return name
+
+    def at_angle(self, through: PointName, to: LineName | None, angle: NumberName) -> LineName:
+        """Draw a line at an angle to ``to``, or to +x."""
+        name, new = self._line((AtAngle, through, to, angle))
+        if new:
+            self.steps.append(AtAngle(name, through, to, angle))
+        return name
+
+    def lay_off(
+        self, out: str, origin: PointName, along: LineName, length: NumberName
+    ) -> PointName:
+        """Lay a length off."""
+        name = PointName(out)
+        self.steps.append(LayOff(name, origin, along, length))
+        return name
+
+    def meet_lines(self, out: str, first: LineName, second: LineName) -> PointName:
+        """Intersect two lines."""
+        name = PointName(out)
+        self.steps.append(MeetLines(name, first, second))
+        return name
+
+    def meet_line_circle(
+        self, out: str, line: LineName, centre: PointName, radius: NumberName, way: Way
+    ) -> PointName:
+        """Intersect a line and an arc."""
+        name = PointName(out)
+        self.steps.append(MeetLineCircle(name, line, centre, radius, way))
+        return name
+
+    def meet_circles(
+        self,
+        out: str,
+        centre1: PointName,
+        radius1: NumberName,
+        centre2: PointName,
+        radius2: NumberName,
+        side: Side,
+    ) -> PointName:
+        """Intersect two arcs."""
+        name = PointName(out)
+        self.steps.append(MeetCircles(name, centre1, radius1, centre2, radius2, side))
+        return name
+
+    def touch(
+        self, out: str, centre: PointName, radius: NumberName, source: PointName, side: Side
+    ) -> PointName:
+        """Find where a line from ``source`` touches a circle."""
+        name = PointName(out)
+        self.steps.append(Touch(name, centre, radius, source, side))
+        return name
+
+    def similar(
+        self,
+        out: str,
+        plan: tuple[PointName, PointName],
+        link: tuple[PointName, PointName, PointName],
+        *,
+        read_span: bool = False,
+        read_arm: bool = False,
+    ) -> PointName:
+        """Find the point of a plan similar to ``link[2]`` on the link ``link[0] link[1]``."""
+        name = PointName(out)
+        self.steps.append(Similar(name, *plan, link[2], link[0], link[1], read_span, read_arm))
+        return name
+
+    def measure(self, out: str, tail: PointName, head: PointName) -> NumberName:
+        """Read a length."""
+        name = NumberName(out)
+        self.steps.append(Measure(name, tail, head))
+        return name
+
+    def measure_along(
+        self, out: str, tail: PointName, head: PointName, along: LineName
+    ) -> NumberName:
+        """Read a signed length."""
+        name = NumberName(out)
+        self.steps.append(MeasureAlong(name, tail, head, along))
+        return name
+
+    def compute(self, out: str, *powers: tuple[NumberName, int], factor: float = 1.0) -> NumberName:
+        """Compute ``factor`` times a product of powers."""
+        name = NumberName(out)
+        self.steps.append(Compute(name, factor, powers))
+        return name

@@ -1,0 +1,72 @@
+"""Scales of plans: what one millimetre stands for, and how one is chosen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+SERIES: tuple[float, ...] = (1.0, 2.0, 2.5, 4.0, 5.0)
+"""Mantissas of GOST 2.302, in which training drawings take their scales."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """What one millimetre of a plan stands for (масштабный коэффициент).
+
+    Attributes
+    ----------
+    symbol : str
+        ``mu_l``, ``mu_v``, ``mu_a``.
+    per_mm : float
+        Units per millimetre.
+    unit : str
+        ``m``, ``m/s``, ``m/s²``.
+    """
+
+    symbol: str
+    per_mm: float
+    unit: str
+
+
+def series_near(value: float, *, up: bool, series: Sequence[float] = SERIES) -> float:
+    """Return the member of the series times a power of ten next to ``value``.
+
+    Parameters
+    ----------
+    value : float
+        Positive.
+    up : bool
+        The smallest member not below ``value`` when true, else the largest not above it.
+    """
+    power = math.floor(math.log10(value))
+    members = [float(f"{m}e{p}") for p in (power - 1, power, power + 1) for m in series]
+    slack = 1e-9 * value
+    if up:
+        return min(m for m in members if m >= value - slack)
+    return max(m for m in members if m <= value + slack)
+
+
+def choose_scale(
+    extent: tuple[float, float], box: tuple[float, float], *, mm_per_unit: bool = False
+) -> float:
+    """Return units per millimetre so that an extent fills a box as far as the series lets it.
+
+    Parameters
+    ----------
+    extent : (float, float)
+        Width and height of what is drawn, in its unit.
+    box : (float, float), mm
+    mm_per_unit : bool
+        Take the round number in mm per unit instead of unit per mm.
+
+    Notes
+    -----
+    Nothing to draw (zero extent) gives 1.
+    """
+    needed = max(extent[0] / box[0], extent[1] / box[1])
+    if not (math.isfinite(needed) and needed > 0):
+        return 1.0
+    if mm_per_unit:
+        return 1.0 / series_near(1.0 / needed, up=False)
+    return series_near(needed, up=True)

@@ -1,0 +1,76 @@
+"""The statement of a problem in symbols: "Дано" and "Определить" (rich text)."""
+
+from __future__ import annotations
+
+from planmethod.mechanism.model import FRAME
+from planmethod.note.numbers import UNITS_RU, russian, trimmed
+from planmethod.plans.solution import Solution
+from planmethod.problem.model import Problem
+
+
+def number(value: float) -> str:
+    """Return a given number as rich text."""
+    return russian(trimmed(value))
+
+
+def point_name(point: str) -> str:
+    """Return a point's name as rich text: S2 gives ``S_{2}``."""
+    return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
+
+
+def given(problem: Problem) -> list[str]:
+    """Return what is given, one ``symbol = value unit`` each."""
+    drive = problem.drive
+    lines = []
+    if len(drive.positions) == 1:
+        value = number(drive.positions[0])
+        lines.append(f"φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"s = {value} м")
+    elif drive.is_crank:
+        first, last = number(drive.positions[0]), number(drive.positions[-1])
+        lines.append(f"φ_{{{drive.link}}} = {first}°…{last}° ({len(drive.positions)} полож.)")
+    for _, name, metres in problem.lengths:
+        lines.append(f"l_{{{name}}} = {number(metres)} м")
+    for point, place in problem.bodies[FRAME].points.items():
+        if place != 0:
+            lines.append(f"x_{{{point}}} = {number(place.real)} м")
+            lines.append(f"y_{{{point}}} = {number(place.imag)} м")
+    if drive.is_crank:
+        lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {UNITS_RU['1/s']}")
+        if drive.acceleration:
+            lines.append(f"ε_{{{drive.link}}} = {number(drive.acceleration)} {UNITS_RU['1/s²']}")
+    else:
+        lines.append(f"v = {number(drive.rate)} {UNITS_RU['m/s']}")
+        lines.append(f"a = {number(drive.acceleration)} {UNITS_RU['m/s²']}")
+    return lines
+
+
+def asked_points(solution: Solution) -> list[str]:
+    """Return the moving points whose velocity and acceleration the sheet tells.
+
+    Points of a link that does not turn move alike: the first stands for them all.
+    """
+    velocity = solution.construction.kinematics.velocity
+    seen: set[object] = {velocity.pole}
+    asked = []
+    for name, at in velocity.named.items():
+        if velocity.point[at] not in seen:
+            seen.add(velocity.point[at])
+            asked.append(name)
+    return asked
+
+
+def asked_links(solution: Solution) -> list[str]:
+    """Return the links whose angular velocity is not given and not zero by nature."""
+    kin = solution.construction.kinematics
+    drive = solution.problem.drive.link
+    return [
+        link for link in solution.problem.mechanism.links if link in kin.omega and link != drive
+    ]
+
+
+def wanted(solution: Solution) -> str:
+    """Return what is to be found, as one line of symbols."""
+    points, links = asked_points(solution), asked_links(solution)
+    symbols = [f"v_{{{p}}}" for p in points] + [f"ω_{{{k}}}" for k in links]
+    symbols += [f"a_{{{p}}}" for p in points] + [f"ε_{{{k}}}" for k in links]
+    return ", ".join(symbols)

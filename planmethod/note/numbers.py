@@ -1,0 +1,55 @@
+"""Numbers as they are written on a sheet or a terminal: digits, decimal sign, units."""
+
+from __future__ import annotations
+
+import math
+
+MINUS = "−"
+
+UNITS_RU = {
+    "m": "м",
+    "m/s": "м/с",
+    "m/s²": "м/с^{2}",
+    "1/s": "с^{-1}",
+    "1/s²": "с^{-2}",
+    "mm": "мм",
+    "deg": "°",
+}
+"""Units in Russian, as rich text."""
+
+
+def significant(value: float, digits: int = 4) -> str:
+    """Return a number with a decimal point and so many significant digits, without an exponent.
+
+    Very large and very small numbers, which would need a row of zeros, keep an ``e``. A value that
+    rounds to nothing beside 1e-12 is 0.
+    """
+    if not math.isfinite(value):
+        return "—"
+    if abs(value) < 1e-12:
+        return "0"
+    power = math.floor(math.log10(abs(value)))
+    rounded = round(value, digits - 1 - power)
+    if rounded != 0:
+        power = math.floor(math.log10(abs(rounded)))
+    if not -4 <= power <= 6:
+        return f"{value:.{digits - 1}e}"
+    return f"{rounded:.{max(0, digits - 1 - power)}f}"
+
+
+def trimmed(value: float, digits: int = 6) -> str:
+    """Return a given number as the problem writes it: no more digits than it has."""
+    text = significant(value, digits)
+    if "e" in text or "." not in text:
+        return text
+    return text.rstrip("0").rstrip(".")
+
+
+def russian(text: str) -> str:
+    """Return a plain number as rich text: decimal comma, minus sign, power of ten."""
+    mantissa, e, power = text.partition("e")
+    mantissa = mantissa.replace(".", ",").replace("-", MINUS)
+    if not e:
+        return mantissa
+    exponent = str(int(power)).replace("-", MINUS)
+    return f"{mantissa}·10^{{{exponent}}}"

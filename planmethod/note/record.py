@@ -1,0 +1,161 @@
+"""Machine-readable record of a solution: the object that ``solve --json`` prints."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from planmethod.mechanism.structure import Structure
+from planmethod.plans.model import PlanKind
+from planmethod.plans.solution import Segment, Solution
+
+SCHEMA = 1
+"""Version of the record's shape."""
+
+POLE = {PlanKind.VELOCITY: "p", PlanKind.ACCELERATION: "π"}
+
+
+def _number(value: Any) -> float:
+    """Return a plain float without a negative zero."""
+    return float(value) + 0.0
+
+
+def structure_record(structure: Structure) -> dict[str, Any]:
+    """Return the structural analysis as plain data."""
+    return {
+        "mobility": structure.mobility,
+        "moving_links": structure.moving_links,
+        "lower_pairs": structure.lower_pairs,
+        "higher_pairs": structure.higher_pairs,
+        "redundant": structure.redundant,
+        "class": structure.class_number,
+        "groups": [
+            {
+                "signature": group.signature,
+                "class": group.class_number,
+                "order": group.order,
+                "kind": group.kind,
+                "links": list(group.links),
+            }
+            for group in structure.groups
+        ],
+        "formula": structure.formula,
+    }
+
+
+def _vector(prefix: str, value: complex) -> dict[str, float]:
+    return {
+        f"{prefix}x": _number(value.real),
+        f"{prefix}y": _number(value.imag),
+        prefix: _number(abs(value)),
+    }
+
+
+def _segments(segments: list[Segment], index: int) -> dict[str, dict[str, float]]:
+    return {
+        segment.name: {
+            "exact": _number(segment.exact[index]),
+            "read": _number(segment.read[index]),
+        }
+        for segment in segments
+    }
+
+
+def record(solution: Solution) -> dict[str, Any]:
+    """Return everything that a solution says as plain data, SI, full precision.
+
+    ``segments`` are in millimetres of the plan: ``exact``, and ``read`` with the ruler along the
+    hand's own chain. ``hand`` holds the quantities that follow from the read segments.
+    """
+    segments = {kind: solution.segments(kind) for kind in PlanKind}
+    hand = solution.by_hand_results
+    positions = []
+    for i, asked in enumerate(solution.positions):
+        entry: dict[str, Any] = {}
+        if solution.problem.drive.is_crank:
+            entry["phi_deg"] = _number(asked)
+        else:
+            entry["s"] = _number(asked)
+        entry["margin"] = _number(solution.margin[i])
+        entry["points"] = {
+            name: {
+                "x": _number(point.place[i].real),
+                "y": _number(point.place[i].imag),
+                **_vector("v", complex(point.velocity[i])),
+                **_vector("a", complex(point.acceleration[i])),
+            }
+            for name, point in solution.points.items()
+        }
+        entry["links"] = {
+            name: {
+                "phi_deg": _number(link.phi_deg[i]),
+                "omega": _number(link.omega[i]),
+                "epsilon": _number(link.epsilon[i]),
+            }
+            for name, link in solution.links.items()
+        }
+        entry["relative"] = [
+            {
+                "point": r.point,
+                "of": r.of,
+                "to": r.to,
+                "v": _number(abs(r.velocity[i])),
+                "a_coriolis": _number(abs(r.coriolis[i])),
+                "a_rel": _number(abs(r.acceleration[i])),
+                "vx": _number(r.velocity[i].real),
+                "vy": _number(r.velocity[i].imag),
+                "a_coriolis_x": _number(r.coriolis[i].real),
+                "a_coriolis_y": _number(r.coriolis[i].imag),
+                "a_rel_x": _number(r.acceleration[i].real),
+                "a_rel_y": _number(r.acceleration[i].imag),
+            }
+            for r in solution.relatives
+        ]
+        entry["plans"] = {
+            kind.value: {
+                "mu": solution.scales[kind].per_mm,
+                **({"pole": POLE[kind]} if kind in POLE else {}),
+                "segments": _segments(segments[kind], i),
+            }
+            for kind in PlanKind
+        }
+        entry["hand"] = {
+            "ruler": solution.hand.ruler,
+            "points": {
+                name: {"v": _number(v[i]), "a": _number(a[i])}
+                for name, (v, a) in hand.points.items()
+            },
+            "links": {
+                name: {"omega": _number(omega[i]), "epsilon": _number(epsilon[i])}
+                for name, (omega, epsilon) in hand.links.items()
+            },
+            "relative": [
+                {
+                    "point": r.point,
+                    "of": r.of,
+                    "to": r.to,
+                    "v": _number(v[i]),
+                    "a_coriolis": _number(k[i]),
+                    "a_rel": _number(a[i]),
+                }
+                for r, (v, k, a) in zip(solution.relatives, hand.relatives, strict=True)
+            ],
+        }
+        positions.append(entry)
+    return {
+        "schema": SCHEMA,
+        "problem": solution.problem.name,
+        **({"variant": v} if (v := solution.problem.variant) is not None else {}),
+        "structure": structure_record(solution.structure),
+        "positions": positions,
+    }
+
+
+def finite(value: Any) -> bool:
+    """Tell whether every number of a record is finite."""
+    if isinstance(value, dict):
+        return all(finite(v) for v in value.values())
+    if isinstance(value, list):
+        return all(finite(v) for v in value)
+    return not isinstance(value, float) or bool(np.isfinite(value))

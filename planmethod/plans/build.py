@@ -1,0 +1,91 @@
+"""The whole construction of a problem: position, velocity and acceleration plans as one program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from planmethod.construct.program import Program
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.structure import Structure
+from planmethod.plans.draft import Choice, Draft
+from planmethod.plans.groups import drive_motion, group_motion
+from planmethod.plans.leads import Kinematics
+from planmethod.plans.model import Plan, PlanKind
+from planmethod.plans.motion import Motion
+from planmethod.plans.position import place_driver, place_frame, place_group
+from planmethod.problem.model import Problem
+
+
+@dataclass(frozen=True, slots=True)
+class Construction:
+    """A problem's program and what its names stand for.
+
+    Attributes
+    ----------
+    program : Program
+        Steps of all three plans; a reading keeps what it needs.
+    draft : Draft
+        Known numbers and given places of the data.
+    kinematics : Kinematics
+        Names of angular velocities and accelerations and of relative motions.
+    plans : tuple of Plan
+        Velocity and acceleration plan.
+    """
+
+    program: Program
+    draft: Draft
+    kinematics: Kinematics
+    plans: tuple[Plan, Plan]
+
+    def plan(self, kind: PlanKind) -> Plan:
+        """Return the velocity or the acceleration plan."""
+        return next(plan for plan in self.plans if plan.kind is kind)
+
+
+def draw_positions(problem: Problem, groups: Iterable[AssurGroup], choice: Choice) -> Draft:
+    """Plan the position plan of the driver and the given groups."""
+    draft = Draft(problem, choice)
+    place_frame(draft)
+    place_driver(draft)
+    for group in groups:
+        place_group(draft, group)
+    return draft
+
+
+def build(problem: Problem, structure: Structure, choice: Choice) -> Construction:
+    """Plan all three plans, group by group in the order of kinematic analysis."""
+    draft = draw_positions(problem, structure.groups, choice)
+    velocity = Motion.start(PlanKind.VELOCITY, draft)
+    acceleration = Motion.start(PlanKind.ACCELERATION, draft)
+    kin = Kinematics(draft, velocity, acceleration)
+    for motion in (velocity, acceleration):
+        drive_motion(kin, motion)
+        for group in structure.groups:
+            group_motion(kin, motion, group)
+    program = draft.b.program()
+    plans = (_plan(velocity), _plan(acceleration))
+    return Construction(program, draft, kin, plans)
+
+
+def _plan(motion: Motion) -> Plan:
+    letters: dict[PointName, str] = {}
+    for at, shown in motion.letters.items():
+        letters[at] = ", ".join(shown)
+    return Plan(motion.kind, motion.pole, letters, tuple(motion.vectors), tuple(motion.equations))
+
+
+def measured_segments(problem: Problem, draft: Draft) -> tuple[tuple[str, str], ...]:
+    """Return the segments of the position plan worth reading: given lengths and measured ones."""
+    pairs: list[tuple[str, str]] = []
+    for link, body in problem.bodies.items():
+        if link == FRAME:
+            continue
+        points = list(body.points)
+        first = body.axis[0] if body.axis else points[0]
+        pairs.extend((first, other) for other in points if other != first)
+    pairs.extend(draft.read)
+    unique = {frozenset(pair): pair for pair in reversed(pairs)}
+    return tuple(reversed(unique.values()))

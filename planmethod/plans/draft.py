@@ -1,0 +1,290 @@
+"""The drawing board while a construction is being planned: what is placed, what is drawn."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from planmethod.construct.program import Builder
+from planmethod.construct.steps import LineName, NumberName, PointName, Side, Way
+from planmethod.mechanism.model import FRAME
+from planmethod.problem.model import Problem, Slide
+
+TINY = 1e-12
+"""Share of a link's size below which an offset is rounding, not a dimension."""
+
+Choice = Mapping[tuple[str, ...], int]
+"""Closing of each group that has two, by its links: +1 or -1."""
+
+
+def degrees(angle: complex) -> float:
+    """Return the argument of a direction in degrees, exact where it lies on an axis."""
+    if angle.imag == 0:
+        return 0.0 if angle.real > 0 else 180.0
+    if angle.real == 0:
+        return math.copysign(90.0, angle.imag)
+    return math.degrees(cmath.phase(angle))
+
+
+def cis(angle: float) -> complex:
+    """Return exp(i·angle) of an angle in degrees, exact at the quadrants."""
+    quadrant = round(angle / 90.0)
+    rest = math.radians(angle - 90.0 * quadrant)
+    return (1, 1j, -1, -1j)[quadrant % 4] * complex(math.cos(rest), math.sin(rest))
+
+
+class Track(NamedTuple):
+    """Straight line that a point follows on another body, and the point it was drawn from."""
+
+    origin: PointName
+    line: LineName
+
+
+@dataclass(slots=True)
+class Draft:
+    """State of a construction being planned (черновик построения).
+
+    Points of the position plan carry the mechanism's own names, so a point shared by links is
+    placed once. Given lengths are known in metres (``l_BC``) and computed to millimetres of the
+    drawing (``|BC|``), as the textbook does.
+
+    Attributes
+    ----------
+    numbers : dict
+        Values of the Known numbers in their own units; the scales are added by the reading.
+    places : dict
+        Places of the Given points, m.
+    placed : dict of str to list of str
+        Points of each link that the position plan has.
+    axes : dict of str to LineName
+        Own axis of a link whose direction is not told by two of its points.
+    read : list of (str, str)
+        Distances that are read on the drawing because no given length tells them.
+    """
+
+    problem: Problem
+    choice: Choice
+    b: Builder = field(default_factory=Builder)
+    numbers: dict[str, float] = field(default_factory=dict)
+    places: dict[str, complex] = field(default_factory=dict)
+    placed: dict[str, list[str]] = field(default_factory=dict)
+    axes: dict[str, LineName] = field(default_factory=dict)
+    mu_l: NumberName = field(init=False)
+    read: list[tuple[str, str]] = field(default_factory=list)
+    _feet: int = 0
+    _drawn: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self.mu_l = self.b.known("mu_l")
+
+    # Numbers -------------------------------------------------------------------------------
+
+    def known(self, name: str, value: float) -> NumberName:
+        """Take a number of the data as known, once."""
+        if name not in self.numbers:
+            self.numbers[name] = value
+            return self.b.known(name)
+        return NumberName(name)
+
+    def length(self, link: str, p: str, q: str) -> NumberName:
+        """Return the given distance of two points of a link, m."""
+        points = self.problem.bodies[link].points
+        if f"l_{q}{p}" in self.numbers:
+            p, q = q, p
+        return self.known(f"l_{p}{q}", abs(points[q] - points[p]))
+
+    def measured(self, p: str, q: str) -> NumberName:
+        """Return the distance of two places read on the drawing, mm."""
+        p, q = sorted((p, q))
+        name = f"({p}{q})"
+        if (p, q) in self.read:
+            return NumberName(name)
+        self.read.append((p, q))
+        return self.b.measure(name, PointName(p), PointName(q))
+
+    def drawn(self, metres: NumberName) -> NumberName:
+        """Return a known length in millimetres of the drawing."""
+        name = f"|{metres.removeprefix('l_')}|"
+        if name in self._drawn:
+            return NumberName(name)
+        self._drawn.add(name)
+        return self.b.compute(name, (metres, 1), (self.mu_l, -1))
+
+    def size(self, link: str) -> float:
+        """Return the extent of a link, m: what an offset is small against."""
+        points = list(self.problem.bodies[link].points.values())
+        return max((abs(p - points[0]) for p in points), default=0.0) or 1.0
+
+    # Points and lines of the position plan ---------------------------------------------------
+
+    def mark_placed(self, point: str) -> PointName:
+        """Note that the plan has a point: on every link that shares it."""
+        for link, body in self.problem.bodies.items():
+            if point in body.points and point not in self.placed.setdefault(link, []):
+                self.placed[link].append(point)
+        return PointName(point)
+
+    def points(self) -> set[str]:
+        """Return the names of all points placed so far."""
+        return {point for here in self.placed.values() for point in here}
+
+    def turned(self, line: LineName, through: PointName, angle: float, name: str) -> LineName:
+        """Return a line through a point at an angle (degrees) to another."""
+        if angle == 0:
+            return self.b.parallel(through, line)
+        if angle == 90:
+            return self.b.perpendicular(through, line)
+        return self.b.at_angle(through, line, self.known(name, angle))
+
+    def axis(self, link: str) -> LineName:
+        """Return a line with the direction of a link's own axis."""
+        if link in self.axes:
+            return self.axes[link]
+        points = self.problem.bodies[link].points
+        p, q = self.reference(link)
+        beta = degrees(points[q] - points[p])
+        line = self.b.join(PointName(p), PointName(q))
+        if beta != 0:
+            line = (
+                self.b.join(PointName(q), PointName(p))
+                if abs(beta) == 180
+                else self.turned(line, PointName(p), -beta, f"angle_{link}")
+            )
+        self.axes[link] = line
+        return line
+
+    def reference(self, link: str) -> tuple[str, str]:
+        """Return the two placed points of a link that tell its direction best."""
+        body, here = self.problem.bodies[link], self.placed[link]
+        if body.axis is not None and set(body.axis) <= set(here):
+            return body.axis
+        pairs = [(p, q) for i, p in enumerate(here) for q in here[i + 1 :]]
+        return max(pairs, key=lambda pair: abs(body.points[pair[1]] - body.points[pair[0]]))
+
+    def has_direction(self, link: str) -> bool:
+        """Tell whether the plan fixes how a link is turned."""
+        points = self.problem.bodies[link].points
+        here = self.placed.get(link, [])
+        return link in self.axes or any(points[p] != points[here[0]] for p in here[1:])
+
+    def locate(self, link: str, point: str) -> PointName:
+        """Place a point of a link whose direction is known, from its coordinates."""
+        if point in self.placed.get(link, []):
+            return PointName(point)
+        body = self.problem.bodies[link]
+        here = self.placed[link]
+        if len(here) > 1 and any(body.points[p] != body.points[here[0]] for p in here):
+            p, q = self.reference(link)
+            unit = body.points[q] - body.points[p]
+            unit /= abs(unit)
+            line = self.b.join(PointName(p), PointName(q))
+        else:
+            p, unit, line = here[0], 1 + 0j, self.axis(link)
+        w = (body.points[point] - body.points[p]) * unit.conjugate()
+        return self.lay(point, PointName(p), line, w, self.size(link))
+
+    def lay(
+        self, point: str, origin: PointName, line: LineName, w: complex, size: float
+    ) -> PointName:
+        """Lay off ``w.real`` along a line and ``w.imag`` across it, m; note the point as placed."""
+        across = abs(w.imag) > TINY * size
+        at = origin
+        if abs(w.real) > TINY * size or not across:
+            length = self.drawn(
+                self.known(f"x_{point}", w.real)
+                if across or w.real < 0
+                else self.known(f"l_{origin}{point}", w.real)
+            )
+            at = self.b.lay_off(self._foot(point) if across else point, origin, line, length)
+        if across:
+            length = self.drawn(self.known(f"y_{point}", w.imag))
+            at = self.b.lay_off(point, at, self.b.perpendicular(at, line), length)
+        return self.mark_placed(point)
+
+    def place_rest(self, link: str) -> None:
+        """Place every point of a link that the plan does not have yet."""
+        for point in self.problem.bodies[link].points:
+            self.locate(link, point)
+
+    def _foot(self, of: str) -> str:
+        self._feet += 1
+        return f"{of}~{self._feet}"
+
+    # Slide lines -----------------------------------------------------------------------------
+
+    def base(self, slide: Slide) -> PointName:
+        """Return the plan's point that a slide line passes through."""
+        if slide.through is not None:
+            return self.locate(slide.host, slide.through)
+        name = f"{slide.label}:0"
+        if name not in self.places:
+            self.places[name] = slide.base
+            return self.b.given(name)
+        return PointName(name)
+
+    def line(self, slide: Slide) -> LineName:
+        """Return the directed slide line, its host being placed."""
+        base = self.base(slide)
+        if slide.host == FRAME:
+            return self.b.at_angle(base, None, self.known(f"angle_{slide.label}", slide.angle))
+        if slide.towards is not None:
+            return self.b.join(base, self.locate(slide.host, slide.towards))
+        return self.turned(self.axis(slide.host), base, slide.angle, f"angle_{slide.slider}")
+
+    def path(self, slide: Slide, known: str, point: str) -> Track:
+        """Return the line that a point of one body of a prismatic pair follows on the other.
+
+        ``known`` is the body that the plan has; the pair may be written either way round.
+        """
+        if known == slide.host:
+            base, line, other = self.base(slide), self.line(slide), slide.slider
+            across = slide.offset + self.problem.bodies[other].points[point].imag
+        else:
+            base, other = PointName(slide.pin), slide.host
+            line = self.b.parallel(base, self.axis(known))
+            z = self.problem.bodies[other].points[point]
+            across = ((z - slide.base) * cis(-slide.angle)).imag - slide.offset
+        size = max(self.size(slide.slider), self.size(slide.host))
+        if abs(across) <= TINY * size:
+            return Track(base, line)
+        length = self.drawn(self.known(f"e_{point}{known}", across))
+        foot = self.b.lay_off(self._foot(point), base, self.b.perpendicular(base, line), length)
+        return Track(foot, self.b.parallel(foot, line))
+
+    def direction(self, slide: Slide) -> LineName:
+        """Return a line along a slide line, whichever of its two bodies the plan placed first."""
+        return self.axis(slide.slider) if slide.host != FRAME else self.line(slide)
+
+    def turn_with(self, slide: Slide, known: str, at: PointName) -> None:
+        """Note the direction of the body that a prismatic pair turns together with ``known``."""
+        if known == slide.host:
+            self.axes[slide.slider] = (
+                self.b.parallel(at, self.line(slide))
+                if self.placed.get(known)
+                else self.turned(self.axis(known), at, slide.angle, f"angle_{slide.slider}")
+            )
+        else:
+            self.axes[slide.host] = self.turned(
+                self.axis(known), at, -slide.angle, f"angle_{slide.host}"
+            )
+
+    def across(self, slide: Slide, host_point: str, slider_point: str) -> float:
+        """Return how far left of the host's point the slider's point lies across the line, m."""
+        z_host = self.problem.bodies[slide.host].points[host_point]
+        z_slider = self.problem.bodies[slide.slider].points[slider_point]
+        value = slide.offset + z_slider.imag - ((z_host - slide.base) * cis(-slide.angle)).imag
+        size = max(self.size(slide.host), self.size(slide.slider))
+        return value if abs(value) > TINY * size else 0.0
+
+
+def side(sign: float) -> Side:
+    """Return LEFT for a positive sign."""
+    return Side.LEFT if sign > 0 else Side.RIGHT
+
+
+def way(sign: float) -> Way:
+    """Return FORWARD for a positive sign."""
+    return Way.FORWARD if sign > 0 else Way.BACKWARD

@@ -1,0 +1,113 @@
+"""Why a plan cannot be closed: the step that failed, in the words and numbers of the drawing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.evaluate import PARALLEL, TANGENT, Trace
+from planmethod.construct.program import Program
+from planmethod.construct.steps import (
+    MeetCircles,
+    MeetLineCircle,
+    MeetLines,
+    PointName,
+    Step,
+    Touch,
+)
+from planmethod.plans.draft import Draft
+from planmethod.problem.model import Problem
+
+
+def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]:
+    """Return for each position the number of the first step that fails, or -1.
+
+    Returns
+    -------
+    ndarray of shape (count,)
+    """
+    first = np.full(count, -1)
+    for number, step in enumerate(program.steps):
+        if step.out not in trace.margin:
+            continue
+        limit = PARALLEL if isinstance(step, MeetLines) else TANGENT
+        margin = np.broadcast_to(np.asarray(trace.margin[step.out], dtype=float), (count,))
+        first[(first < 0) & ~(margin > limit)] = number
+    return first
+
+
+def explain(
+    problem: Problem,
+    draft: Draft,
+    program: Program,
+    trace: Trace,
+    positions: npt.NDArray[np.float64],
+    *,
+    unit_scales: bool = False,
+) -> str:
+    """Say which step fails at the first position that fails, with its numbers and what to check.
+
+    Parameters
+    ----------
+    unit_scales : bool
+        The trace was read at unit scales: lengths are metres, not millimetres of a plan.
+    """
+    first = failing(program, trace, len(positions))
+    bad = np.flatnonzero(first >= 0)
+    if not bad.size:
+        return f"{problem.name}: a value is not finite although every step exists."
+    index = int(bad[0])
+    step = program.steps[int(first[index])]
+    name, unit = ("phi", "deg") if problem.drive.is_crank else ("s", "m")
+    where = f"position {index + 1} ({name} = {positions[index]:g} {unit})"
+    more = (
+        f" The same holds at {bad.size - 1} more of {len(positions)} positions."
+        if (bad.size > 1)
+        else ""
+    )
+    length = "m" if unit_scales else "mm"
+
+    def real(key: Any) -> float:
+        value = np.asarray(trace.value[key], dtype=float)
+        return float(value if value.ndim == 0 else value[index])
+
+    def point(key: PointName) -> complex:
+        value = np.asarray(trace.value[key], dtype=complex)
+        return complex(value if value.ndim == 0 else value[index])
+
+    return _sentence(step, where, length, real, point) + more
+
+
+def _sentence(step: Step, where: str, unit: str, real: Any, point: Any) -> str:
+    match step:
+        case MeetCircles(out, a, r, b, q, _):
+            gap = abs(point(b) - point(a))
+            return (
+                f"Cannot place {out} at {where}: arcs from {a} ({real(r):.4g} {unit}) and {b} "
+                f"({real(q):.4g} {unit}) do not meet, |{a}{b}| = {gap:.4g} {unit}. "
+                f"Check l_{a}{out}, l_{b}{out}."
+            )
+        case MeetLineCircle(out, _, a, r, _):
+            return (
+                f"Cannot place {out} at {where}: the arc from {a} ({real(r):.4g} {unit}) does not "
+                f"reach the guide of {out}. Check l_{a}{out} and the place of the guide."
+            )
+        case Touch(out, a, r, b, _):
+            gap = abs(point(b) - point(a))
+            return (
+                f"Cannot turn the slotted link about {a} at {where}: its line stands off {a} by "
+                f"{real(r):.4g} {unit}, but {b} is only {gap:.4g} {unit} away. Check the offset."
+            )
+        case MeetLines(out, _, _):
+            if ":" not in out:
+                return f"Cannot place {out} at {where}: its two guides are parallel."
+            plan = "velocity" if out.startswith("v:") else "acceleration"
+            return (
+                f"Cannot close the {plan} plan at {where}: the rays that meet in "
+                f"{out[2:].lower()} are parallel, the mechanism stands in a dead position. Ask "
+                "another position: there the velocities are not determined by the driver."
+            )
+        case _:
+            return f"Step {step.out} is impossible at {where}."

@@ -1,0 +1,142 @@
+"""State of the velocity and acceleration plans while they are being planned.
+
+Plan points are kept by (link, place): a point shared by links has one plan point, and where two
+links coincide at a place but move differently, the place of the second carries its link's number
+(``B3`` is the point of link 3 under pin B).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from planmethod.construct.steps import LineName, NumberName, PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.draft import Draft
+from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
+
+PREFIX = {PlanKind.VELOCITY: "v:", PlanKind.ACCELERATION: "a:"}
+SYMBOL = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
+SCALE = {PlanKind.VELOCITY: "mu_v", PlanKind.ACCELERATION: "mu_a"}
+
+
+def letter(point: str) -> str:
+    """Return the plan's letter of a mechanism point in rich text: B3 gives ``b_{3}``."""
+    head, tail = point[:1].lower(), point[1:]
+    return f"{head}_{{{tail}}}" if tail else head
+
+
+@dataclass(slots=True)
+class Motion:
+    """One plan being planned (план скоростей или ускорений в работе).
+
+    Attributes
+    ----------
+    point : dict of (link, place) to PointName
+        Plan point of a link's point; ``place`` names a point of the position plan.
+    named : dict of str to (str, str)
+        What is published: point name to (link, place).
+    alias : set of (link, place)
+        Points of a link that does not turn: they share the plan point of its first point.
+    moving : dict of link to list of str
+        Places of a link that the plan has, in the order they came.
+    """
+
+    kind: PlanKind
+    draft: Draft
+    pole: PointName
+    scale: NumberName
+    point: dict[tuple[str, str], PointName] = field(default_factory=dict)
+    named: dict[str, tuple[str, str]] = field(default_factory=dict)
+    moving: dict[str, list[str]] = field(default_factory=dict)
+    alias: set[tuple[str, str]] = field(default_factory=set)
+    letters: dict[PointName, list[str]] = field(default_factory=dict)
+    vectors: list[Vector] = field(default_factory=list)
+    equations: list[VectorEquation] = field(default_factory=list)
+
+    @classmethod
+    def start(cls, kind: PlanKind, draft: Draft) -> Motion:
+        """Put the pole down: the fixed points are there."""
+        pole = draft.b.given(PREFIX[kind] + "0")
+        draft.places[pole] = 0j
+        motion = cls(kind, draft, pole, draft.b.known(SCALE[kind]))
+        for point in draft.problem.bodies[FRAME].points:
+            motion.put(FRAME, point, pole, show=bool(motion.sharers(point, FRAME)))
+        return motion
+
+    def name(self, point: str) -> str:
+        """Return the plan's name of a point."""
+        return PREFIX[self.kind] + point
+
+    def sharers(self, point: str, link: str) -> list[str]:
+        """Return the other links that a point is a revolute joint of."""
+        bodies = self.draft.problem.bodies
+        return [other for other, body in bodies.items() if other != link and point in body.points]
+
+    def put(
+        self, link: str, place: str, at: PointName, *, name: str | None = None, show: bool = True
+    ) -> PointName:
+        """Note where a link's point is on the plan; a shared joint is noted for all its links."""
+        name = name or place
+        links = [link, *self.sharers(place, link)] if name == place else [link]
+        for each in links:
+            if (each, place) not in self.point:
+                self.point[each, place] = at
+                self.moving.setdefault(each, []).append(place)
+        self.named.setdefault(name, (link, place))
+        if show:
+            shown = self.letters.setdefault(at, [])
+            if letter(name) not in shown:
+                shown.append(letter(name))
+        return at
+
+    def label(self, link: str, place: str) -> str:
+        """Return the name of a link's point at a place: ``B3`` where it is under another's pin."""
+        bodies = self.draft.problem.bodies
+        if place in bodies[link].points:
+            return place
+        name = f"{place}{link}"
+        taken = any(name in body.points for body in bodies.values())
+        return f"{place}({link})" if taken else name
+
+    # Vectors ---------------------------------------------------------------------------------
+
+    def add(self, vector: Vector) -> Vector:
+        """Draw a vector once."""
+        if vector.tail != vector.head and not any(
+            (v.tail, v.head) == (vector.tail, vector.head) for v in self.vectors
+        ):
+            self.vectors.append(vector)
+        return vector
+
+    def absolute(self, name: str, at: PointName, known: Known = Known.BOTH) -> Vector:
+        """Return the vector of a point from the pole."""
+        note = "= 0" if at == self.pole else ""
+        symbol = f"{SYMBOL[self.kind]}_{{{name}}}"
+        return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, note))
+
+
+@dataclass(frozen=True, slots=True)
+class Ray:
+    """Half of a vector equation: where a lead's line starts on the plan and how it runs (луч).
+
+    Attributes
+    ----------
+    start : PointName
+        Plan point from which the line of the unknown component is drawn.
+    line : LineName
+        That line.
+    terms : tuple of Vector
+        Terms of the equation laid off before the line.
+    unknown : (symbol, VectorKind, note)
+        What is laid off along the line.
+    """
+
+    start: PointName
+    line: LineName
+    terms: tuple[Vector, ...]
+    unknown: tuple[str, VectorKind, str]
+
+    def close(self, motion: Motion, head: PointName) -> Vector:
+        """Return the unknown component, its end being found."""
+        symbol, kind, note = self.unknown
+        return motion.add(Vector(symbol, kind, self.start, head, Known.ONE, note))

@@ -1,0 +1,181 @@
+"""Position plan: the mechanism drawn to scale by arcs and lines (план положений, метод засечек)."""
+
+from __future__ import annotations
+
+from planmethod.construct.steps import LineName, PointName
+from planmethod.errors import AssemblyError
+from planmethod.mechanism.groups import AssurGroup, Lead
+from planmethod.mechanism.model import FRAME, Prismatic, Revolute
+from planmethod.plans.draft import Draft, side, way
+from planmethod.problem.model import Slide
+
+
+def slide_of(draft: Draft, joint: Prismatic | Revolute) -> Slide:
+    """Return the line of a prismatic pair."""
+    assert isinstance(joint, Prismatic)
+    return draft.problem.slides[joint.slider]
+
+
+def has_two_closings(group: AssurGroup) -> bool:
+    """Tell whether the same links can be joined in two ways: then a rule must choose."""
+    return group.signature in ("RRR", "RRP", "RPR")
+
+
+def place_frame(draft: Draft) -> None:
+    """Take the fixed points as given."""
+    for point, place in draft.problem.bodies[FRAME].points.items():
+        draft.places[point] = place
+        draft.b.given(point)
+        draft.mark_placed(point)
+
+
+def place_driver(draft: Draft) -> None:
+    """Draw the driving link in the asked position."""
+    drive = draft.problem.drive
+    if drive.pivot is not None:
+        phi = draft.b.known("phi")
+        draft.axes[drive.link] = draft.b.at_angle(PointName(drive.pivot), None, phi)
+        draft.place_rest(drive.link)
+        return
+    slide = draft.problem.slides[drive.link]
+    s = draft.b.compute("|s|", (draft.b.known("s"), 1), (draft.mu_l, -1))
+    track = draft.path(slide, FRAME, slide.pin)
+    draft.b.lay_off(slide.pin, track.origin, track.line, s)
+    draft.mark_placed(slide.pin)
+    draft.turn_with(slide, FRAME, PointName(slide.pin))
+    draft.place_rest(drive.link)
+
+
+def place_group(draft: Draft, group: AssurGroup) -> None:
+    """Place the links of a dyad between the links that it hangs on.
+
+    Raises
+    ------
+    AssemblyError
+        For a group of a higher class: it is recognised, and not built by these steps.
+    """
+    if group.class_number != 2:
+        raise AssemblyError(
+            f"Group of class {group.class_number}, order {group.order} (links "
+            f"{', '.join(group.links)}) cannot be built by arcs and lines alone: only dyads "
+            "(class II) are. Choose another driving link, so that the mechanism falls into dyads."
+        )
+    sign = draft.choice.get(group.links, 1)
+    match group.signature:
+        case "RRR":
+            _place_rrr(draft, group, sign)
+        case "RRP":
+            _place_rrp(draft, group, sign)
+        case "RPR":
+            _place_rpr(draft, group, sign)
+        case "PRP":
+            _place_prp(draft, group)
+        case "RPP":
+            _place_rpp(draft, group)
+        case _:
+            raise AssemblyError(f"No recipe for a group {group.signature} of class II.")
+    for link in group.links:
+        draft.place_rest(link)
+
+
+def inner_point(group: AssurGroup) -> str:
+    """Return the point of the inner revolute joint."""
+    (joint,) = group.inner
+    assert isinstance(joint, Revolute)
+    return joint.point
+
+
+def lead_point(lead: Lead) -> str:
+    """Return the point of a revolute outer joint."""
+    assert isinstance(lead.joint, Revolute)
+    return lead.joint.point
+
+
+def split(group: AssurGroup) -> tuple[Lead, Lead]:
+    """Return the leads with the revolute one first (a mixed dyad), else in the group's order."""
+    first, second = group.leads
+    if isinstance(first.joint, Prismatic) and isinstance(second.joint, Revolute):
+        return second, first
+    return first, second
+
+
+def _place_rrr(draft: Draft, group: AssurGroup, sign: int) -> None:
+    c = inner_point(group)
+    one, two = group.leads
+    p, q = lead_point(one), lead_point(two)
+    draft.b.meet_circles(
+        c,
+        PointName(p),
+        draft.drawn(draft.length(one.link, p, c)),
+        PointName(q),
+        draft.drawn(draft.length(two.link, q, c)),
+        side(sign),
+    )
+    draft.mark_placed(c)
+
+
+def _place_rrp(draft: Draft, group: AssurGroup, sign: int) -> None:
+    c = inner_point(group)
+    revolute, prismatic = split(group)
+    slide = slide_of(draft, prismatic.joint)
+    p = lead_point(revolute)
+    radius = draft.drawn(draft.length(revolute.link, p, c))
+    track = draft.path(slide, prismatic.to, c)
+    draft.b.meet_line_circle(c, track.line, PointName(p), radius, way(sign))
+    at = draft.mark_placed(c)
+    draft.turn_with(slide, prismatic.to, at)
+
+
+def _place_rpr(draft: Draft, group: AssurGroup, sign: int) -> None:
+    slide, host, slider = rpr_parts(draft, group)
+    p, q = PointName(lead_point(host)), PointName(lead_point(slider))
+    across = draft.across(slide, p, q)
+    if across == 0:
+        line = draft.b.join(p, q) if sign > 0 else draft.b.join(q, p)
+    else:
+        # The line through the slider's joint touches a circle about the host's joint.
+        radius = draft.drawn(draft.known(f"e_{q}{host.link}", abs(across)))
+        foot = draft.b.touch(f"T_{q}", p, radius, q, side(sign * across))
+        ends = (foot, p) if across > 0 else (p, foot)
+        line = draft.b.perpendicular(q, draft.b.join(*ends))
+    draft.axes[slider.link] = draft.b.parallel(q, line)
+    draft.axes[host.link] = draft.turned(line, p, -slide.angle, f"angle_{host.link}")
+
+
+def rpr_parts(draft: Draft, group: AssurGroup) -> tuple[Slide, Lead, Lead]:
+    """Return the inner slide line of an RPR dyad, the lead that carries it, and the slider's."""
+    slide = slide_of(draft, group.inner[0])
+    host, slider = group.leads if group.leads[0].link == slide.host else group.leads[::-1]
+    return slide, host, slider
+
+
+def _place_prp(draft: Draft, group: AssurGroup) -> None:
+    c = inner_point(group)
+    tracks: list[LineName] = []
+    for lead in group.leads:
+        tracks.append(draft.path(slide_of(draft, lead.joint), lead.to, c).line)
+    draft.b.meet_lines(c, tracks[0], tracks[1])
+    at = draft.mark_placed(c)
+    for lead in group.leads:
+        draft.turn_with(slide_of(draft, lead.joint), lead.to, at)
+
+
+def _place_rpp(draft: Draft, group: AssurGroup) -> None:
+    revolute, prismatic = split(group)
+    outer, inner = slide_of(draft, prismatic.joint), slide_of(draft, group.inner[0])
+    at = PointName(lead_point(revolute))
+    # Both links turn with the link that the group slides on; the first then hangs on its joint.
+    draft.turn_with(outer, prismatic.to, at)
+    draft.turn_with(inner, prismatic.link, at)
+    draft.place_rest(revolute.link)
+    x = meeting_point(draft, group)
+    draft.b.meet_lines(
+        x, draft.path(outer, prismatic.to, x).line, draft.path(inner, revolute.link, x).line
+    )
+    draft.mark_placed(x)
+
+
+def meeting_point(draft: Draft, group: AssurGroup) -> str:
+    """Return the point of an RPP dyad's sliding link at which its two rays meet."""
+    _, prismatic = split(group)
+    return next(iter(draft.problem.bodies[prismatic.link].points))

@@ -1,0 +1,322 @@
+"""A solved problem: its plans read in numbers, each made when it is first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Arithmetic, Float64, Hand
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.scale import Scale
+from planmethod.construct.steps import Name, PointName
+from planmethod.errors import AssemblyError
+from planmethod.mechanism.structure import Structure, analyse
+from planmethod.plans.assembly import choose_closings, drive_data
+from planmethod.plans.build import Construction, build, measured_segments
+from planmethod.plans.impossible import explain, failing
+from planmethod.plans.leads import Relative
+from planmethod.plans.model import Plan, PlanKind
+from planmethod.plans.scaling import Views, choose_scales
+from planmethod.problem.model import Problem
+
+Complexes = npt.NDArray[np.complex128]
+Reals = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class PointMotion:
+    """Place, velocity and acceleration of a point in every position, SI, ndarrays of shape (n,)."""
+
+    place: Complexes
+    velocity: Complexes
+    acceleration: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class LinkMotion:
+    """Direction of a link's own axis (degrees in (-180, 180]), omega (1/s), epsilon (1/s²)."""
+
+    phi_deg: Reals
+    omega: Reals
+    epsilon: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One segment of a plan, mm, ndarrays of shape (n,): exact and read with the ruler."""
+
+    name: str
+    exact: Reals
+    read: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeMotion:
+    """Sliding of a point of link ``of`` on link ``to``, SI, ndarrays of shape (n,) (vectors)."""
+
+    point: str
+    of: str
+    to: str
+    velocity: Complexes
+    coriolis: Complexes
+    acceleration: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class HandResults:
+    """Quantities that follow from the read segments, SI, ndarrays of shape (n,).
+
+    ``points`` holds (v, a), ``links`` (omega, epsilon), ``relatives`` (v, Coriolis, relative
+    acceleration) in the order of `Solution.relatives`.
+    """
+
+    points: dict[str, tuple[Reals, Reals]]
+    links: dict[str, tuple[Reals, Reals]]
+    relatives: list[tuple[Reals, Reals, Reals]]
+
+
+class Solution:
+    """Solved task (решённая задача).
+
+    Parameters
+    ----------
+    problem : Problem
+    positions : sequence of float, optional
+        Other positions of the driver than the file asks (degrees, or m for a driving slider). The
+        closings of the groups stay those of the file's own positions.
+    ruler : float, mm
+        Step of the ruler with which the hand reads the plans.
+    views : Views, optional
+        Boxes that the plans shall fill where the file gives no scale.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError
+        When the mechanism cannot be analysed or assembled.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        *,
+        positions: Sequence[float] | None = None,
+        ruler: float = 0.5,
+        views: Views | None = None,
+    ) -> None:
+        self.problem = problem
+        asked = problem.drive.positions if positions is None else positions
+        self.positions: Reals = np.asarray(asked, dtype=float)
+        self.hand = Hand(ruler=ruler)
+        self.structure: Structure = analyse(problem.mechanism)
+        self.construction: Construction = build(
+            problem, self.structure, choose_closings(problem, self.structure)
+        )
+        self._views = views
+
+    # Readings --------------------------------------------------------------------------------
+
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Trace:
+        """Read the whole program in an arithmetic at given scales (unit per mm)."""
+        draft = self.construction.draft
+        data = drive_data(self.problem, draft, self.positions)
+        data.update(scales)
+        for name, place in draft.places.items():
+            data[name] = place / scales["mu_l"]
+        return evaluate(self.construction.program, data, arithmetic)
+
+    @cached_property
+    def si(self) -> Trace:
+        """Exact reading at unit scales: what is a millimetre of a plan is here a metre (m/s, m/s²).
+
+        Raises
+        ------
+        AssemblyError
+            When a step is impossible in some position.
+        """
+        trace = self.read(Float64(), {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
+        program = self.construction.program
+        if (failing(program, trace, len(self.positions)) >= 0).any():
+            draft = self.construction.draft
+            raise AssemblyError(
+                explain(self.problem, draft, program, trace, self.positions, unit_scales=True)
+            )
+        return trace
+
+    @cached_property
+    def scales(self) -> dict[PlanKind, Scale]:
+        """Scales of the plans: the file's, else chosen from the series to fill the views."""
+        return choose_scales(self)
+
+    @property
+    def views(self) -> Views:
+        """Boxes that the plans shall fill."""
+        return self._views or Views.for_problem(self.problem, len(self.positions))
+
+    @property
+    def _per_mm(self) -> dict[str, float]:
+        return {scale.symbol: scale.per_mm for scale in self.scales.values()}
+
+    @cached_property
+    def paper(self) -> Trace:
+        """Exact reading at the plans' scales: millimetres on the paper."""
+        self.si  # noqa: B018 - an impossible step must be told first, in metres
+        return self.read(Float64(), self._per_mm)
+
+    @cached_property
+    def by_hand(self) -> Trace:
+        """Reading of a draughtsman with a ruler, along his own chain."""
+        self.si  # noqa: B018
+        return self.read(self.hand, self._per_mm)
+
+    def _complex_column(self, value: object) -> Complexes:
+        return np.broadcast_to(np.asarray(value, dtype=complex), self.positions.shape)
+
+    def _real_column(self, value: object) -> Reals:
+        return np.broadcast_to(np.asarray(value, dtype=float), self.positions.shape)
+
+    def complexes(self, trace: Trace, name: Name) -> Complexes:
+        """Return a point of a trace as an ndarray of shape (n,)."""
+        return self._complex_column(trace.value[name])
+
+    def reals(self, trace: Trace, name: Name) -> Reals:
+        """Return a number of a trace as an ndarray of shape (n,)."""
+        return self._real_column(trace.value[name])
+
+    # Results ---------------------------------------------------------------------------------
+
+    @cached_property
+    def margin(self) -> Reals:
+        """Least margin of all steps in each position: nearness to a dead position."""
+        margins = [self._real_column(m) for m in self.si.margin.values()]
+        return np.asarray(np.min([*margins, np.ones(self.positions.shape)], axis=0), dtype=float)
+
+    @cached_property
+    def points(self) -> dict[str, PointMotion]:
+        """Motion of every named point, and of the coincident points that move differently."""
+        kin = self.construction.kinematics
+        result: dict[str, PointMotion] = {}
+        for name, (link, place) in kin.velocity.named.items():
+            result[name] = PointMotion(
+                self.complexes(self.si, PointName(place)),
+                self.complexes(self.si, kin.velocity.point[link, place]),
+                self.complexes(self.si, kin.acceleration.point[link, place]),
+            )
+        return result
+
+    @cached_property
+    def links(self) -> dict[str, LinkMotion]:
+        """Motion of every moving link."""
+        kin, draft = self.construction.kinematics, self.construction.draft
+        zero = np.zeros(self.positions.shape)
+        result: dict[str, LinkMotion] = {}
+        for link in self.problem.mechanism.links:
+            direction = self.si.value[draft.axes[link]][1] if link in draft.axes else None
+            if direction is None:
+                p, q = draft.reference(link)
+                points = self.problem.bodies[link].points
+                drawn = self.complexes(self.si, PointName(q)) - self.complexes(
+                    self.si, PointName(p)
+                )
+                direction = drawn * np.conj(points[q] - points[p])
+            angle: Reals = np.degrees(np.angle(self._complex_column(direction)))
+            omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
+            result[link] = LinkMotion(
+                np.where(angle <= -180.0, 180.0, angle),
+                zero if omega is None else self.reals(self.si, omega),
+                zero if epsilon is None else self.reals(self.si, epsilon),
+            )
+        return result
+
+    @cached_property
+    def relatives(self) -> list[RelativeMotion]:
+        """Sliding in every prismatic pair that the plans' equations use."""
+        return [self._relative(r) for r in self.construction.kinematics.relatives.values()]
+
+    def _relative(self, r: Relative) -> RelativeMotion:
+        def vector(tail: PointName | None, head: PointName | None) -> Complexes:
+            assert tail is not None and head is not None
+            return self.complexes(self.si, head) - self.complexes(self.si, tail)
+
+        return RelativeMotion(
+            r.point,
+            r.of,
+            r.to,
+            vector(r.start, r.head),
+            vector(r.a_start, r.a_turned),
+            vector(r.a_turned, r.a_head),
+        )
+
+    def _read_length(self, kind: PlanKind, tail: PointName, head: PointName) -> Reals:
+        """Return a segment as the hand reads it, times its scale."""
+        drawn = abs(self.complexes(self.by_hand, head) - self.complexes(self.by_hand, tail))
+        return np.asarray(self.hand.ruled(drawn) * self.scales[kind].per_mm, dtype=float)
+
+    @cached_property
+    def by_hand_results(self) -> HandResults:
+        """What a student computes from the segments he read."""
+        kin = self.construction.kinematics
+        v, a = PlanKind.VELOCITY, PlanKind.ACCELERATION
+        zero = np.zeros(self.positions.shape)
+        points = {
+            name: (
+                self._read_length(v, kin.velocity.pole, kin.velocity.point[at]),
+                self._read_length(a, kin.acceleration.pole, kin.acceleration.point[at]),
+            )
+            for name, at in kin.velocity.named.items()
+        }
+        links = {}
+        for link in self.problem.mechanism.links:
+            omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
+            links[link] = (
+                zero if omega is None else self.reals(self.by_hand, omega),
+                zero if epsilon is None else self.reals(self.by_hand, epsilon),
+            )
+        relatives = []
+        for r in kin.relatives.values():
+            assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
+            relatives.append(
+                (
+                    self._read_length(v, r.start, r.head),
+                    self._read_length(a, r.a_start, r.a_turned),
+                    self._read_length(a, r.a_turned, r.a_head),
+                )
+            )
+        return HandResults(points, links, relatives)
+
+    def segments(self, kind: PlanKind) -> list[Segment]:
+        """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
+        if kind is PlanKind.POSITION:
+            pairs = [
+                (f"{p}-{q}", PointName(p), PointName(q))
+                for p, q in measured_segments(self.problem, self.construction.draft)
+            ]
+        else:
+            plan = self.construction.plan(kind)
+            pairs = [
+                (f"{plain(plan, v.tail)}-{plain(plan, v.head)}", v.tail, v.head)
+                for v in plan.vectors
+            ]
+        result = []
+        for name, tail, head in pairs:
+            exact, drawn = (
+                np.asarray(abs(self.complexes(t, head) - self.complexes(t, tail)), dtype=float)
+                for t in (self.paper, self.by_hand)
+            )
+            result.append(Segment(name, exact, np.asarray(self.hand.ruled(drawn), dtype=float)))
+        return result
+
+
+def plain(plan: Plan, point: PointName) -> str:
+    """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
+    if point == plan.pole:
+        return "p" if plan.kind is PlanKind.VELOCITY else "π"
+    first = plan.letters.get(point, str(point)).split(", ")[0]
+    head, brace, tail = first.partition("_{")
+    if not brace:
+        return first
+    tail = tail.rstrip("}")
+    return f"{head}_{tail}" if head in ("n", "k") else f"{head}{tail}"
