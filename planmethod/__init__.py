@@ -1,1 +1,38 @@
-"""The graphical plan method of the theory of mechanisms."""
+"""The graphical plan method of the theory of mechanisms (метод планов).
+
+Public names: `load` and `loads` read a problem file, `solve` computes it, `draw` makes its sheets.
+They are imported when they are first asked for, so that ``import planmethod`` costs nothing.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from planmethod.plans.solution import Solution as Solution
+    from planmethod.plans.solution import Solution as solve
+    from planmethod.problem import Problem as Problem
+    from planmethod.problem import load as load
+    from planmethod.problem import loads as loads
+    from planmethod.render.sheets.kinematics import kinematics_sheets as draw
+
+__all__ = ["Problem", "Solution", "draw", "load", "loads", "solve"]
+
+_HOMES = {
+    "Problem": ("planmethod.problem", "Problem"),
+    "Solution": ("planmethod.plans.solution", "Solution"),
+    "draw": ("planmethod.render.sheets.kinematics", "kinematics_sheets"),
+    "load": ("planmethod.problem", "load"),
+    "loads": ("planmethod.problem", "loads"),
+    "solve": ("planmethod.plans.solution", "Solution"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name on first use (PEP 562)."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'planmethod' has no attribute {name!r}")
+    from importlib import import_module
+
+    module, attribute = _HOMES[name]
+    return getattr(import_module(module), attribute)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import UNITS_RU, russian, trimmed
 from planmethod.plans.solution import Solution
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Body, Problem
 
 
 def number(value: float) -> str:
@@ -28,12 +28,21 @@ def given(problem: Problem) -> list[str]:
     elif drive.is_crank:
         first, last = number(drive.positions[0]), number(drive.positions[-1])
         lines.append(f"φ_{{{drive.link}}} = {first}°…{last}° ({len(drive.positions)} полож.)")
+    named = {name for _, name, _ in problem.lengths}
     for _, name, metres in problem.lengths:
         lines.append(f"l_{{{name}}} = {number(metres)} м")
+    for link, body in problem.bodies.items():
+        if link != FRAME:
+            lines += _distances(body, named)
     for point, place in problem.bodies[FRAME].points.items():
         if place != 0:
-            lines.append(f"x_{{{point}}} = {number(place.real)} м")
-            lines.append(f"y_{{{point}}} = {number(place.imag)} м")
+            lines += _coordinates(point, place)
+    for guide, (through, base, angle) in problem.guides.items():
+        if through is None:
+            lines += _guide(guide, base, angle)
+    for slide in problem.slides.values():
+        if slide.offset:
+            lines.append(f"e_{{{slide.pin}}} = {number(slide.offset)} м")
     if drive.is_crank:
         lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {UNITS_RU['1/s']}")
         if drive.acceleration:
@@ -42,6 +51,34 @@ def given(problem: Problem) -> list[str]:
         lines.append(f"v = {number(drive.rate)} {UNITS_RU['m/s']}")
         lines.append(f"a = {number(drive.acceleration)} {UNITS_RU['m/s²']}")
     return lines
+
+
+def _distances(body: Body, named: set[str]) -> list[str]:
+    """Return the distances that place a link's further points, where no length was given."""
+    points = list(body.points)
+    ends = body.axis or (points[0],)
+    lines = []
+    for point in points:
+        # A point on the axis is told by one distance, another one by two.
+        off_axis = abs(body.points[point].imag) > 1e-9 * abs(body.points[point])
+        for end in ends[: 2 if off_axis else 1]:
+            if point not in ends and f"{end}{point}" not in named and f"{point}{end}" not in named:
+                metres = abs(body.points[point] - body.points[end])
+                lines.append(f"l_{{{end}{point}}} = {number(metres)} м")
+    return lines
+
+
+def _coordinates(name: str, place: complex) -> list[str]:
+    return [f"x_{{{name}}} = {number(place.real)} м", f"y_{{{name}}} = {number(place.imag)} м"]
+
+
+def _guide(name: str, base: complex, angle: float) -> list[str]:
+    """Return where a guide is: by one coordinate when it runs along an axis."""
+    if angle % 180 == 90:
+        return [f"x_{{{name}}} = {number(base.real)} м"]
+    if angle % 180 == 0:
+        return [f"y_{{{name}}} = {number(base.imag)} м"]
+    return [*_coordinates(name, base), f"∠({name}) = {number(angle)}°"]
 
 
 def asked_points(solution: Solution) -> list[str]:

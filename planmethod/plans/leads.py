@@ -41,6 +41,16 @@ class Relative:
     a_head: PointName | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """Segment of a plan from which a link's angular velocity or acceleration was read."""
+
+    start: PointName
+    head: PointName
+    joint: str
+    place: str
+
+
 @dataclass(slots=True)
 class Kinematics:
     """What both plans know of the links' motion (угловые скорости и ускорения).
@@ -55,6 +65,7 @@ class Kinematics:
     omega: dict[str, NumberName] = field(default_factory=dict)
     epsilon: dict[str, NumberName] = field(default_factory=dict)
     relatives: dict[tuple[str, str, str], Relative] = field(default_factory=dict)
+    turnings: dict[tuple[PlanKind, str], Turning] = field(default_factory=dict)
 
     def share_turning(self, link: str, with_link: str) -> None:
         """Note that a prismatic pair makes two links turn alike."""
@@ -204,6 +215,7 @@ def read_turning(
     head = motion.point[link, place]
     lever = arm(kin.draft, link, joint, place)
     segment = b.measure_along(f"|{ray.start}→{head}|", ray.start, head, ray.line)
+    kin.turnings[motion.kind, link] = Turning(ray.start, head, joint, place)
     powers = ((motion.scale, 1), (segment, 1), *_inverse(lever.length))
     if motion.kind is PlanKind.VELOCITY:
         kin.omega[link] = b.compute(f"omega_{link}", *powers)

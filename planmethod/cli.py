@@ -1,0 +1,500 @@
+"""Command line: parse, call, print, exit code; no geometry here.
+
+What a command does not need it does not import: the imports of the work stand in the functions.
+"""
+
+from __future__ import annotations
+
+import functools
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from planmethod.errors import ExitCode, PlanMethodError
+
+if TYPE_CHECKING:
+    from planmethod.plans.solution import Solution
+    from planmethod.problem.model import Problem
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+MOST_POSITIONS = 1_000_000
+"""Most positions that ``--phi`` may ask for."""
+
+
+class Positions(click.ParamType[tuple[float, ...]]):
+    """Driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
+
+    name = "positions"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, ...]:
+        """Return the positions as numbers."""
+        if isinstance(value, tuple):
+            return value
+        result: list[float] = []
+        for part in str(value).split(","):
+            try:
+                numbers = [float(number) for number in part.split(":")]
+            except ValueError:
+                self.fail(f"{part!r} is not a number nor from:to:step", param, ctx)
+            result += self._expanded(numbers, part, param, ctx)
+            if len(result) > MOST_POSITIONS:
+                self.fail(f"more than {MOST_POSITIONS} positions", param, ctx)
+        return tuple(result)
+
+    def _expanded(
+        self,
+        numbers: list[float],
+        part: str,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> list[float]:
+        if not all(abs(number) < 1e9 for number in numbers):
+            self.fail(f"{part!r} is out of range: below 1e9 is expected", param, ctx)
+        if len(numbers) == 1:
+            return numbers
+        if len(numbers) != 3 or numbers[2] == 0:
+            self.fail(f"{part!r} is not from:to:step with a step that is not 0", param, ctx)
+        start, stop, step = numbers
+        count = (stop - start) / step
+        if count <= 0 or count > MOST_POSITIONS:
+            self.fail(f"{part!r} gives {max(0, round(count))} positions", param, ctx)
+        whole = (
+            round(count) if abs(count - round(count)) < 1e-9 * max(1.0, count) else int(count) + 1
+        )
+        return [start + step * k for k in range(whole)]
+
+
+class Formats(click.ParamType[tuple[str, ...]]):
+    """Output formats separated by commas."""
+
+    name = "formats"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, ...]:
+        """Return the formats, each known."""
+        if isinstance(value, tuple):
+            return value
+        from planmethod.render.backends import BACKENDS
+
+        names = tuple(dict.fromkeys(n.strip().lower() for n in str(value).split(",") if n.strip()))
+        for name in names:
+            if name not in BACKENDS:
+                self.fail(f"{name!r} is not one of {', '.join(BACKENDS)}", param, ctx)
+        if not names:
+            self.fail(f"no format given; choose from {', '.join(BACKENDS)}", param, ctx)
+        return names
+
+
+class Field(click.ParamType[tuple[str, str]]):
+    """Field of the title block: ``author=Иванов``."""
+
+    name = "key=text"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, str]:
+        """Return key and text."""
+        if isinstance(value, tuple):
+            return value[0], value[1]
+        key, sign, text = str(value).partition("=")
+        if not sign or not key.strip():
+            self.fail(f"{value!r} is not key=text, such as author=Иванов", param, ctx)
+        return key.strip(), text.strip()
+
+
+def _fail(error: PlanMethodError) -> None:
+    click.echo(f"Error: {error}", err=True)
+
+
+def guarded(command: F) -> F:
+    """Turn the package's errors into a message and an exit code."""
+
+    @functools.wraps(command)
+    def wrapper(*args: Any, **kwargs: Any) -> Any:
+        try:
+            return command(*args, **kwargs)
+        except PlanMethodError as error:
+            _fail(error)
+            sys.exit(error.exit_code)
+
+    return wrapper  # type: ignore[return-value]
+
+
+def problem_options(command: F) -> F:
+    """Add the options that choose what of a problem file is solved."""
+    for option in (
+        click.argument(
+            "problems",
+            nargs=-1,
+            required=True,
+            metavar="PROBLEM...",
+            type=click.Path(path_type=Path),
+        ),
+        click.option("--variant", metavar="NAME", help="Variant of the problem file."),
+        click.option("--all-variants", is_flag=True, help="Every variant of the problem file."),
+        click.option(
+            "--phi",
+            type=Positions(),
+            help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30.",
+        ),
+        click.option(
+            "--ruler",
+            type=click.FloatRange(min=0.0, min_open=True, max=50.0),
+            default=0.5,
+            show_default=True,
+            help="Ruler step with which the plans are read, mm.",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def out_option(command: F) -> F:
+    """Add the folder that files are written into."""
+    return click.option(
+        "-o",
+        "--out",
+        type=click.Path(path_type=Path, file_okay=False),
+        default=Path("out"),
+        show_default=True,
+        help="Folder for the files.",
+    )(command)
+
+
+def _load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
+    """Read a problem file: one problem, or one for each variant."""
+    from planmethod.problem import load, variant_names
+
+    if all_variants and variant is not None:
+        raise click.UsageError("give --variant or --all-variants, not both")
+    if all_variants:
+        names = variant_names(path)
+        return [load(path, variant=name) for name in names] or [load(path)]
+    return [load(path, variant=variant)]
+
+
+def _each(
+    paths: tuple[Path, ...], variant: str | None, all_variants: bool, act: Callable[[Problem], None]
+) -> None:
+    """Act on every problem; a faulty one is reported and the others go on."""
+    first: PlanMethodError | None = None
+
+    def problems() -> Iterator[Problem]:
+        nonlocal first
+        for path in paths:
+            try:
+                yield from _load(path, variant, all_variants)
+            except PlanMethodError as error:
+                _fail(error)
+                first = first or error
+
+    for problem in problems():
+        try:
+            act(problem)
+        except PlanMethodError as error:
+            _fail(error)
+            first = first or error
+    if first is not None:
+        sys.exit(first.exit_code)
+
+
+def _stem(problem: Problem) -> str:
+    return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
+
+
+def _solve(problem: Problem, phi: tuple[float, ...] | None, ruler: float) -> Solution:
+    from planmethod.plans.selfcheck import verify
+    from planmethod.plans.solution import Solution
+
+    solution = Solution(problem, positions=phi, ruler=ruler)
+    verify(solution)
+    return solution
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="planmethod")
+def cli() -> None:
+    """Draw and compute linkages by the graphical plan method (метод планов)."""
+
+
+@cli.command()
+@problem_options
+@out_option
+@click.option(
+    "--format", "formats", type=Formats(), default="svg,pdf", show_default=True, help="svg,pdf,png."
+)
+@click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
+@click.option("--stamp", "stamp", type=Field(), multiple=True, help="Field of the title block.")
+@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
+@guarded
+def sheet(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: tuple[float, ...] | None,
+    ruler: float,
+    out: Path,
+    formats: tuple[str, ...],
+    paper: str | None,
+    stamp: tuple[tuple[str, str], ...],
+    dpi: int,
+) -> None:
+    """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
+    from planmethod.render.sheets.kinematics import kinematics_sheets
+
+    def draw(problem: Problem) -> None:
+        drawings = kinematics_sheets(
+            problem, paper=paper, positions=phi, ruler=ruler, fields=dict(stamp)
+        )
+        _write(drawings, out, _stem(problem), formats, dpi, dict(stamp).get("author"))
+
+    _each(problems, variant, all_variants, draw)
+
+
+def _write(
+    drawings: list[Any],
+    out: Path,
+    stem: str,
+    formats: tuple[str, ...],
+    dpi: int,
+    author: str | None,
+) -> None:
+    """Write drawings as ``stem.svg``, ``stem-2.svg``...; files appear only when all are made."""
+    from planmethod.render.backends import render
+    from planmethod.render.backends.canvas import Options
+    from planmethod.render.output import write
+
+    options = Options(dpi=dpi) if author is None else Options(dpi=dpi, author=author)
+    files = {
+        out / (f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"): render(
+            drawing, fmt, options=options
+        )
+        for number, drawing in enumerate(drawings, 1)
+        for fmt in formats
+    }
+    for path, data in files.items():
+        write(path, data)
+        click.echo(str(path))
+
+
+@cli.command()
+@problem_options
+@click.option("--json", "as_json", is_flag=True, help="One object, full precision, SI.")
+@click.option(
+    "--csv",
+    "csv_file",
+    is_flag=False,
+    flag_value="-",
+    metavar="[FILE]",
+    help="A row for each position; to the terminal without FILE.",
+)
+@click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)
+@guarded
+def solve(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: tuple[float, ...] | None,
+    ruler: float,
+    as_json: bool,
+    csv_file: str | None,
+    lang: str,
+) -> None:
+    """Compute positions, velocities, accelerations and the plans' segments."""
+    if as_json and csv_file is not None:
+        raise click.UsageError("give --json or --csv, not both")
+    if csv_file is not None and csv_file.endswith(".toml"):
+        raise click.UsageError(f"--csv would write over the problem file {csv_file}; put it last")
+    records: list[dict[str, Any]] = []
+    tables: list[str] = []
+
+    def compute(problem: Problem) -> None:
+        solution = _solve(problem, phi, ruler)
+        if as_json:
+            from planmethod.note.record import record
+
+            records.append(record(solution))
+        elif csv_file is not None:
+            tables.append(_csv(solution))
+        else:
+            from planmethod.note.tables import result_tables
+
+            click.echo(result_tables(solution, lang))
+
+    try:
+        _each(problems, variant, all_variants, compute)
+    finally:
+        if records:
+            import json
+
+            whole: Any = records[0] if len(records) == 1 else records
+            click.echo(json.dumps(whole, ensure_ascii=False, allow_nan=False))
+        if tables:
+            _put("".join(tables), csv_file)
+
+
+def _csv(solution: Solution) -> str:
+    import csv
+    import io
+
+    from planmethod.note.tables import csv_rows
+
+    header, rows = csv_rows(solution)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def _put(text: str, file: str | None) -> None:
+    """Print a text, or write it to a file and say so."""
+    if file is None or file == "-":
+        click.echo(text, nl=not text.endswith("\n"))
+        return
+    from planmethod.render.output import write
+
+    write(Path(file), text.encode())
+    click.echo(file)
+
+
+@cli.command()
+@problem_options
+@out_option
+@click.option("--json", "as_json", is_flag=True, help="The analysis as one object.")
+@click.option(
+    "--format", "formats", type=Formats(), default="svg", show_default=True, help="svg,pdf,png."
+)
+@click.option("--no-drawing", is_flag=True, help="Text only.")
+@click.option("--paper", metavar="FORMAT", help="A3, A2...; chosen to fit when absent.")
+@click.option("--stamp", "stamp", type=Field(), multiple=True, help="Field of the title block.")
+@click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)
+@guarded
+def structure(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: tuple[float, ...] | None,
+    ruler: float,
+    out: Path,
+    as_json: bool,
+    formats: tuple[str, ...],
+    no_drawing: bool,
+    paper: str | None,
+    stamp: tuple[tuple[str, str], ...],
+    lang: str,
+) -> None:
+    """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
+    from planmethod.mechanism.structure import analyse
+
+    def show(problem: Problem) -> None:
+        found = analyse(problem.mechanism)
+        if as_json:
+            import json
+
+            from planmethod.note.record import structure_record
+
+            head = {"schema": 1, "problem": problem.name}
+            click.echo(
+                json.dumps({**head, "structure": structure_record(found)}, ensure_ascii=False)
+            )
+            return
+        from planmethod.note.structure_text import structure_text
+
+        click.echo(structure_text(problem.mechanism, found, lang))
+        if not no_drawing:
+            from planmethod.render.sheets.structure import structure_sheet
+
+            drawing = structure_sheet(problem, found, paper=paper, fields=dict(stamp))
+            _write([drawing], out, f"{_stem(problem)}-structure", formats, 100, None)
+
+    _each(problems, variant, all_variants, show)
+
+
+@cli.command()
+@problem_options
+@click.option(
+    "-o",
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for a text file; to the terminal when absent.",
+)
+@click.option("--position", type=click.IntRange(min=1), default=1, help="Number of the position.")
+@click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)
+@guarded
+def protocol(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: tuple[float, ...] | None,
+    ruler: float,
+    out: Path | None,
+    position: int,
+    lang: str,
+) -> None:
+    """Tell the construction step by step, as the explanatory note does."""
+    from planmethod.note.protocol import protocol as narrate
+
+    def tell(problem: Problem) -> None:
+        solution = _solve(problem, phi, ruler)
+        count = len(solution.positions)
+        if position > count:
+            raise click.UsageError(f"--position {position}: {problem.name} has {count}")
+        text = narrate(solution, lang=lang, position=position - 1)
+        _put(text, None if out is None else str(out / f"{_stem(problem)}-protocol.txt"))
+
+    _each(problems, variant, all_variants, tell)
+
+
+@cli.command()
+@click.argument("family", required=False)
+@click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--list", "show", is_flag=True, help="List the families.")
+@click.option("--force", is_flag=True, help="Write over an existing file.")
+@guarded
+def new(family: str | None, file: Path | None, show: bool, force: bool) -> None:
+    """Write a commented problem file of a FAMILY, ready to edit."""
+    from planmethod.problem import FAMILIES, template
+
+    if show or family is None:
+        width = max(map(len, FAMILIES))
+        for name, meaning in FAMILIES.items():
+            click.echo(f"{name.ljust(width)}  {meaning}")
+        if not show:
+            raise click.UsageError("give one of these families: planmethod new FAMILY [FILE]")
+        return
+    if family not in FAMILIES:
+        from difflib import get_close_matches
+
+        near = get_close_matches(family, FAMILIES, 1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise click.UsageError(f"no family {family!r}{hint} Known: {', '.join(FAMILIES)}.")
+    path = file or Path(f"{family}.toml")
+    if path.exists() and not force:
+        raise click.UsageError(f"{path} exists; name another file or give --force")
+    from planmethod.render.output import write
+
+    write(path, template(family).encode())
+    click.echo(str(path))
+
+
+def main() -> None:
+    """Run the command line; no traceback reaches a user."""
+    try:
+        cli()
+    except BrokenPipeError:
+        sys.exit(ExitCode.DONE)
+    except Exception as error:  # the last net
+        click.echo(
+            f"Error: planmethod failed inside ({type(error).__name__}: {error}). Please report the "
+            "problem file and the command.",
+            err=True,
+        )
+        sys.exit(ExitCode.SELF_CHECK)

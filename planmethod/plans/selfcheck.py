@@ -1,0 +1,78 @@
+"""Own check of a solution before anyone sees it (самопроверка)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.errors import PlanMethodError
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.solution import Complexes, Reals, Solution
+
+LIMIT = 1e-7
+"""Largest closing error, as a share of the largest value of its kind in the position."""
+
+
+class SelfCheckError(PlanMethodError):
+    """The plans of a solution contradict each other: a mistake of ours (exit code 5)."""
+
+
+def verify(solution: Solution) -> None:
+    """Check that links are rigid and that their points move as rigid bodies do.
+
+    Every pair of points of a link keeps its distance, and the velocities and accelerations read
+    from the plans obey ``v_Q - v_P = i·omega·PQ`` and ``a_Q - a_P = (i·epsilon - omega²)·PQ``.
+
+    Raises
+    ------
+    SelfCheckError
+        With the link, the position and the size of the contradiction.
+    """
+    kin = solution.construction.kinematics
+    for link, body in solution.problem.bodies.items():
+        names = list(body.points)
+        if link == FRAME or len(names) < 2:
+            continue
+        motion = solution.links[link]
+        p = names[0]
+        for q in names[1:]:
+            one, two = ((link, p), (link, q))
+            place = _between(solution, p, q)
+            v = _difference(solution, kin.velocity.point[one], kin.velocity.point[two])
+            a = _difference(solution, kin.acceleration.point[one], kin.acceleration.point[two])
+            length = abs(body.points[q] - body.points[p])
+            turn = 1j * motion.epsilon - motion.omega**2
+            checks = (
+                ("length", np.abs(place) - length, np.full(place.shape, length)),
+                ("velocity", v - 1j * motion.omega * place, _largest(solution, "velocity")),
+                ("acceleration", a - turn * place, _largest(solution, "acceleration")),
+            )
+            for what, error, size in checks:
+                _judge(solution, f"{what} of {q} about {p} on link {link}", np.abs(error), size)
+
+
+def _between(solution: Solution, p: str, q: str) -> Complexes:
+    points = solution.points
+    return np.asarray(points[q].place - points[p].place, dtype=complex)
+
+
+def _difference(solution: Solution, p: PointName, q: PointName) -> Complexes:
+    si = solution.si
+    return np.asarray(solution.complexes(si, q) - solution.complexes(si, p), dtype=complex)
+
+
+def _largest(solution: Solution, field: str) -> Reals:
+    values = [np.abs(getattr(motion, field)) for motion in solution.points.values()]
+    return np.asarray(np.max(values, axis=0), dtype=float)
+
+
+def _judge(solution: Solution, what: str, error: Reals, size: Reals) -> None:
+    # Near a dead position the plan magnifies rounding: there only gross errors are ours.
+    limit = LIMIT * size / np.maximum(solution.margin, 1e-9)
+    bad = np.flatnonzero(~(error <= np.maximum(limit, 1e-300)))
+    if bad.size:
+        i = int(bad[0])
+        raise SelfCheckError(
+            f"{solution.problem.name}: the {what} is off by {error[i]:.3g} (largest value "
+            f"{size[i]:.3g}) at position {i + 1}. This is a fault of planmethod: please report it."
+        )

@@ -1,0 +1,116 @@
+"""What an output format must be able to do, and the replay of a display list on it."""
+
+from __future__ import annotations
+
+from cmath import isfinite
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol, assert_never
+
+from planmethod.errors import PlanMethodError
+from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Options:
+    """Wishes that only some formats can grant.
+
+    ``dpi`` is the resolution of a raster picture, dots to the inch; ``author`` goes into the
+    properties of the file.
+    """
+
+    dpi: float = 100.0
+    author: str = "planmethod"
+
+
+class Canvas(Protocol):
+    """Six verbs of an output format (холст): `open`, drawing in order, `close`.
+
+    Coordinates are millimetres, y up, origin at the lower left corner of the sheet. Pens, dashes
+    and letter outlines are the business of `style` and `lettering`, which a canvas asks.
+    """
+
+    def open(self, width: float, height: float, title: str) -> None:
+        """Begin a sheet of ``width`` by ``height`` mm."""
+        ...
+
+    def stroke(self, item: Stroke) -> None:
+        """Draw a polyline with its pen."""
+        ...
+
+    def arc(self, item: Arc) -> None:
+        """Draw a circular arc with its pen."""
+        ...
+
+    def fill(self, item: Fill | Disc) -> None:
+        """Fill a polygon or a circle; its outline is not drawn."""
+        ...
+
+    def text(self, item: Text) -> None:
+        """Draw one run of letters."""
+        ...
+
+    def close(self) -> bytes:
+        """Finish the sheet and return the file."""
+        ...
+
+
+def _coordinates(item: Item) -> Iterator[complex]:
+    match item:
+        case Stroke() | Fill():
+            yield from item.points
+        case Arc():
+            yield from (item.centre, complex(item.radius), complex(item.start, item.end))
+        case Disc():
+            yield from (item.centre, complex(item.radius))
+        case Text():
+            yield from (item.at, complex(item.height, item.angle))
+        case _:
+            assert_never(item)
+
+
+def _is_bare(item: Item) -> bool:
+    """Return whether an item leaves nothing on the paper: then no format is asked to draw it."""
+    match item:
+        case Stroke():
+            return len(item.points) < 2
+        case Fill():
+            return len(item.points) < 3
+        case Arc() | Disc():
+            return item.radius <= 0.0
+        case Text():
+            return not item.text.strip() or item.height <= 0.0
+        case _:
+            assert_never(item)
+
+
+def replay(drawing: Drawing, canvas: Canvas) -> bytes:
+    """Draw the display list on ``canvas`` and return the file.
+
+    Raises
+    ------
+    PlanMethodError
+        An item has a coordinate that is not a finite number: whoever made it forgot to ask whether
+        the point exists.
+    """
+    canvas.open(drawing.width, drawing.height, drawing.title)
+    for number, item in enumerate(drawing.items):
+        if not all(map(isfinite, _coordinates(item))):
+            raise PlanMethodError(
+                f"Item {number} of the drawing '{drawing.title}' has a coordinate that is not "
+                f"finite: {item!r}. Draw only points that exist."
+            )
+        if _is_bare(item):
+            continue
+        match item:
+            case Stroke():
+                canvas.stroke(item)
+            case Arc():
+                canvas.arc(item)
+            case Fill() | Disc():
+                canvas.fill(item)
+            case Text():
+                canvas.text(item)
+            case _:
+                assert_never(item)
+    return canvas.close()

@@ -1,0 +1,142 @@
+"""PDF: exact page, millimetres in the content stream, text that can be searched and copied."""
+
+from __future__ import annotations
+
+from cmath import exp
+from functools import cache
+from io import BytesIO
+from math import cos, radians, sin, tau
+from typing import Any
+
+from reportlab.pdfbase import pdfmetrics
+from reportlab.pdfbase.ttfonts import TTFont
+from reportlab.pdfgen.canvas import FILL_NON_ZERO
+from reportlab.pdfgen.canvas import Canvas as Pdf
+
+from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.curves import arc_curves
+from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.lettering import LETTERING
+from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
+
+_MM = 72.0 / 25.4
+_CAPS = {"butt": 0, "round": 1}
+
+
+@cache
+def _register_font(name: str) -> str:
+    pdfmetrics.registerFont(TTFont(name, str(LETTERING.font_file)))
+    return name
+
+
+class PdfCanvas:
+    """Canvas that writes PDF with the lettering embedded as a subset."""
+
+    def __init__(self, options: Options) -> None:
+        self._author = options.author
+        self._file = BytesIO()
+        self._pdf: Any = None
+        self._font = ""
+        self._pen: Pen | None = None
+        self._ink: Ink | None = None
+
+    def open(self, width: float, height: float, title: str) -> None:
+        """Begin a sheet whose unit is the millimetre."""
+        self._font = _register_font(LETTERING.name)
+        self._pdf = Pdf(
+            self._file,
+            pagesize=(width * _MM, height * _MM),
+            pageCompression=1,
+            # The same drawing gives the same bytes: no clock in the file.
+            invariant=1,
+            # Else a Helvetica that nobody uses stays in the file, not embedded.
+            initialFontName=self._font,
+        )
+        self._pdf.setTitle(title)
+        self._pdf.setAuthor(self._author)
+        self._pdf.setCreator("planmethod")
+        self._pdf.setSubject("")
+        self._pdf.scale(_MM, _MM)
+        self._pdf.setLineJoin(1)
+
+    def _take_pen(self, pen: Pen) -> None:
+        if pen is self._pen:
+            return
+        style = PENS[pen]
+        self._pdf.setLineWidth(style.width)
+        self._pdf.setLineCap(_CAPS[style.cap])
+        self._pdf.setStrokeGray(style.grey)
+        self._pen = pen
+
+    def _take_ink(self, ink: Ink) -> None:
+        if ink is self._ink:
+            return
+        self._pdf.setFillGray(1.0 if ink is Ink.WHITE else 0.0)
+        self._ink = ink
+
+    def stroke(self, item: Stroke) -> None:
+        """Draw a polyline, or its dashes, as one path."""
+        lines = stroke_lines(item)
+        if not lines:
+            return
+        self._take_pen(item.pen)
+        path = self._pdf.beginPath()
+        for line in lines:
+            _trace(path, line)
+        if closes(item):
+            path.close()
+        self._pdf.drawPath(path, stroke=1, fill=0)
+
+    def arc(self, item: Arc) -> None:
+        """Draw an arc, or its dashes, as one path."""
+        spans = arc_spans(item)
+        if not spans:
+            return
+        self._take_pen(item.pen)
+        path = self._pdf.beginPath()
+        for start, turn in spans:
+            first = item.centre + item.radius * exp(1j * start)
+            path.moveTo(first.real, first.imag)
+            _bend(path, item.centre, item.radius, start, turn)
+            if turn >= tau:
+                path.close()
+        self._pdf.drawPath(path, stroke=1, fill=0)
+
+    def fill(self, item: Fill | Disc) -> None:
+        """Fill a polygon or a circle."""
+        self._take_ink(item.ink)
+        path = self._pdf.beginPath()
+        if isinstance(item, Disc):
+            path.moveTo(item.centre.real + item.radius, item.centre.imag)
+            _bend(path, item.centre, item.radius, 0.0, tau)
+        else:
+            _trace(path, item.points)
+        path.close()
+        self._pdf.drawPath(path, stroke=0, fill=1, fillMode=FILL_NON_ZERO)
+
+    def text(self, item: Text) -> None:
+        """Draw a run of letters as text."""
+        self._take_ink(Ink.BLACK)
+        run = self._pdf.beginText()
+        run.setFont(self._font, LETTERING.em(item.height))
+        c, s = cos(radians(item.angle)), sin(radians(item.angle))
+        run.setTextTransform(c, s, -s, c, item.at.real, item.at.imag)
+        run.textOut(item.text)
+        self._pdf.drawText(run)
+
+    def close(self) -> bytes:
+        """Return the file."""
+        self._pdf.showPage()
+        self._pdf.save()
+        return self._file.getvalue()
+
+
+def _trace(path: Any, points: tuple[complex, ...]) -> None:
+    path.moveTo(points[0].real, points[0].imag)
+    for point in points[1:]:
+        path.lineTo(point.real, point.imag)
+
+
+def _bend(path: Any, centre: complex, radius: float, start: float, turn: float) -> None:
+    for _, c1, c2, end in arc_curves(centre, radius, start, turn):
+        path.curveTo(c1.real, c1.imag, c2.real, c2.imag, end.real, end.imag)

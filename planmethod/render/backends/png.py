@@ -1,0 +1,139 @@
+"""PNG preview: the same outlines painted by matplotlib's Agg, without pyplot."""
+
+from __future__ import annotations
+
+import re
+from cmath import exp
+from functools import cache
+from io import BytesIO
+from itertools import chain
+from math import tau
+from typing import Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.image import imsave
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
+
+from planmethod.errors import OutputError
+from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.curves import arc_curves
+from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.lettering import LETTERING
+from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
+
+_LARGEST = 16_384  # pixels a side: an A0 sheet at 350 dots to the inch, about a gigabyte at work
+_CODES: dict[str, Any] = {"M": Path.MOVETO, "L": Path.LINETO, "Q": Path.CURVE3, "Z": Path.CLOSEPOLY}
+_VERBS = re.compile("([MLQZ])([^MLQZ]*)")
+
+
+class PngCanvas:
+    """Canvas that paints pixels."""
+
+    def __init__(self, options: Options) -> None:
+        self._dpi = options.dpi
+        self._author = options.author
+        self._title = ""
+        self._agg: Any = None
+        self._to_pixels: Any = None
+
+    def open(self, width: float, height: float, title: str) -> None:
+        """Begin a sheet of white pixels."""
+        per_mm = self._dpi / 25.4
+        columns, rows = round(width * per_mm), round(height * per_mm)
+        if not (1 <= columns <= _LARGEST and 1 <= rows <= _LARGEST):
+            raise OutputError(
+                f"A sheet of {width:g} x {height:g} mm at {self._dpi:g} dpi makes {columns} x "
+                f"{rows} pixels; 1 to {_LARGEST} a side are possible. Choose another resolution."
+            )
+        self._title = title
+        renderer: Any = RendererAgg  # it has no types
+        self._agg = renderer(columns, rows, self._dpi)
+        # The nearest whole number of pixels covers the sheet exactly: no half-painted edge.
+        self._to_pixels = Affine2D().scale(columns / width, rows / height)
+        self._paint(_polygon((0, width, width + height * 1j, height * 1j)), 1.0)
+
+    def _paint(self, path: Path, grey: float, transform: Any = None) -> None:
+        pen = self._agg.new_gc()
+        pen.set_linewidth(0.0)
+        self._agg.draw_path(pen, path, transform or self._to_pixels, (grey, grey, grey))
+
+    def _ink_pen(self, pen: Pen, path: Path) -> None:
+        style = PENS[pen]
+        gc = self._agg.new_gc()
+        gc.set_linewidth(style.width * 72.0 / 25.4)  # points
+        gc.set_capstyle(style.cap)
+        gc.set_joinstyle("round")
+        gc.set_foreground((style.grey, style.grey, style.grey), isRGBA=False)
+        self._agg.draw_path(gc, path, self._to_pixels)
+
+    def stroke(self, item: Stroke) -> None:
+        """Draw a polyline, or its dashes."""
+        if closes(item):
+            self._ink_pen(item.pen, _polygon(item.points))
+            return
+        for line in stroke_lines(item):
+            self._ink_pen(item.pen, Path([(p.real, p.imag) for p in line]))
+
+    def arc(self, item: Arc) -> None:
+        """Draw an arc, or its dashes."""
+        for start, turn in arc_spans(item):
+            self._ink_pen(item.pen, _bent(item.centre, item.radius, start, turn))
+
+    def fill(self, item: Fill | Disc) -> None:
+        """Fill a polygon or a circle."""
+        grey = 1.0 if item.ink is Ink.WHITE else 0.0
+        if isinstance(item, Disc):
+            self._paint(_bent(item.centre, item.radius, 0.0, tau), grey)
+        else:
+            self._paint(_polygon(item.points), grey)
+
+    def text(self, item: Text) -> None:
+        """Fill the outlines of a run."""
+        unit = item.height / LETTERING.cap_height
+        pen = 0
+        for char in item.text:
+            path = _letter(char)
+            if path is not None:
+                place = Affine2D().translate(pen, 0).scale(unit).rotate_deg(item.angle)
+                place.translate(item.at.real, item.at.imag)
+                self._paint(path, 0.0, place + self._to_pixels)
+            pen += LETTERING.outline(char).advance
+
+    def close(self) -> bytes:
+        """Return the file."""
+        file = BytesIO()
+        properties = {"Title": self._title, "Author": self._author, "Software": "planmethod"}
+        pixels = np.asarray(self._agg.buffer_rgba())
+        imsave(file, pixels, format="png", dpi=self._dpi, metadata=properties)
+        return file.getvalue()
+
+
+def _polygon(points: tuple[complex, ...]) -> Path:
+    vertices = [(point.real, point.imag) for point in points]
+    return Path([*vertices, vertices[0]], closed=True)
+
+
+def _bent(centre: complex, radius: float, start: float, turn: float) -> Path:
+    first = centre + radius * exp(1j * start)
+    curves = arc_curves(centre, radius, start, turn)
+    points = [first, *chain.from_iterable(curve[1:] for curve in curves)]
+    codes: list[Any] = [Path.MOVETO] + [Path.CURVE4] * (len(points) - 1)
+    if turn >= tau:
+        points.append(first)
+        codes.append(Path.CLOSEPOLY)
+    return Path([(point.real, point.imag) for point in points], codes)
+
+
+@cache
+def _letter(char: str) -> Path | None:
+    """Return the outline of a letter in font units, or None for a blank."""
+    vertices: list[tuple[float, float]] = []
+    codes: list[Any] = []
+    for verb, numbers in _VERBS.findall(LETTERING.outline(char).outline):
+        values = [float(number) for number in numbers.split()]
+        points = list(zip(values[::2], values[1::2], strict=True)) or [(0.0, 0.0)]
+        vertices += points
+        codes += [_CODES[verb]] * len(points)
+    return Path(vertices, codes) if vertices else None

@@ -1,0 +1,288 @@
+"""Lint of a display list (нормоконтроль чертежа): what a norm controller would mark in texts.
+
+The lint knows nothing of mechanisms: it looks at the paper. Codes:
+
+``PM-D01``  two inscriptions overlap
+``PM-D02``  an inscription lies on a line, arc or filled area
+``PM-D03``  a text leaves the cell it belongs to
+``PM-D04``  a text leaves the frame of the sheet
+``PM-D05``  letters are smaller than the standard allows
+``PM-D06``  a text was shortened because its cell cannot hold it
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from shapely import LineString, Point, Polygon, STRtree, union_all
+from shapely.geometry.base import BaseGeometry
+
+from planmethod.render.block import CUT
+from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.frame import MARGIN_NOTE, STAMP
+from planmethod.render.lettering import LETTERING, Lettering
+from planmethod.render.symbols import arc_points
+from planmethod.render.typeset import PART_OF, SMALLEST, text_corners
+
+CODES = {
+    "PM-D01": "inscriptions overlap",
+    "PM-D02": "inscription on a line",
+    "PM-D03": "text outside its cell",
+    "PM-D04": "text outside the frame",
+    "PM-D05": "letters too small",
+    "PM-D06": "text shortened",
+}
+
+SMALLEST_OF_ALL = 1.8
+"""Smallest height of an index and in the title block, mm (the smallest of GOST 2.304)."""
+
+_TOUCH = 0.05  # mm: what is not yet an overlap
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing the lint has to say (замечание).
+
+    Attributes
+    ----------
+    code : str
+        One of `CODES`.
+    where : complex, mm
+        Place on the sheet.
+    message : str
+        What, where, with numbers.
+    value, limit : float
+        What was found and what is allowed: mm, or mm² for overlaps.
+    """
+
+    code: str
+    where: complex
+    message: str
+    value: float
+    limit: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Writing:
+    """One inscription: its runs, the ink boxes, and where in the drawing order it stands."""
+
+    name: str
+    runs: tuple[Text, ...]
+    ink: BaseGeometry
+    first: int
+    last: int
+
+    @property
+    def shown(self) -> str:
+        return "".join(run.text for run in self.runs)
+
+    @property
+    def where(self) -> complex:
+        return self.runs[0].at
+
+
+def lint(
+    items: Sequence[Item],
+    inner: Bounds | None = None,
+    *,
+    ignore: Iterable[Pen] = (),
+    lettering: Lettering = LETTERING,
+) -> list[Finding]:
+    """Look a display list over and return what is wrong with its texts (нормоконтроль).
+
+    Parameters
+    ----------
+    items : sequence of Item
+        In drawing order: a line drawn before a white area is hidden by it.
+    inner : Bounds, mm, optional
+        Inside of the frame; texts tagged as margin notes may be outside.
+    ignore : iterable of Pen
+        Lines that may run under letters.
+
+    Returns
+    -------
+    list of Finding
+        In the order of the codes, then of the drawing.
+    """
+    writings = _writings(items, lettering)
+    findings = [
+        *_overlaps(writings),
+        *_crossed(writings, items, frozenset(ignore)),
+        *_outside(items, inner, lettering),
+        *_small(writings),
+        *_shortened(writings),
+    ]
+    return sorted(findings, key=lambda finding: finding.code)
+
+
+def _writings(items: Sequence[Item], lettering: Lettering) -> list[_Writing]:
+    """Join the runs of one label."""
+    groups: dict[str, list[tuple[int, Text]]] = {}
+    for k, item in enumerate(items):
+        if isinstance(item, Text) and item.text.strip():
+            groups.setdefault(item.label or f"\0{k}", []).append((k, item))
+    return [
+        _Writing(
+            name,
+            tuple(run for _, run in members),
+            union_all([_ink(run, lettering) for _, run in members]),
+            members[0][0],
+            members[-1][0],
+        )
+        for name, members in groups.items()
+    ]
+
+
+def _ink(run: Text, lettering: Lettering) -> BaseGeometry:
+    return Polygon([(p.real, p.imag) for p in text_corners(run, lettering)])
+
+
+def _overlaps(writings: Sequence[_Writing]) -> Iterator[Finding]:
+    inks = [writing.ink for writing in writings]
+    if not inks:
+        return
+    tree = STRtree(inks)
+    for one, two in sorted(zip(*tree.query(inks, predicate="intersects").tolist(), strict=True)):
+        if one >= two:
+            continue
+        common = inks[one].intersection(inks[two])
+        if common.area > _TOUCH**2 and _depth(common) > _TOUCH:
+            first, second = writings[one], writings[two]
+            yield Finding(
+                "PM-D01",
+                first.where,
+                f"'{first.shown}' and '{second.shown}' overlap at {_place(first.where)}",
+                common.area,
+                0.0,
+            )
+
+
+def _depth(area: BaseGeometry) -> float:
+    x0, y0, x1, y1 = area.bounds
+    return float(min(x1 - x0, y1 - y0))
+
+
+def _crossed(
+    writings: Sequence[_Writing], items: Sequence[Item], ignore: frozenset[Pen]
+) -> Iterator[Finding]:
+    """Find lines and areas that run through letters and are not hidden by white."""
+    things = [(k, shape) for k, item in enumerate(items) if (shape := _shape(item, ignore))]
+    whites = [(k, s) for k, s in things if _is_white(items[k])]
+    tree = STRtree([shape for _, shape in things])
+    for writing in writings:
+        for hit in sorted(tree.query(writing.ink, predicate="intersects").tolist()):
+            order, shape = things[hit]
+            item = items[order]
+            if item.tag == PART_OF + writing.name:
+                continue
+            if _is_white(item):
+                # White before the letters is a clean ground for them; after, it hides them.
+                if order < writing.last:
+                    continue
+                common = shape.intersection(writing.ink)
+            else:
+                common = shape.intersection(writing.ink)
+                for k, white in whites:
+                    if order < k < writing.first and white.intersects(common):
+                        common = common.difference(white)
+            extent = common.length
+            if extent > 2 * _TOUCH:
+                yield Finding(
+                    "PM-D02",
+                    writing.where,
+                    f"'{writing.shown}' lies on {_called(item)} at {_place(writing.where)}, "
+                    f"{extent:.2f} mm of it",
+                    extent,
+                    0.0,
+                )
+
+
+def _is_white(item: Item) -> bool:
+    return isinstance(item, (Fill, Disc)) and item.ink is Ink.WHITE
+
+
+def _shape(item: Item, ignore: frozenset[Pen]) -> BaseGeometry | None:
+    """Return what a thing covers: a line, or an area when it is filled."""
+    match item:
+        case Stroke(points=path, pen=pen, closed=closed) if len(path) > 1 and pen not in ignore:
+            ends = (*path, path[0]) if closed else path
+            return LineString([(p.real, p.imag) for p in ends])
+        case Arc(pen=pen) if pen not in ignore:
+            return LineString([(p.real, p.imag) for p in arc_points(item)])
+        case Fill(points=path) if len(path) > 2:
+            return Polygon([(p.real, p.imag) for p in path]).buffer(0)
+        case Disc(centre=centre, radius=radius):
+            return Point(centre.real, centre.imag).buffer(radius)
+    return None
+
+
+def _called(item: Item) -> str:
+    kind = type(item).__name__.lower()
+    pen = f" {item.pen.value}" if isinstance(item, (Stroke, Arc)) else ""
+    return f"a{pen} {kind}" + (f" ({item.tag})" if item.tag else "")
+
+
+def _outside(
+    items: Sequence[Item], inner: Bounds | None, lettering: Lettering
+) -> Iterator[Finding]:
+    for run in items:
+        if not isinstance(run, Text) or not run.text.strip():
+            continue
+        ink = _ink(run, lettering).bounds
+        if run.box is not None and (out := _beyond(ink, run.box)) > _TOUCH:
+            yield Finding(
+                "PM-D03",
+                run.at,
+                f"'{run.text}' leaves its cell by {out:.2f} mm at {_place(run.at)}",
+                out,
+                0.0,
+            )
+        if inner is None or run.tag == MARGIN_NOTE:
+            continue
+        if (out := _beyond(ink, inner)) > _TOUCH:
+            yield Finding(
+                "PM-D04",
+                run.at,
+                f"'{run.text}' leaves the frame by {out:.2f} mm at {_place(run.at)}",
+                out,
+                0.0,
+            )
+
+
+def _beyond(ink: Bounds, limits: Bounds) -> float:
+    """Return how far a box sticks out of another, mm."""
+    return max(limits[0] - ink[0], limits[1] - ink[1], ink[2] - limits[2], ink[3] - limits[3])
+
+
+def _small(writings: Sequence[_Writing]) -> Iterator[Finding]:
+    for writing in writings:
+        main = max(run.height for run in writing.runs)
+        for run in writing.runs:
+            small = run.height < main or STAMP in run.tag.split()
+            limit = SMALLEST_OF_ALL if small else SMALLEST
+            if run.height < limit - 1e-6:
+                yield Finding(
+                    "PM-D05",
+                    run.at,
+                    f"'{run.text}' of '{writing.shown}' is {run.height:.2f} mm high, less than "
+                    f"{limit} mm, at {_place(run.at)}",
+                    run.height,
+                    limit,
+                )
+
+
+def _shortened(writings: Sequence[_Writing]) -> Iterator[Finding]:
+    for writing in writings:
+        if any(CUT in run.tag.split() for run in writing.runs):
+            yield Finding(
+                "PM-D06",
+                writing.where,
+                f"'{writing.shown}' was shortened to fit its cell at {_place(writing.where)}",
+                1.0,
+                0.0,
+            )
+
+
+def _place(at: complex) -> str:
+    return f"({at.real:.1f}, {at.imag:.1f}) mm"

@@ -1,0 +1,83 @@
+"""Write a produced file whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+from pathlib import Path
+from typing import NoReturn
+
+from planmethod.errors import OutputError
+
+_CAUSES = {
+    errno.EACCES: "no permission. Choose another directory with --out, or close the program that "
+    "holds the file open",
+    errno.EPERM: "not permitted. Choose another directory with --out",
+    errno.EROFS: "the file system is read-only. Choose another directory with --out",
+    errno.ENOSPC: "no space left on the device. Free some space, or choose another directory "
+    "with --out",
+    errno.EDQUOT: "the disk quota is used up. Free some space, or choose another directory "
+    "with --out",
+    errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
+    errno.ENOTDIR: "a part of the path is a file, not a directory. Choose another directory "
+    "with --out",
+    errno.EEXIST: "a part of the path is a file, not a directory. Choose another directory "
+    "with --out",
+    errno.ELOOP: "symbolic links go round in a circle. Remove one of them",
+}
+
+
+def write(path: Path | str, data: bytes) -> None:
+    """Write ``data`` to ``path`` whole or not at all.
+
+    The bytes go to a temporary file beside ``path``, which then takes its place: a reader sees the
+    old file or the new one, and a failure leaves what was there. Missing directories are made; a
+    symbolic link is followed; an existing file keeps its permissions.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written; the message says why and what to do.
+    """
+    asked = Path(path)
+    target = Path(os.path.realpath(asked))
+    try:
+        mode = _mode_to_keep(target, asked)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        temporary = target.with_name(f".planmethod-{os.urandom(6).hex()}.tmp")
+        try:
+            # "x": never through a link or a file that somebody put there; permissions by umask.
+            with temporary.open("xb") as file:
+                file.write(data)
+            if mode is not None:
+                temporary.chmod(mode)
+            temporary.replace(target)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                temporary.unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        _explain(asked, error)
+
+
+def _mode_to_keep(target: Path, asked: Path) -> int | None:
+    """Return the permissions of the file to be replaced; refuse what must not be replaced."""
+    if target.is_dir():
+        raise OutputError(f"Cannot write {asked}: it is a directory. Give the name of a file.")
+    if not target.exists():
+        return None
+    if not target.is_file():
+        # Renaming over a device or a pipe would destroy it.
+        raise OutputError(f"Cannot write {asked}: it is not a regular file. Choose another name.")
+    if not os.access(target, os.W_OK):
+        raise OutputError(
+            f"Cannot write {asked}: the file is write-protected. Remove the protection, or choose "
+            "another directory with --out."
+        )
+    return target.stat().st_mode & 0o777
+
+
+def _explain(path: Path, error: OSError) -> NoReturn:
+    cause = _CAUSES.get(error.errno or 0, f"{error.strerror or error}. Check the path")
+    raise OutputError(f"Cannot write {path}: {cause}.") from error

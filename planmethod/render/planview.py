@@ -1,0 +1,123 @@
+"""Velocity and acceleration plans drawn as a draughtsman draws them: pole, vectors, letters."""
+
+from __future__ import annotations
+
+from planmethod.construct.steps import PointName, Similar
+from planmethod.plans.model import Plan, PlanKind, VectorKind
+from planmethod.plans.solution import Solution
+from planmethod.problem.model import Convention
+from planmethod.render.block import Picture
+from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.extent import ink_bounds
+from planmethod.render.labels import Label, place_labels
+from planmethod.render.symbols import vector_arrow
+from planmethod.render.typeset import typeset
+
+COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
+ROOM = 14.0
+"""Room around a plan for its letters, mm."""
+
+
+def pole_letter(solution: Solution, kind: PlanKind) -> str:
+    """Return the letter of the pole: p; π on the acceleration plan, or p′ in the mm/unit books."""
+    if kind is PlanKind.VELOCITY:
+        return "p"
+    primed = solution.problem.scales.convention is Convention.MM_PER_UNIT
+    return "p′" if primed else "π"
+
+
+def shown_letters(solution: Solution, plan: Plan) -> dict[PointName, str]:
+    """Return the letters as drawn: primed on the acceleration plan of the mm/unit books."""
+    primed = (
+        plan.kind is PlanKind.ACCELERATION
+        and solution.problem.scales.convention is Convention.MM_PER_UNIT
+    )
+    if not primed:
+        return dict(plan.letters)
+    return {
+        at: ", ".join(_primed(letter) for letter in letters.split(", "))
+        for at, letters in plan.letters.items()
+    }
+
+
+def _primed(letter: str) -> str:
+    head, brace, tail = letter.partition("_{")
+    return f"{head}′" if not brace else f"{head}′_{{{tail}"
+
+
+def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, PointName]]:
+    """Return the sides of the figures similar to links, as far as no vector draws them."""
+    drawn = {frozenset((v.tail, v.head)) for v in plan.vectors}
+    pole = str(plan.pole)
+    lines: dict[frozenset[PointName], tuple[PointName, PointName]] = {}
+    for step in solution.construction.program.steps:
+        if not isinstance(step, Similar) or step.out[:2] != pole[:2]:
+            continue
+        for side in ((step.plan_b, step.plan_c), (step.plan_b, step.out), (step.plan_c, step.out)):
+            if frozenset(side) not in drawn:
+                lines.setdefault(frozenset(side), side)
+    return list(lines.values())
+
+
+def plan_picture(
+    solution: Solution, kind: PlanKind, index: int, *, letter_height: float = 5.0
+) -> Picture:
+    """Return a plan in one position as a picture, its own pole at the origin, mm."""
+    plan = solution.construction.plan(kind)
+    assert plan.pole is not None
+    ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
+    at = {name: complex(solution.complexes(solution.paper, name)[index]) for name in ends}
+    factor = min(1.0, letter_height / 5.0 + 0.2)
+    items: list[Item] = []
+    for tail, head in similar_lines(solution, plan):
+        if abs(at[head] - at[tail]) > 0.05:
+            items.append(Stroke((at[tail], at[head]), Pen.THIN, tag="similar"))
+    for vector in plan.vectors:
+        thin = vector.kind in COMPONENTS or (
+            vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
+        )
+        items += vector_arrow(
+            at[vector.tail],
+            at[vector.head],
+            pen=Pen.THIN if thin else Pen.MAIN,
+            length=5.0 * factor,
+            width=1.6 * factor,
+            tag=vector.kind.value,
+        )
+    items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag="pole"))
+    labels = _labels(solution, plan, at, letter_height)
+    left, low, right, high = ink_bounds(items)
+    room = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
+    for placed in place_labels(labels, items, room):
+        items += placed.items()
+    return Picture(tuple(items), ink_bounds(items))
+
+
+def _labels(
+    solution: Solution, plan: Plan, at: dict[PointName, complex], height: float
+) -> list[Label]:
+    """Return the letters; points that coincide on the paper share one inscription."""
+    letters = shown_letters(solution, plan)
+    assert plan.pole is not None
+    letters[plan.pole] = ", ".join(
+        [pole_letter(solution, plan.kind), *filter(None, [letters.get(plan.pole, "")])]
+    )
+    spots: list[tuple[complex, list[str]]] = []
+    for name, letter in sorted(letters.items(), key=lambda pair: pair[0] != plan.pole):
+        for place, texts in spots:
+            if abs(place - at[name]) < 0.3:
+                texts += [t for t in letter.split(", ") if t not in texts]
+                break
+        else:
+            spots.append((at[name], letter.split(", ")))
+    centre = sum(place for place, _ in spots) / len(spots)
+    return [
+        Label(
+            typeset(", ".join(texts), height),
+            place,
+            prefer=place - centre,
+            gap=1.4,
+            name=f"{plan.kind.value}:{texts[0]}",
+        )
+        for place, texts in spots
+    ]
