@@ -96,9 +96,11 @@ def _apply(
         case MeetLineCircle(_, line, c, r, way):
             (p, u), radius = env[line], env[r]
             u = u / ar.nonzero(abs(u))
-            to_foot = 1j * u * _cross(u, p - env[c])  # from the centre square to the line
-            room = _half_chord(abs(to_foot), radius)
-            return env[c] + to_foot + u * (way.value * ar.root(room)), room / (radius * radius)
+            to_centre = env[c] - p
+            room = _half_chord(abs(_cross(u, to_centre)), radius)
+            # Counted along the line from its own point: what lies on a guide stays on it exactly.
+            reach = (u.conjugate() * to_centre).real + way.value * ar.root(room)
+            return p + u * reach, room / (radius * radius)
         case MeetCircles(_, c1, r1, c2, r2, side):
             d = env[c2] - env[c1]
             span, one, two = abs(d), env[r1], env[r2]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import PointName
+from planmethod.note.letters import segment
 from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
 from planmethod.plans.leads import Turning
-from planmethod.plans.model import PlanKind, Vector, VectorKind
-from planmethod.plans.solution import Solution, plain
+from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
+from planmethod.plans.solution import Solution
+from planmethod.problem.model import Convention
 
 UNIT = {PlanKind.VELOCITY: "m/s", PlanKind.ACCELERATION: "m/s²"}
 LETTER = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
@@ -29,86 +31,123 @@ class Calculation:
         self.mu = solution.scales[kind].per_mm
         self.unit = UNITS_RU[UNIT[kind]]
 
-    def segment(self, tail: PointName, head: PointName) -> str:
-        """Return a segment in letters: ``(bc)``."""
-        return "(" + "".join(self._letter(end) for end in (tail, head)) + ")"
-
-    def _letter(self, point: PointName) -> str:
-        name = plain(self.plan, point)
-        head, _, tail = name.partition("_")
-        if tail:
-            return f"{head}_{{{tail}}}"
-        return f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name
-
-    def read(self, tail: PointName, head: PointName) -> float:
-        """Return a segment as the hand reads it, mm."""
-        s = self.solution
-        ends = (s.complexes(s.by_hand, head) - s.complexes(s.by_hand, tail))[self.index]
-        return float(s.hand.ruled(abs(ends)))
-
     def lines(self) -> list[str]:
         """Return one formula a line, in the order of the construction."""
         result = [self._vector(vector) for vector in self.plan.vectors]
-        turning = self.solution.construction.kinematics.turnings
-        for (kind, link), read in turning.items():
-            if kind is self.kind:
-                result.append(self._turning(link, read))
-        return [line for line in result if line]
+        turnings = self.solution.construction.kinematics.turnings
+        result += [
+            self._turning(link, read)
+            for (kind, link), read in turnings.items()
+            if kind is self.kind
+        ]
+        return result
+
+    # Vectors ---------------------------------------------------------------------------------
+
+    def _read(self, tail: PointName, head: PointName) -> float:
+        """Return a segment as the hand reads it, mm."""
+        return float(self.solution.hand.ruled(self._laid(tail, head)))
+
+    def _laid(self, tail: PointName, head: PointName) -> float:
+        """Return a segment as it lies on the hand's own plan, mm."""
+        s = self.solution
+        ends = s.complexes(s.by_hand, head) - s.complexes(s.by_hand, tail)
+        return float(abs(ends[self.index]))
 
     def _vector(self, vector: Vector) -> str:
-        length = self.read(vector.tail, vector.head)
-        if vector.kind is VectorKind.NORMAL or vector.kind is VectorKind.CORIOLIS:
-            return self._laid_off(vector)
-        product = f"{_given(self.mu)}·{_given(length)}"
-        scale = f"μ_{{{LETTER[self.kind]}}}"
-        segment = self.segment(vector.tail, vector.head)
-        value = _found(self.mu * length)
-        return f"{vector.symbol} = {scale}·{segment} = {product} = {value} {self.unit}"
-
-    def _laid_off(self, vector: Vector) -> str:
-        """Return a component that was computed before it was laid off."""
-        s = self.solution
-        laid = abs(s.complexes(s.by_hand, vector.head) - s.complexes(s.by_hand, vector.tail))
-        mm = float(laid[self.index])
-        value = _found(self.mu * mm)
+        ends = (vector.tail, vector.head)
+        letters = segment(self.solution.problem, self.plan, *ends)
         source = self._source(vector)
-        return f"{vector.symbol} = {source}{value} {self.unit};  {_found(mm)} мм"
+        if source is not None:
+            mm = self._laid(*ends)
+            value = f"{_found(self.mu * mm)} {self.unit}"
+            return f"{vector.symbol} = {source}{value};  {letters} = {_found(mm)} мм"
+        length, scale = self._read(*ends), f"μ_{{{LETTER[self.kind]}}}"
+        value = f"{_found(self.mu * length)} {self.unit}"
+        if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
+            quotient = f"{_given(length)}/{_given(1.0 / self.mu)}"
+            return f"{vector.symbol} = {letters}/{scale} = {quotient} = {value}"
+        return f"{vector.symbol} = {scale}·{letters} = {_given(self.mu)}·{_given(length)} = {value}"
 
-    def _source(self, vector: Vector) -> str:
-        """Return the formula of a normal or Coriolis component, with an equals sign after it."""
-        kin = self.solution.construction.kinematics
+    def _source(self, vector: Vector) -> str | None:
+        """Return the formula of a vector that is computed before it is laid off, or None.
+
+        The formula ends in an equals sign; it is empty for the given motion of a driving slider.
+        """
+        known = self._components(vector)
+        if known is not None:
+            return self._source(known[0]) if len(known) == 1 else None
+        if vector.known is not Known.BOTH:
+            return None
         if vector.kind is VectorKind.CORIOLIS:
-            for relative in kin.relatives.values():
+            for relative in self.solution.construction.kinematics.relatives.values():
                 if (relative.a_start, relative.a_turned) == (vector.tail, vector.head):
                     index = vector.symbol.partition("_")[2]
                     return f"2ω_{{{relative.to}}}·v_{index} = "
-        for link in self.solution.problem.mechanism.links:
-            points = self.solution.problem.bodies[link].points
-            joint, _, place = (part.strip() for part in vector.note.partition("→"))
-            plan = kin.acceleration.point
-            if (link, joint) in plan and (link, place) in plan and place in points:
-                return f"ω_{{{link}}}^{{2}}·l_{{{joint}{place}}} = "
-        return ""
+        if vector.note.startswith("∥"):
+            return ""
+        return self._about(vector)
+
+    def _components(self, vector: Vector) -> tuple[Vector, ...] | None:
+        """Return the components of an absolute vector when all are known beforehand."""
+        if vector.kind is not VectorKind.ABSOLUTE or vector.note:
+            return None
+        ends = (vector.tail, vector.head)
+        for equation in self.plan.equations:
+            if (equation.left.tail, equation.left.head) == ends and _is_known(equation):
+                return equation.right
+        return None
+
+    def _about(self, vector: Vector) -> str | None:
+        """Return the formula of a component of turning about a point: omega·l, omega²·l, eps·l."""
+        bodies = self.solution.problem.bodies
+        arrow = vector.note.partition("→")
+        ends = (arrow[0].strip(), arrow[2].strip())
+        if vector.kind is not VectorKind.NORMAL:
+            letters = vector.note.partition(" ")[2]
+            cuts = [(letters[:k], letters[k:]) for k in range(1, len(letters))]
+            ends = next(
+                (c for c in cuts if any(set(c) <= set(b.points) for b in bodies.values())), ends
+            )
+        for link, body in bodies.items():
+            if set(ends) <= set(body.points) and ends[0] != ends[1]:
+                return self._formula(vector, link, ends)
+        normal = vector.kind is VectorKind.NORMAL
+        turning = self.solution.construction.kinematics.turnings
+        for (_, link), read in turning.items():
+            if normal and {read.joint, read.place} == set(ends):
+                return self._formula(vector, link, ends)
+        return None
+
+    def _formula(self, vector: Vector, link: str, ends: tuple[str, str]) -> str:
+        arm = f"l_{{{ends[0]}{ends[1]}}}"
+        if vector.kind is VectorKind.NORMAL:
+            return f"ω_{{{link}}}^{{2}}·{arm} = "
+        letter = "ω" if self.kind is PlanKind.VELOCITY else "ε"
+        return f"{letter}_{{{link}}}·{arm} = "
+
+    # Turning ---------------------------------------------------------------------------------
 
     def _turning(self, link: str, read: Turning) -> str:
         s, kin = self.solution, self.solution.construction.kinematics
-        table, letter, unit = (
-            (kin.omega, "ω", "1/s")
-            if self.kind is PlanKind.VELOCITY
-            else (kin.epsilon, "ε", "1/s²")
-        )
+        velocity = self.kind is PlanKind.VELOCITY
+        table, letter, unit = (kin.omega, "ω", "1/s") if velocity else (kin.epsilon, "ε", "1/s²")
         value = float(s.reals(s.by_hand, table[link])[self.index])
-        component = self.mu * self.read(read.start, read.head)
-        symbol = next(
-            v.symbol for v in self.plan.vectors if (v.tail, v.head) == (read.start, read.head)
-        )
+        component = self.mu * self._read(read.start, read.head)
+        ends = (read.start, read.head)
+        symbol = next((v.symbol for v in self.plan.vectors if (v.tail, v.head) == ends), "0")
         arm = f"l_{{{read.place}{read.joint}}}"
-        metres = abs(component / value) if value else 0.0
+        if not value:
+            return f"{letter}_{{{link}}} = {symbol}/{arm} = 0"
         sense = "против часовой стрелки" if value > 0 else "по часовой стрелке"
-        numbers = f"{_found(component)}/{_found(metres)} = " if value else ""
-        said = f" ({sense})" if value else ""
-        found = f"{_found(abs(value))} {UNITS_RU[unit]}{said}"
-        return f"{letter}_{{{link}}} = {symbol}/{arm} = {numbers}{found}"
+        numbers = f"{_found(component)}/{russian(trimmed(abs(component / value), 4))}"
+        found = f"{_found(abs(value))} {UNITS_RU[unit]} ({sense})"
+        return f"{letter}_{{{link}}} = {symbol}/{arm} = {numbers} = {found}"
+
+
+def _is_known(equation: VectorEquation) -> bool:
+    """Tell whether every term is known before the plan is drawn."""
+    return all(term.known is Known.BOTH for term in equation.right)
 
 
 def calculation(solution: Solution, kind: PlanKind, index: int) -> list[str]:

@@ -198,7 +198,10 @@ def close(
     """Intersect the rays of two leads: the plan point of the middle joint, and its equations."""
     owner = links[0]
     name = motion.label(owner, place)
-    head = kin.draft.b.meet_lines(motion.name(name), rays[0].line, rays[1].line)
+    # The meeting is counted along the first line: from the pole, what moves along a guide of the
+    # frame does so exactly.
+    first, second = rays if rays[1].start != motion.pole else rays[::-1]
+    head = kin.draft.b.meet_lines(motion.name(name), first.line, second.line)
     motion.put(owner, place, head, name=name)
     for ray in rays:
         unknown = ray.close(motion, head)

@@ -1,0 +1,1 @@
+"""Drawing: display lists, sheets, output formats."""

@@ -1,4 +1,4 @@
-"""Display list: what is on the paper, in millimetres, y up, origin at the sheet's lower left corner.
+"""Display list: what is on the paper, mm, y up, origin at the sheet's lower left corner.
 
 Everything that draws makes these records; every output format (backend) replays them. The list is
 plain data, so tests compare lists, not pictures, and a lint can look for labels that collide.
@@ -43,7 +43,7 @@ class Stroke:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """Circular arc, counter-clockwise from ``start`` to ``end`` (radians); a full circle by default."""
+    """Circular arc, counter-clockwise from ``start`` to ``end`` (radians); by default a circle."""
 
     centre: complex
     radius: float
@@ -76,7 +76,8 @@ class Disc:
 class Text:
     """One run of letters; ``at`` is the left end of its base line (always left anchored).
 
-    ``height`` is the cap height h of GOST 2.304 in mm, ``angle`` turns the run about ``at``, degrees.
+    ``height`` is the cap height h of GOST 2.304 in mm, ``angle`` turns the run about ``at``,
+    degrees.
     ``label`` groups the runs of one inscription (a letter and its index): the lint treats runs with
     one non-empty label as one. ``box`` is the cell that the text must stay in, or None.
     """

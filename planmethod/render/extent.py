@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
-from planmethod.render.labels import arc_points, text_corners
+from planmethod.render.symbols import arc_points
+from planmethod.render.typeset import text_corners
 
 
 def ink_bounds(items: Iterable[Item]) -> Bounds:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import PointName, Similar
+from planmethod.note.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, VectorKind
 from planmethod.plans.solution import Solution
-from planmethod.problem.model import Convention
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.extent import ink_bounds
@@ -16,33 +16,6 @@ from planmethod.render.typeset import typeset
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
 ROOM = 14.0
 """Room around a plan for its letters, mm."""
-
-
-def pole_letter(solution: Solution, kind: PlanKind) -> str:
-    """Return the letter of the pole: p; π on the acceleration plan, or p′ in the mm/unit books."""
-    if kind is PlanKind.VELOCITY:
-        return "p"
-    primed = solution.problem.scales.convention is Convention.MM_PER_UNIT
-    return "p′" if primed else "π"
-
-
-def shown_letters(solution: Solution, plan: Plan) -> dict[PointName, str]:
-    """Return the letters as drawn: primed on the acceleration plan of the mm/unit books."""
-    primed = (
-        plan.kind is PlanKind.ACCELERATION
-        and solution.problem.scales.convention is Convention.MM_PER_UNIT
-    )
-    if not primed:
-        return dict(plan.letters)
-    return {
-        at: ", ".join(_primed(letter) for letter in letters.split(", "))
-        for at, letters in plan.letters.items()
-    }
-
-
-def _primed(letter: str) -> str:
-    head, brace, tail = letter.partition("_{")
-    return f"{head}′" if not brace else f"{head}′_{{{tail}"
 
 
 def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, PointName]]:
@@ -97,19 +70,15 @@ def _labels(
     solution: Solution, plan: Plan, at: dict[PointName, complex], height: float
 ) -> list[Label]:
     """Return the letters; points that coincide on the paper share one inscription."""
-    letters = shown_letters(solution, plan)
-    assert plan.pole is not None
-    letters[plan.pole] = ", ".join(
-        [pole_letter(solution, plan.kind), *filter(None, [letters.get(plan.pole, "")])]
-    )
+    letters = shown_letters(solution.problem, plan)
     spots: list[tuple[complex, list[str]]] = []
-    for name, letter in sorted(letters.items(), key=lambda pair: pair[0] != plan.pole):
+    for name, own in sorted(letters.items(), key=lambda pair: pair[0] != plan.pole):
         for place, texts in spots:
             if abs(place - at[name]) < 0.3:
-                texts += [t for t in letter.split(", ") if t not in texts]
+                texts += [letter for letter in own if letter not in texts]
                 break
         else:
-            spots.append((at[name], letter.split(", ")))
+            spots.append((at[name], list(own)))
     centre = sum(place for place, _ in spots) / len(spots)
     return [
         Label(

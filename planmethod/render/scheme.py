@@ -41,7 +41,8 @@ OVERHANG = 5.0
 class Scheme:
     """One mechanism being drawn in one position (схема).
 
-    ``lines``, ``bodies`` and ``joints`` are drawn in this order: joints cover the lines they join.
+    ``bodies``, ``lines``, ``corners`` and ``joints`` are drawn in this order: the sliders lie under
+    the links that reach their pins, the joints cover the lines they join.
     """
 
     solution: Solution
@@ -49,8 +50,9 @@ class Scheme:
     letter_height: float
     pen: Pen = Pen.MAIN
     guides: list[Item] = field(default_factory=list)
-    lines: list[Item] = field(default_factory=list)
     bodies: list[Item] = field(default_factory=list)
+    lines: list[Item] = field(default_factory=list)
+    corners: list[Item] = field(default_factory=list)
     joints: list[Item] = field(default_factory=list)
     arrows: list[Item] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
@@ -123,7 +125,7 @@ class Scheme:
         self.bar(link, nearest[1], place)
         for other in along:
             if other != nearest and self.pen is Pen.MAIN:
-                self.bodies += rigid_corner(nearest[1], place, other[1], factor=self.factor)
+                self.corners += rigid_corner(nearest[1], place, other[1], factor=self.factor)
                 break
 
     def _slot(self, link: str, slide: Slide, along: list[tuple[complex, complex]]) -> None:
@@ -147,7 +149,7 @@ class Scheme:
         self.bar(link, start + u * low, start + u * high)
         for _, place in along:
             if abs(place - start) > 1.0 and self.pen is Pen.MAIN:
-                self.bodies += rigid_corner(start, place, start + u * reach, factor=self.factor)
+                self.corners += rigid_corner(start, place, start + u * reach, factor=self.factor)
                 break
 
     def foot(self, slide: Slide) -> complex:
@@ -180,14 +182,13 @@ class Scheme:
             if ((far - reach) * unit(block - pin).conjugate()).real < 0:
                 self.bar(slide.slider, far, reach)
             self.bodies += slider(block, angle=angle, factor=self.factor, pen=self.pen)
-            self.bodies.append(Stroke((block - u * 7 * self.factor, block + u * 7 * self.factor)))
             return
         if slide.host == FRAME:
             self._frame_guide(slide, u)
             self.bodies += slider(pin, angle=angle, factor=self.factor, pen=self.pen)
             return
         foot = self.foot(slide)
-        self.bodies += stone(foot, angle=angle, factor=self.factor, pen=self.pen)
+        self.bodies += stone(foot, angle=angle, factor=self.factor, pen=self.pen, pin=False)
         if abs(foot - pin) > 0.2:
             self.bar(slide.slider, foot, pin)
 
@@ -412,8 +413,9 @@ def scheme_picture(
     items = [
         *ghosts,
         *scheme.guides,
-        *scheme.lines,
         *scheme.bodies,
+        *scheme.lines,
+        *scheme.corners,
         *scheme.joints,
         *scheme.arrows,
     ]

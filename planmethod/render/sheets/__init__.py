@@ -1,0 +1,1 @@
+"""Sheets: what is on each and in which order; one module a sheet."""

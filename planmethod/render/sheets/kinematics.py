@@ -194,7 +194,7 @@ def _blocks(
     result = table_block(
         result_columns(solution, indices),
         size.text,
-        max_width=max(185.0, 0.5 * inside),
+        max_width=max(185.0, 0.58 * inside),
         leading=2 if len(solution.positions) > 1 else 0,
         title="Результаты",
     )
