@@ -1,0 +1,1 @@
+"""Structure of mechanisms: links, joints, Assur groups; no coordinates."""

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from planmethod.mechanism.model import Prismatic, Revolute
+from planmethod.mechanism.decompose import contours
+from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
 
 Joint: TypeAlias = Revolute | Prismatic
+
+DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
+"""Dyads (двухповодковые группы II класса) in the order of Artobolevsky's kinds 1 to 5."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,14 +36,16 @@ class AssurGroup:
     ----------
     signature : str
         For a dyad the letters of its joints, outer-inner-outer, written as Artobolevsky's kinds
-        are: RRR, RRP, RPR, PRP, RPP (never PRR or PPR). For a larger group its class in words is
-        all that is known: the letters of its outer and inner joints, sorted.
+        are: RRR, RRP, RPR, PRP, RPP (never PRR or PPR). For a larger group, whose class says
+        more, the letters of its outer joints, a hyphen, and those of its inner joints, each
+        sorted: ``RRR-RRR``.
     links : tuple of str
         In file order.
     leads : tuple of Lead
         Outer joints; for a dyad exactly two, in the order of ``links``.
     inner : tuple of Joint
-        Joints between links of the group.
+        Joints between links of the group. A hinge of several links is here as a whole, though
+        links of later groups may hang on it too.
     class_number, order : int
         Class and order (класс, порядок) as Artobolevsky has them: a dyad is class 2, order 2.
     kind : int or None
@@ -52,3 +59,74 @@ class AssurGroup:
     class_number: int
     order: int
     kind: int | None
+
+
+def links_of(joint: Joint) -> tuple[str, ...]:
+    """Links that a joint joins (звенья пары)."""
+    if isinstance(joint, Revolute):
+        return joint.links
+    return (joint.slider, joint.host)
+
+
+def letter_of(joint: Joint) -> str:
+    """R of a revolute joint (вращательная пара, В), P of a prismatic one (поступательная, П)."""
+    return "R" if isinstance(joint, Revolute) else "P"
+
+
+def make_group(mechanism: Mechanism, links: Collection[str], known: Sequence[str]) -> AssurGroup:
+    """Describe a group whose links and predecessors are found (структурная группа).
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+    links : collection of str
+        Links of the group.
+    known : sequence of str
+        Links known before it, in the order in which they became known: a lead that hangs on a
+        hinge of several known links hangs on the first of them.
+    """
+    own = tuple(link for link in mechanism.links if link in links)
+    leads: list[Lead] = []
+    inner: list[Joint] = []
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
+    for joint in joints:
+        ends = links_of(joint)
+        inside = [link for link in own if link in ends]
+        outside = [link for link in known if link in ends]
+        if outside:
+            leads += [Lead(link, joint, outside[0]) for link in inside]
+        elif len(inside) > 1:
+            inner.append(joint)
+    leads.sort(key=lambda lead: own.index(lead.link))
+    outer_letters = [letter_of(lead.joint) for lead in leads]
+    inner_letters = [letter_of(joint) for joint in inner for _ in range(_pairs(joint, own))]
+    if len(own) == 2:
+        first, last = sorted(outer_letters, reverse=True)
+        signature = first + inner_letters[0] + last
+        return AssurGroup(
+            signature, own, tuple(leads), tuple(inner), 2, 2, DYADS.index(signature) + 1
+        )
+    signature = "".join(sorted(outer_letters)) + "-" + "".join(sorted(inner_letters))
+    class_number = _class_of(own, inner)
+    return AssurGroup(signature, own, tuple(leads), tuple(inner), class_number, len(leads), None)
+
+
+def _pairs(joint: Joint, own: Collection[str]) -> int:
+    return sum(link in own for link in links_of(joint)) - 1
+
+
+def _class_of(own: Collection[str], inner: Sequence[Joint]) -> int:
+    """Class of a group larger than a dyad.
+
+    A movable closed contour of k sides makes class k (IV and higher); a contour of three links is
+    rigid and counts as the rigid base link of class III, which every other group has. Contours
+    are the independent ones, as short as can be.
+    """
+    edges = [
+        (("link", link), ("joint", i))
+        for i, joint in enumerate(inner)
+        for link in links_of(joint)
+        if link in own
+    ]
+    # In the graph of links and joints a contour has as many edges at its links as at its joints.
+    return max((len(contour) // 2 for contour in contours(edges)), default=3)

@@ -83,7 +83,9 @@ class Draft:
     # Numbers -------------------------------------------------------------------------------
 
     def known(self, name: str, value: float) -> NumberName:
-        """Take a number of the data as known, once."""
+        """Take a number of the data as known, once; another value gets another name."""
+        while self.numbers.get(name, value) != value:
+            name += "*"
         if name not in self.numbers:
             self.numbers[name] = value
             return self.b.known(name)
@@ -263,7 +265,7 @@ class Draft:
         if known == slide.host:
             self.axes[slide.slider] = (
                 self.b.parallel(at, self.line(slide))
-                if self.placed.get(known)
+                if known == FRAME or self.placed.get(known)
                 else self.turned(self.axis(known), at, slide.angle, f"angle_{slide.slider}")
             )
         else:

@@ -217,7 +217,7 @@ def read_turning(
     b = kin.draft.b
     head = motion.point[link, place]
     lever = arm(kin.draft, link, joint, place)
-    segment = b.measure_along(f"|{ray.start}→{head}|", ray.start, head, ray.line)
+    segment = b.measure_along(f"|{ray.start}→{head}|{ray.line}", ray.start, head, ray.line)
     kin.turnings[motion.kind, link] = Turning(ray.start, head, joint, place)
     powers = ((motion.scale, 1), (segment, 1), *_inverse(lever.length))
     if motion.kind is PlanKind.VELOCITY:
@@ -233,7 +233,7 @@ def read_sliding(kin: Kinematics, motion: Motion, of: str, to: str, place: str, 
         kin.relatives[place, of, to].a_head = head
         return
     b = kin.draft.b
-    segment = b.measure_along(f"|{ray.start}→{head}|", ray.start, head, ray.line)
+    segment = b.measure_along(f"|{ray.start}→{head}|{ray.line}", ray.start, head, ray.line)
     speed = b.compute(f"v_{place}{of}/{to}", (motion.scale, 1), (segment, 1))
     kin.relatives[place, of, to] = Relative(place, of, to, speed, ray.start, head)
 

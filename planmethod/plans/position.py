@@ -135,7 +135,7 @@ def _place_rpr(draft: Draft, group: AssurGroup, sign: int) -> None:
     else:
         # The line through the slider's joint touches a circle about the host's joint.
         radius = draft.drawn(draft.known(f"e_{q}{host.link}", abs(across)))
-        foot = draft.b.touch(f"T_{q}", p, radius, q, side(sign * across))
+        foot = draft.b.touch(f"T_{q}_{host.link}", p, radius, q, side(sign * across))
         ends = (foot, p) if across > 0 else (p, foot)
         line = draft.b.perpendicular(q, draft.b.join(*ends))
     draft.axes[slider.link] = draft.b.parallel(q, line)

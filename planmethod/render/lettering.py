@@ -20,6 +20,10 @@ class Lettering(Protocol):
 
     name: str
 
+    def __hash__(self) -> int:
+        """Letterings are told apart: what was set once is kept by lettering."""
+        ...
+
     def width(self, text: str, height: float) -> float:
         """Return the advance of a run of letters, mm."""
         ...
@@ -48,7 +52,7 @@ class Glyph(NamedTuple):
     outline: str
 
 
-@dataclass
+@dataclass(eq=False)
 class OutlineLettering:
     """Lettering read from the data files that ``scripts/make_font.py`` makes.
 
@@ -78,6 +82,10 @@ class OutlineLettering:
     def units_per_em(self) -> int:
         """Font units in the size by which other programs call a font."""
         return int(self._data["units_per_em"])
+
+    @cached_property
+    def _runs(self) -> dict[str, tuple[int, int, int, int]]:
+        return {}
 
     @cached_property
     def _glyphs(self) -> dict[str, Glyph]:
@@ -113,18 +121,28 @@ class OutlineLettering:
         tuple of float
             xmin, ymin, xmax, ymax, mm; all zero when the run has no ink.
         """
-        pen = 0
-        boxes: list[tuple[int, int, int, int]] = []
+        unit = height / self.cap_height
+        left, low, right, high = self._units(text)
+        return (left * unit, low * unit, right * unit, high * unit)
+
+    def _units(self, text: str) -> tuple[int, int, int, int]:
+        """Return the ink bounds in font units; runs recur, so they are kept."""
+        found = self._runs.get(text)
+        if found is not None:
+            return found
+        pen, boxes = 0, []
         for char in text:
             glyph = self.outline(char)
             if glyph.outline:
                 boxes.append((pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax))
             pen += glyph.advance
-        if not boxes:
-            return (0.0, 0.0, 0.0, 0.0)
-        left, low, right, high = zip(*boxes, strict=True)
-        unit = height / self.cap_height
-        return (min(left) * unit, min(low) * unit, max(right) * unit, max(high) * unit)
+        if boxes:
+            left, low, right, high = zip(*boxes, strict=True)
+            bounds = (min(left), min(low), max(right), max(high))
+        else:
+            bounds = (0, 0, 0, 0)
+        self._runs[text] = bounds
+        return bounds
 
     def ascent(self, text: str, height: float) -> float:
         """Return how far the ink of this run rises above the base line, mm."""

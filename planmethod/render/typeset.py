@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
+from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
 
@@ -182,6 +183,7 @@ def split_words(markup: str) -> list[str]:
     return [*words, word] if word else words
 
 
+@lru_cache(maxsize=4096)
 def typeset(markup: str, height: float, lettering: Lettering = LETTERING) -> Inscription:
     r"""Set one line of rich text (набор строки).
 

@@ -1,0 +1,179 @@
+"""Tables of the structural analysis: kinematic pairs and kinds of motion, without words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from planmethod.mechanism.model import FRAME, Mechanism
+
+
+class PairKind(Enum):
+    """Relative motion in a pair (относительное движение)."""
+
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
+
+
+@dataclass(frozen=True, slots=True)
+class KinematicPair:
+    """Row of the table of pairs (кинематическая пара).
+
+    Attributes
+    ----------
+    name : str
+        Designation, unique in the mechanism: the point's letter, with the links after it where
+        the letter is taken already: ``B``, ``B(2,3)``.
+    point : str
+        Point of the hinge, or pin of the slider.
+    links : tuple of two str
+        The frame first, then in file order.
+    kind : PairKind
+    """
+
+    name: str
+    point: str
+    links: tuple[str, str]
+    kind: PairKind
+
+
+class Motion(Enum):
+    """Kind of a link's motion (вид движения)."""
+
+    FIXED = "fixed"
+    ROTATION = "rotation"
+    TRANSLATION = "translation"
+    PLANE = "plane"
+
+
+class Role(Enum):
+    """Textbook name of a link (название звена)."""
+
+    FRAME = "frame"
+    """Стойка."""
+    CRANK = "crank"
+    """Кривошип: the driver that turns about a fixed point."""
+    ROCKER = "rocker"
+    """Коромысло."""
+    SLIDER = "slider"
+    """Ползун: slides on the frame."""
+    ROD = "rod"
+    """Шатун: has no pair with the frame."""
+    STONE = "stone"
+    """Камень: slides on a moving link."""
+    SLOTTED_LINK = "slotted link"
+    """Кулиса: turns about a fixed point and slides along its stone."""
+
+
+@dataclass(frozen=True, slots=True)
+class LinkKind:
+    """Row of the table of links (движение звена)."""
+
+    link: str
+    motion: Motion
+    role: Role
+
+
+def pairs(mechanism: Mechanism) -> list[KinematicPair]:
+    """Kinematic pairs for the table of pairs (кинематические пары).
+
+    A point shared by k links gives k - 1 revolute pairs, each of the first link (the frame where
+    it is among them) with another one. Prismatic pairs follow the revolute ones.
+
+    Returns
+    -------
+    list of KinematicPair
+        As many as `Mechanism.lower_pairs`.
+    """
+    order = {link: i for i, link in enumerate((FRAME, *mechanism.links))}
+    found: list[tuple[str, tuple[str, str], PairKind]] = []
+    for joint in mechanism.revolutes:
+        first, *others = joint.links
+        found += [(joint.point, (first, other), PairKind.REVOLUTE) for other in others]
+    for pair in mechanism.prismatics:
+        one, two = sorted((pair.slider, pair.host), key=order.__getitem__)
+        found.append((pair.pin, (one, two), PairKind.PRISMATIC))
+    rows: list[KinematicPair] = []
+    taken: set[str] = set()
+    for point, links, kind in found:
+        name = f"{point}({','.join(links)})" if point in taken else point
+        taken.add(point)
+        rows.append(KinematicPair(name, point, links, kind))
+    return rows
+
+
+def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
+    """Motion and textbook name of every link, the frame first (виды движения звеньев).
+
+    It is what the pairs alone can tell: a driven link on a fixed hinge is called a rocker, though
+    with other lengths it might turn round. In a pair of a slider with a moving link the stone is
+    the one that has no third pair; when both have none, the one that the file calls the slider.
+    """
+    turning = {
+        link for joint in mechanism.revolutes if FRAME in joint.links for link in joint.links
+    }
+    sliding = _translating(mechanism)
+    on_frame = {
+        link
+        for pair in mechanism.prismatics
+        if FRAME in (pair.slider, pair.host)
+        for link in (pair.slider, pair.host)
+    }
+    stones, partners = _stones(mechanism)
+    rows = [LinkKind(FRAME, Motion.FIXED, Role.FRAME)]
+    for link in mechanism.links:
+        if link in sliding:
+            motion = Motion.TRANSLATION
+            role = Role.SLIDER if link in on_frame else Role.STONE
+        elif link in turning:
+            motion = Motion.ROTATION
+            role = Role.ROCKER
+            if link == mechanism.driver:
+                role = Role.CRANK
+            elif link in stones:
+                role = Role.STONE
+            elif link in partners:
+                role = Role.SLOTTED_LINK
+        else:
+            motion = Motion.PLANE
+            role = Role.STONE if link in stones else Role.ROD
+        rows.append(LinkKind(link, motion, role))
+    return rows
+
+
+def _translating(mechanism: Mechanism) -> set[str]:
+    """Links that prismatic pairs alone join with the frame."""
+    found = {FRAME}
+    grown = True
+    while grown:
+        grown = False
+        for pair in mechanism.prismatics:
+            ends = {pair.slider, pair.host}
+            if len(ends & found) == 1:
+                found |= ends
+                grown = True
+    return found - {FRAME}
+
+
+def _stones(mechanism: Mechanism) -> tuple[set[str], set[str]]:
+    """Stones of the prismatic pairs between moving links, and the links that they slide on."""
+    count = dict.fromkeys((FRAME, *mechanism.links), 0)
+    for joint in mechanism.revolutes:
+        for link in joint.links:
+            count[link] += 1
+    for pair in mechanism.prismatics:
+        count[pair.slider] += 1
+        count[pair.host] += 1
+    stones: set[str] = set()
+    partners: set[str] = set()
+    for pair in mechanism.prismatics:
+        ends = (pair.slider, pair.host)
+        if FRAME in ends:
+            continue
+        small = [link for link in ends if count[link] == 2 and link != mechanism.driver]
+        if small:
+            stones.add(small[0])
+            partners.update(link for link in ends if link != small[0])
+        else:
+            partners.update(ends)
+    return stones, partners - stones

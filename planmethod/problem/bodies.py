@@ -1,0 +1,306 @@
+"""From lengths, sides and angles to the points of a link in its own axes."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+from planmethod.problem.fields import Faults
+from planmethod.problem.links import Length, LinkText, PointForm
+from planmethod.problem.model import Body
+from planmethod.problem.names import listed
+
+COLLINEAR = 1e-9
+"""Relative slack within which two distances are taken to put a point on the line."""
+
+AGREE = 1e-6
+"""Relative slack within which a length that is not needed must agree with the others."""
+
+
+class _ContradictionError(Exception):
+    """The data of one point exclude each other; carries path, message and hint."""
+
+
+def rotation(angle_deg: float) -> complex:
+    """Return the unit vector at an angle in degrees, exact on the axes."""
+    quarter, rest = divmod(angle_deg % 360.0, 90.0)
+    turned = 1j ** int(quarter)
+    # multiplying by 1 + 0j would keep the value but could flip the sign of a zero
+    return turned if rest == 0 else turned * cmath.rect(1.0, math.radians(rest))
+
+
+def heading(vector: complex) -> float:
+    """Direction of a vector in degrees, exact on the axes (-180, 180]."""
+    if vector.imag == 0:
+        return 0.0 if vector.real >= 0 else 180.0
+    if vector.real == 0:
+        return 90.0 if vector.imag > 0 else -90.0
+    return math.degrees(cmath.phase(vector))
+
+
+def place_points(faults: Faults, link: LinkText) -> Body | None:
+    """Place every point of a link in the link's own axes.
+
+    Returns
+    -------
+    Body or None
+        None after noting a fault.
+    """
+    if not link.points:
+        return None
+    before = len(faults)
+    placement = _Placement(faults, link)
+    body = placement.solve()
+    return body if len(faults) == before else None
+
+
+class _Placement:
+    """Work sheet of one link: points placed so far, in working axes."""
+
+    def __init__(self, faults: Faults, link: LinkText) -> None:
+        self.faults = faults
+        self.link = link
+        self.placed: dict[str, complex] = {}
+        self.failed: set[str] = set(link.faulty)
+        self.base: Length | None = None
+        # a slider and a one-point link have no letters for their axis: it is the line itself
+        self.axis = link.lengths[0] if link.lengths and link.slides is None else None
+
+    def solve(self) -> Body | None:
+        link = self.link
+        if self.axis is None:
+            self.placed[link.points[0]] = 0j
+        else:
+            # working axes: a length between points that have no form of their own
+            formed = link.forms.keys() | link.faulty
+            free = (n for n in link.lengths if n.a not in formed and n.b not in formed)
+            self.base = next(free, self.axis)
+            self.placed[self.base.a] = 0j
+            self.placed[self.base.b] = complex(self.base.value)
+        self._refuse_double_places()
+        self._place_all()
+        self._report_unplaced()
+        if set(self.placed) != set(link.points):
+            return None
+        points = self._in_own_axes()
+        self._check_lengths(points)
+        return Body({name: points[name] for name in link.points}, self._axis_letters())
+
+    def _axis_letters(self) -> tuple[str, str] | None:
+        if self.axis is not None:
+            return self.axis.a, self.axis.b
+        if self.link.slides is not None:
+            return None
+        first = self.link.points[0]
+        for name, form in self.link.forms.items():
+            if form.kind == "from" and form.point == first and form.across == 0 and form.at != 0:
+                return (first, name) if form.at > 0 else (name, first)
+        return None
+
+    def _direction(self) -> complex | None:
+        """Own axis in the working axes; None while its letters are not placed."""
+        if self.axis is None:
+            return 1 + 0j
+        start, end = self.placed.get(self.axis.a), self.placed.get(self.axis.b)
+        return None if start is None or end is None else _unit(end - start)
+
+    def _refuse_double_places(self) -> None:
+        for name, form in self.link.forms.items():
+            if name in self.placed and form.kind != "side":
+                why = f"it is an end of {self.base.key}" if self.base else "it is the origin"
+                self.faults.add(
+                    f"{self.link.path}.{name}",
+                    f"point {name} has its place already: {why}",
+                    "Remove the table, or list another length or point first.",
+                )
+
+    def _place_all(self) -> None:
+        while True:
+            pending = [p for p in self.link.points if p not in self.placed | self._failed()]
+            if not pending:
+                return
+            moved = False
+            for point in pending:
+                try:
+                    place = self._place(point)
+                except _ContradictionError as fault:
+                    self.faults.add(*fault.args)
+                    self.failed.add(point)
+                    moved = True
+                    continue
+                if place is not None:
+                    self.placed[point] = place
+                    moved = True
+            if not moved and not (self.link.slides is not None and self._lay_along(pending)):
+                return
+
+    def _failed(self) -> dict[str, complex]:
+        return dict.fromkeys(self.failed, 0j)
+
+    def _lay_along(self, pending: list[str]) -> bool:
+        """Lay one length of a slider along its axis, when nothing else places the point."""
+        for point in pending:
+            known = self._distances(point)
+            if point not in self.link.forms and known:
+                other, length = known[0]
+                self.placed[point] = self.placed[other] + length.value
+                return True
+        return False
+
+    def _distances(self, point: str) -> list[tuple[str, Length]]:
+        """Placed points whose distance from a point is given."""
+        pairs = ((length.other(point), length) for length in self.link.lengths_of(point))
+        return [(other, length) for other, length in pairs if other in self.placed]
+
+    def _place(self, point: str) -> complex | None:
+        """Place of a point, or None while what it depends on is not placed."""
+        form = self.link.forms.get(point)
+        if form is None or form.kind == "side":
+            return self._by_distances(point, form)
+        if form.kind == "from":
+            direction, start = self._direction(), self.placed.get(form.point)
+            if direction is None or start is None:
+                return None
+            return start + complex(form.at, form.across) * direction
+        start, end = (self.placed.get(name) for name in form.line)
+        if start is None or end is None:
+            return None
+        if start == end:
+            raise _ContradictionError(
+                f"{self.link.path}.{point}",
+                f"{form.line[0]} and {form.line[1]} are one place, they give no line",
+            )
+        if form.kind == "on":
+            return start + complex(form.at, form.across) * _unit(end - start)
+        distance = form.distance
+        if distance is None:
+            given = [n for n in self.link.lengths_of(point) if n.other(point) == form.point]
+            if not given:
+                raise _ContradictionError(
+                    f"{self.link.path}.{point}.distance",
+                    "missing",
+                    f"Give distance = ..., or the length {form.point}{point} of the link.",
+                )
+            distance = given[0].value
+        return start + distance * _unit(end - start) * rotation(form.angle)
+
+    def _by_distances(self, point: str, form: PointForm | None) -> complex | None:
+        known = self._distances(point)
+        if len(known) < 2:
+            return None
+        (one, r1), (two, r2) = known[:2]
+        p, q = self.placed[one], self.placed[two]
+        d = abs(q - p)
+        a, b = r1.value, r2.value
+        size = max(a, b, d)
+        slack = COLLINEAR * size
+        given = f"{r1.key} = {a:g} m, {r2.key} = {b:g} m, |{one}{two}| = {d:g} m"
+        if d <= slack or d > a + b + slack or d < abs(a - b) - slack:
+            raise _ContradictionError(
+                f"{self.link.path}.{r2.key}",
+                f"the triangle {one}{two}{point} cannot be closed: {given}",
+                "Check these lengths.",
+            )
+        along = _unit(q - p)
+        if abs(a + b - d) <= slack:
+            return p + a * along
+        if abs(abs(a - b) - d) <= slack:
+            return p + (a if a > b else -a) * along
+        if form is None:
+            raise _ContradictionError(
+                f"{self.link.path}.{point}",
+                f"two places fit {given}",
+                f'Say on which side: {point}.side = "left of {one}{two}" (or right).',
+            )
+        start, end = (self.placed.get(name) for name in form.line)
+        if start is None or end is None:
+            return None
+        x = (a * a - b * b + d * d) / (2 * d)
+        y = math.sqrt(max(0.0, a * a - x * x))
+        fits = [
+            place
+            for place in (p + complex(x, y) * along, p + complex(x, -y) * along)
+            if (_across(place, start, end) > 0) == form.left
+        ]
+        if len(fits) != 1:
+            how = "both" if fits else "neither"
+            side = f"{'left' if form.left else 'right'} of {''.join(form.line)}"
+            raise _ContradictionError(
+                f"{self.link.path}.{point}.side",
+                f"{how} of the two places of {point} lie {side}",
+                f"Name the side of the line {one}{two}.",
+            )
+        return fits[0]
+
+    def _report_unplaced(self) -> None:
+        link = self.link
+        if not link.sound or self.failed:
+            return  # the cause is reported already
+        for point in link.points:
+            if point in self.placed:
+                continue
+            known = self._distances(point)
+            bases = [name for name in self.placed if name != point]
+            line = "".join(bases[:2]) if len(bases) > 1 else ""
+            example = f'{point} = {{ on = "{line}", at = ... }}' if line else ""
+            form = link.forms.get(point)
+            if form is not None and form.kind != "side":
+                self.faults.add(
+                    f"{link.path}.{point}",
+                    f"point {point} is measured from points that are not placed",
+                    "Points may not be measured from one another in a circle.",
+                )
+            elif known:
+                more = next((b for b in bases if b not in {other for other, _ in known}), None)
+                second = f"{more}{point} = ..." if more else "a second distance"
+                side = f' and {point}.side = "left of {line}"' if line else ""
+                tail = f", or use {example}" if example else ""
+                self.faults.add(
+                    f"{link.path}.points",
+                    f"point {point} is not placed: {known[0][1].key} alone is given",
+                    f"Add {second}{side}{tail}.",
+                )
+            else:
+                first = bases[0] if bases else link.points[0]
+                add = f"Add its lengths ({first}{point} = ...)"
+                tail = f" or {example}" if example else ""
+                self.faults.add(
+                    f"{link.path}.points",
+                    f"point {point} is not placed: no length leads to it from {listed(bases)}",
+                    f"{add}{tail}.",
+                )
+
+    def _in_own_axes(self) -> dict[str, complex]:
+        if self.axis is None or self.axis is self.base:
+            return self.placed
+        origin, direction = self.placed[self.axis.a], self._direction()
+        assert direction is not None
+        size = max(abs(z - origin) for z in self.placed.values())
+        turned: dict[str, complex] = {}
+        for name, place in self.placed.items():
+            z = (place - origin) * direction.conjugate()
+            # turning leaves a trace of rounding on points of the axis
+            turned[name] = complex(z.real) if abs(z.imag) <= 1e-14 * size else z
+        turned[self.axis.a] = 0j
+        turned[self.axis.b] = complex(self.axis.value)
+        return turned
+
+    def _check_lengths(self, points: dict[str, complex]) -> None:
+        for length in self.link.lengths:
+            got = abs(points[length.a] - points[length.b])
+            if abs(got - length.value) > AGREE * max(got, length.value):
+                self.faults.add(
+                    f"{self.link.path}.{length.key}",
+                    f"{length.key} = {length.value:g} m, but the other data of the link put "
+                    f"{length.a} and {length.b} {got:g} m apart",
+                    "Remove or correct one of them.",
+                )
+
+
+def _unit(vector: complex) -> complex:
+    return complex(math.copysign(1.0, vector.real)) if vector.imag == 0 else vector / abs(vector)
+
+
+def _across(place: complex, start: complex, end: complex) -> float:
+    """Signed area: positive when a place is to the left of a directed line."""
+    return ((place - start) * (end - start).conjugate()).imag

@@ -1,0 +1,334 @@
+"""Driver, assembly rules and scales of a problem file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+
+from planmethod.mechanism.model import FRAME
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    is_number,
+    read_angle,
+    read_coordinate,
+    read_keys,
+    read_known_point,
+    read_line_name,
+    read_number,
+    read_place,
+    read_table,
+    report_unknown,
+    show,
+    unmask,
+)
+from planmethod.problem.links import LinkText
+from planmethod.problem.model import Convention, Drive, Rule, Scales, Where
+from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
+
+Span = tuple[float, ...]
+
+
+def read_drive(
+    faults: Faults,
+    table: object,
+    links: Mapping[str, LinkText],
+    fixed: Collection[str],
+    hosts: Mapping[str, str],
+) -> Drive | None:
+    """Read ``[driver]``; ``hosts`` maps each slider to its host."""
+    before = len(faults)
+    given = read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
+    if given is None:
+        return None
+    given = read_keys(faults, "driver", given, keys.DRIVER)
+    # a misspelt key is told once: what it should have been is then not called missing
+    whole = len(faults) == before
+    link = _read_link(faults, given, links)
+    if link is None:
+        return None
+    pivots = [point for point in link.points if point in fixed]
+    if not pivots and hosts.get(link.name) != FRAME:
+        if link.sound:
+            faults.add(
+                "driver.link",
+                f"link {link.name} is not joined to the frame",
+                f"A driver turns about a fixed point ({listed(fixed)}) or slides on a guide of "
+                "the frame.",
+            )
+        return None
+    if pivots and hosts.get(link.name) == FRAME:
+        return None  # told among the joints: pivoted and sliding on the frame at once
+    own, other = (keys.CRANK, keys.SLIDER) if pivots else (keys.SLIDER, keys.CRANK)
+    kind = "a crank" if pivots else "a driving slider"
+    for key in given:
+        if key in other:
+            hint = f"Link {link.name} is {kind}: {listed(own)}."
+            faults.add(f"driver.{key}", f"does not go with {kind}", hint)
+    required: tuple[str, ...] = ("phi",) if pivots else ("s", "v")
+    if pivots and "n" not in given:
+        required += ("omega",)
+    for key in required:
+        if key not in given and whole:
+            faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
+    if pivots:
+        _check_crank_axis(faults, link, pivots[0])
+        positions = _read_positions(faults, given, "phi")
+        rate = _read_turning(faults, given)
+        acceleration = _read_rate(faults, given, "epsilon", "an angular acceleration in 1/s²")
+    else:
+        positions = _read_positions(faults, given, "s")
+        rate = _read_rate(faults, given, "v", "a velocity in m/s")
+        acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
+    if len(faults) != before or positions is None or rate is None or acceleration is None:
+        return None
+    return Drive(link.name, pivots[0] if pivots else None, positions, rate, acceleration)
+
+
+def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:
+    if "link" not in given:
+        faults.add("driver.link", "missing", f"Name the driving link: {listed(links)}.")
+        return None
+    value = given["link"]
+    if not isinstance(value, str):
+        hint = f'Write link = "{value}".' if isinstance(value, int) else ""
+        faults.add("driver.link", f"expected the name of a link, got {show(value)}", hint)
+        return None
+    name = value if value in links else unmask(faults, "driver.link", value)
+    if name not in links:
+        report_unknown(faults, "driver.link", name, links, noun="link")
+        return None
+    return links[name]
+
+
+def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
+    """Refuse a crank whose own axis, that phi turns, does not start at the pivot."""
+    if not link.lengths or link.slides is not None:
+        return
+    first = link.lengths[0]
+    if first.a == pivot:
+        return
+    if first.b == pivot:
+        hint = f"Write {pivot}{first.a} instead of {first.key}: from the pivot outwards."
+    else:
+        hint = f"Put first the length that starts at the pivot {pivot}."
+    faults.add(
+        f"{link.path}.{first.key}",
+        f"the own axis of the crank starts at {first.a}, phi is measured at the pivot {pivot}",
+        hint,
+    )
+
+
+def _read_positions(faults: Faults, given: Table, key: str) -> Span | None:
+    path = f"driver.{key}"
+    if key not in given:
+        return None
+    value = given[key]
+    if isinstance(value, list):
+        if not value:
+            faults.add(path, "expected at least one position, got an empty list")
+            return None
+        if _too_many(faults, path, len(value)):
+            return None
+        read = [_read_position(faults, f"{path}[{i}]", item, key) for i, item in enumerate(value)]
+        kept = [item for item in read if item is not None]
+        return tuple(kept) if len(kept) == len(read) else None
+    if isinstance(value, Mapping):
+        return _read_span(faults, path, value, key)
+    one = _read_position(faults, path, value, key)
+    return None if one is None else (one,)
+
+
+def _read_position(faults: Faults, path: str, value: object, key: str) -> float | None:
+    if not is_number(value) and not isinstance(value, str) and "[" not in path:
+        want = "a number, a list, or { from, to, step } or { from, count }"
+        faults.add(path, f"expected {want}, got {show(value)}")
+        return None
+    return read_angle(faults, path, value) if key == "phi" else read_coordinate(faults, path, value)
+
+
+def _too_many(faults: Faults, path: str, count: int) -> bool:
+    if count <= keys.POSITION_LIMIT:
+        return False
+    shown = f"{count}" if count < 10**9 else "over a billion"
+    faults.add(path, f"{shown} positions, the limit is {keys.POSITION_LIMIT}")
+    return True
+
+
+def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None:
+    """Read a row of positions: ``{ from, count }`` is a full turn."""
+    before = len(faults)
+    given = read_keys(faults, path, table, keys.SPAN)
+    if len(faults) != before:
+        return None
+    names = set(given)
+    full_turn = names == {"from", "count"} and key == "phi"
+    if not full_turn and names not in ({"from", "to", "count"}, {"from", "to", "step"}):
+        ways = "{ from, to, step } or { from, to, count }"
+        if key == "phi":
+            ways = "{ from, count } (a full turn), " + ways
+        faults.add(path, f"expected {ways}, got {{ {listed(given)} }}")
+        return None
+    start = _read_position(faults, f"{path}.from", given["from"], key)
+    end = 0.0 if full_turn else _read_position(faults, f"{path}.to", given["to"], key)
+    if "count" in given:
+        count = given["count"]
+        least = 1 if full_turn else 2
+        if not isinstance(count, int) or isinstance(count, bool) or count < least:
+            faults.add(f"{path}.count", f"expected a whole number from {least}, got {show(count)}")
+            return None
+        if _too_many(faults, f"{path}.count", count) or start is None or end is None:
+            return None
+        if full_turn:
+            return tuple(start + 360.0 * k / count for k in range(count))
+        return tuple(start + (end - start) * k / (count - 1) for k in range(count))
+    step = read_number(faults, f"{path}.step", given["step"], "a step", low=-1e6, high=1e6)
+    if start is None or end is None or step is None:
+        return None
+    if step == 0 or (end - start) / step < 0:
+        faults.add(f"{path}.step", f"the step {step:g} does not lead from {start:g} to {end:g}")
+        return None
+    # a step of 0.1 must reach its end in spite of rounding
+    last = math.floor((end - start) / step + 1e-9) if (end - start) / step < 1e9 else 10**9
+    if _too_many(faults, path, last + 1):
+        return None
+    return tuple(start + step * k for k in range(last + 1))
+
+
+def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | None:
+    """Read a rate; zero when it is not given."""
+    return read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
+
+
+def _read_turning(faults: Faults, given: Table) -> float | None:
+    """Angular velocity, 1/s, from omega or n."""
+    if "omega" in given and "n" in given:
+        faults.add("driver.n", "omega and n are both given", "Keep one of them.")
+        return None
+    if "n" in given:
+        turns = _read_rate(faults, given, "n", "a rotational speed in rev/min")
+        return None if turns is None else turns * math.pi / 30.0
+    return _read_rate(faults, given, "omega", "an angular velocity in 1/s")
+
+
+_EXAMPLES = {
+    "phi": "For example: phi = 30",
+    "s": "For example: s = 0.05",
+    "omega": "Give omega in 1/s, or n in rev/min.",
+    "v": "Give it in m/s.",
+}
+
+_POINT_WORDS = {
+    "right": Where.RIGHT,
+    "left": Where.LEFT,
+    "above": Where.ABOVE,
+    "below": Where.BELOW,
+}
+_LINE_WORDS = {"left": Where.LEFT_OF, "right": Where.RIGHT_OF}
+
+
+def read_assembly(
+    faults: Faults,
+    table: object,
+    moving: Collection[str],
+    fixed: Collection[str],
+) -> tuple[Rule, ...]:
+    """Read ``[assembly]``: one rule a point.
+
+    Parameters
+    ----------
+    moving, fixed : collection of str
+        Points of the moving links and of the frame.
+    """
+    entries = read_table(faults, "assembly", table, 'E = "right of D"')
+    if entries is None:
+        return ()
+    rules: list[Rule] = []
+    known = list(dict.fromkeys([*moving, *fixed]))
+    for key, value in entries.items():
+        path = f"assembly.{segment(key)}"
+        name = unmask(faults, path, key)
+        if name in fixed:
+            faults.add(path, f"point {name} is fixed", "Rules are for points that move.")
+            continue
+        if name not in moving:
+            report_unknown(faults, path, name, moving, noun="point")
+            continue
+        rule = _read_rule(faults, path, name, value, known)
+        if rule is not None:
+            rules.append(rule)
+    return tuple(rules)
+
+
+def _read_rule(
+    faults: Faults, path: str, point: str, value: object, known: list[str]
+) -> Rule | None:
+    if isinstance(value, Mapping):
+        given = read_keys(faults, path, value, keys.NEAR)
+        if "near" not in given:
+            faults.add(f"{path}.near", "missing", f"For example: {point} = {{ near = [0.1, 0.2] }}")
+            return None
+        at = read_place(faults, f"{path}.near", given["near"])
+        return None if at is None else Rule(point, Where.NEAR, at=at)
+    want = '"right of D", "left of CB", "above D" or { near = [x, y] }'
+    if not isinstance(value, str) or len(value) > 80:
+        faults.add(path, f"expected {want}, got {show(value)}")
+        return None
+    words = [unmask(faults, path, word) for word in value.split()]
+    if len(words) == 3 and words[1] == "of":
+        del words[1]
+    if len(words) != 2 or words[0] not in _POINT_WORDS:
+        guess = near(words[0], _POINT_WORDS) if words else None
+        hint = f"Did you mean '{guess}'?" if guess and guess != words[0] else ""
+        faults.add(path, f"expected {want}, got {show(value)}", hint)
+        return None
+    side, name = words
+    if is_point_name(name):
+        ref = read_known_point(faults, path, name, known, of="the mechanism")
+        if ref == point:
+            faults.add(path, f"{point} cannot be compared with itself")
+            return None
+        return None if ref is None else Rule(point, _POINT_WORDS[side], (ref,))
+    if split_pair(name) is None:
+        faults.add(path, f"expected {want}, got {show(value)}")
+        return None
+    line = read_line_name(faults, path, name, known, of="the mechanism")
+    if line is None:
+        return None
+    if side not in _LINE_WORDS:
+        hint = f"A point is above or below one point: {side} {line[1]}."
+        faults.add(path, f"'{side}' does not go with the line {name}", hint)
+        return None
+    if point in line:
+        faults.add(path, f"the line {name} goes through {point} itself")
+        return None
+    return Rule(point, _LINE_WORDS[side], line)
+
+
+def read_scales(faults: Faults, table: object) -> Scales:
+    """Read ``[scales]``; the result is unit per millimetre whichever convention the file has."""
+    entries = read_table(faults, "scales", table, "mu_l = 0.002")
+    if entries is None:
+        return Scales()
+    given = read_keys(faults, "scales", entries, keys.SCALES)
+    convention = Convention.UNIT_PER_MM
+    if "convention" in given:
+        value = given["convention"]
+        known = [item.value for item in Convention]
+        if value not in known:
+            names = " or ".join(f'"{item}"' for item in known)
+            faults.add("scales.convention", f"expected {names}, got {show(value)}")
+        else:
+            convention = Convention(value)
+    values: dict[str, float | None] = {}
+    for key in ("mu_l", "mu_v", "mu_a"):
+        scale = None
+        if key in given:
+            scale = read_number(
+                faults, f"scales.{key}", given[key], "a scale", low=1e-12, high=1e12, positive=True
+            )
+        if scale is not None and convention is Convention.MM_PER_UNIT:
+            scale = 1.0 / scale
+        values[key] = scale
+    return Scales(convention, **values)

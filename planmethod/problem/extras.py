@@ -1,0 +1,145 @@
+"""Title block fields, published values, and the tables that later parts read."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    read_keys,
+    read_number,
+    read_table,
+    read_text,
+    show,
+)
+from planmethod.problem.model import Published
+from planmethod.problem.names import TITLE_LIMIT, listed, near, segment
+from planmethod.problem.selector import SelectorError, parse_selector, unknown_names
+
+STAMP_LIMIT = 200
+NOTE_LIMIT = 1000
+TABLE_KEYS = ("dynamics", "loads", "gears", "point")
+
+
+def read_heading(faults: Faults, table: Mapping[str, Any], key: str) -> str:
+    """Read ``title`` or ``source``."""
+    if key not in table:
+        return ""
+    return read_text(faults, key, table[key], limit=TITLE_LIMIT) or ""
+
+
+def read_stamp(faults: Faults, table: object) -> dict[str, str]:
+    """Read ``[stamp]`` (основная надпись)."""
+    entries = read_table(faults, "stamp", table, 'author = "Иванов"') or {}
+    given = read_keys(faults, "stamp", entries, keys.STAMP)
+    stamp: dict[str, str] = {}
+    for key, value in given.items():
+        text = read_text(faults, f"stamp.{key}", value, limit=STAMP_LIMIT)
+        if text is not None:
+            stamp[key] = text
+    return stamp
+
+
+def read_published(
+    faults: Faults,
+    table: object,
+    points: Collection[str],
+    links: Collection[str],
+    positions: int,
+) -> tuple[Published, ...]:
+    """Read ``[published."name"]``.
+
+    Parameters
+    ----------
+    points, links : collection of str
+        Names that ``what`` may use (coincident points included); both empty when they are not
+        known because of other faults, and then the names are not checked.
+    positions : int
+        Number of positions of the driver; 0 when it is not known.
+    """
+    entries = read_table(faults, "published", table, '[published."v_B"] value = 3') or {}
+    if len(entries) > keys.PUBLISHED_LIMIT:
+        faults.add("published", f"{len(entries)} values, the limit is {keys.PUBLISHED_LIMIT}")
+        return ()
+    found: list[Published] = []
+    for name, entry in entries.items():
+        path = f"published.{segment(name)}"
+        body = read_table(faults, path, entry, 'value = 3, unit = "м/с", what = "v B"')
+        if read_text(faults, path, name, limit=80) is None or body is None:
+            continue
+        before = len(faults)
+        given = read_keys(faults, path, body, keys.PUBLISHED)
+        value = per_mm = None
+        if "value" in given:
+            value = read_number(
+                faults, f"{path}.value", given["value"], "a number", low=-1e12, high=1e12
+            )
+        elif len(faults) == before:
+            faults.add(f"{path}.value", "missing")
+        if "per_mm" in given:
+            per_mm = read_number(
+                faults,
+                f"{path}.per_mm",
+                given["per_mm"],
+                "a scale, unit per millimetre,",
+                low=1e-12,
+                high=1e12,
+                positive=True,
+            )
+        texts = {
+            key: read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
+            for key in ("unit", "what", "note")
+        }
+        position = _read_position(faults, f"{path}.position", given.get("position"), positions)
+        if texts["what"]:
+            _check_what(faults, f"{path}.what", texts["what"], points, links)
+        if value is not None:
+            found.append(Published(name, value, per_mm=per_mm, position=position, **texts))
+    return tuple(found)
+
+
+def _read_position(faults: Faults, path: str, value: object, positions: int) -> int | None:
+    if value is None:
+        return None
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        faults.add(path, f"expected a whole number from 0, got {show(value)}")
+        return None
+    if positions and value >= positions:
+        faults.add(path, f"position {value} of {positions}", "The first position is 0.")
+        return None
+    return value
+
+
+def _check_what(
+    faults: Faults, path: str, what: str, points: Collection[str], links: Collection[str]
+) -> None:
+    try:
+        selector = parse_selector(what)
+    except SelectorError as error:
+        faults.add(path, str(error), 'For example: "v C", "an C B", "omega 2".')
+        return
+    if not points or not links:
+        return
+    for name in unknown_names(selector, points, links):
+        guess = near(name, [*points, *links])
+        hint = f"Did you mean '{guess}'?" if guess else f"Points: {listed(points)}."
+        faults.add(path, f"the mechanism has no '{name}'", hint)
+
+
+def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:
+    """Take over the tables that later parts read, checking no more than their TOML type."""
+    found: dict[str, Any] = {}
+    for key in TABLE_KEYS:
+        if key not in table:
+            continue
+        value = table[key]
+        if key != "loads":
+            if read_table(faults, key, value) is not None:
+                found[key] = value
+        elif isinstance(value, list) and all(isinstance(item, Mapping) for item in value):
+            found[key] = value
+        else:
+            faults.add(key, f"expected tables [[loads]], got {show(value)}")
+    return found

@@ -1,0 +1,278 @@
+"""Single values of a problem file: types, bounds and the wording of their faults."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from planmethod.errors import Fault
+from planmethod.problem.names import (
+    describe_lookalikes,
+    fold,
+    is_point_name,
+    joined,
+    listed,
+    lookalikes,
+    near,
+    segment,
+    short,
+    split_pair,
+)
+
+FAULT_LIMIT = 100
+"""More faults than this are counted, not listed."""
+
+Table = Mapping[str, Any]
+
+
+class Faults:
+    """Collect the faults of a file, so that all are reported at once (сбор ошибок)."""
+
+    def __init__(self) -> None:
+        self._found: list[Fault] = []
+        self.count = 0
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __bool__(self) -> bool:
+        return self.count > 0
+
+    def add(self, path: str, message: str, hint: str = "") -> None:
+        """Note a fault; the same fault is noted once."""
+        fault = Fault(path, message, hint)
+        if fault in self._found:
+            return
+        self.count += 1
+        if self.count <= FAULT_LIMIT:
+            self._found.append(fault)
+
+    @property
+    def found(self) -> tuple[Fault, ...]:
+        """Faults in the order of finding."""
+        left = self.count - len(self._found)
+        if left <= 0:
+            return tuple(self._found)
+        return (*self._found, Fault("", f"and {left} more faults", "Mend these first."))
+
+
+def show(value: object) -> str:
+    """Describe a TOML value for a message: ``the string 'abc'``, ``the integer 3``, ``a table``."""
+    if isinstance(value, bool):
+        return f"the boolean {str(value).lower()}"
+    if isinstance(value, str):
+        return f"the string {short(value)!r}"
+    if isinstance(value, int):
+        return f"the integer {value}" if abs(value) < 10**15 else "a huge integer"
+    if isinstance(value, float):
+        return f"the number {value:g}"
+    if isinstance(value, Mapping):
+        return "a table"
+    if isinstance(value, list):
+        return f"a list of {len(value)}" if value else "an empty list"
+    return "a date or time"
+
+
+def is_number(value: object) -> bool:
+    """Whether a TOML value is a number (a boolean is not)."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _unquoted(value: object) -> str:
+    """Hint for a number that stands in quotes, perhaps with a decimal comma."""
+    if not isinstance(value, str):
+        return ""
+    text = value.strip(" °").replace(",", ".")
+    try:
+        number = float(text)
+    except ValueError:
+        return ""
+    return f"Write {text} without quotes." if math.isfinite(number) else ""
+
+
+def read_number(
+    faults: Faults,
+    path: str,
+    value: object,
+    what: str = "a number",
+    *,
+    low: float = -1e9,
+    high: float = 1e9,
+    positive: bool = False,
+) -> float | None:
+    """Read a finite number within bounds; None after noting a fault.
+
+    Parameters
+    ----------
+    what : str
+        What stands here, with its unit: ``a length in metres``.
+    positive : bool
+        Zero and negative numbers are then reported as such, before the bounds are looked at.
+    """
+    if not is_number(value):
+        faults.add(path, f"expected {what}, got {show(value)}", _unquoted(value))
+        return None
+    assert isinstance(value, int | float)
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf if value > 0 else -math.inf
+    if not math.isfinite(number):
+        faults.add(path, f"expected {what}, got {number:g}", "The number must be finite.")
+        return None
+    if positive and number <= 0:
+        faults.add(path, f"expected {what} greater than 0, got {number:g}")
+        return None
+    if not low <= number <= high:
+        faults.add(
+            path,
+            f"expected {what} from {low:g} to {high:g}, got {number:g}",
+            "Check the unit: the file is in SI units and degrees.",
+        )
+        return None
+    return number
+
+
+def read_length(faults: Faults, path: str, value: object) -> float | None:
+    """Read a length of a link, m."""
+    return read_number(faults, path, value, "a length in metres", low=1e-9, high=1e6, positive=True)
+
+
+def read_coordinate(
+    faults: Faults, path: str, value: object, what: str = "a distance in metres"
+) -> float | None:
+    """Read a coordinate or a signed distance, m."""
+    return read_number(faults, path, value, what, low=-1e6, high=1e6)
+
+
+def read_angle(faults: Faults, path: str, value: object) -> float | None:
+    """Read an angle, degrees."""
+    return read_number(faults, path, value, "an angle in degrees", low=-36000, high=36000)
+
+
+def read_text(faults: Faults, path: str, value: object, *, limit: int) -> str | None:
+    """Read a line of text without control characters."""
+    if not isinstance(value, str):
+        hint = "Put it in quotes." if is_number(value) or show(value).startswith("a date") else ""
+        faults.add(path, f"expected a string, got {show(value)}", hint)
+        return None
+    if len(value) > limit:
+        faults.add(
+            path, f"the text has {len(value)} characters, the limit is {limit}", "Shorten it."
+        )
+        return None
+    bad = next((c for c in value if ord(c) < 32 or 0x7F <= ord(c) < 0xA0), None)
+    if bad is not None:
+        faults.add(
+            path,
+            f"the text has the control character U+{ord(bad):04X}",
+            "Write it in one line, without tabs.",
+        )
+        return None
+    return value
+
+
+def read_table(faults: Faults, path: str, value: object, example: str = "") -> Table | None:
+    """Read a table."""
+    if isinstance(value, Mapping):
+        return value
+    hint = f"For example: {example}" if example else ""
+    faults.add(path, f"expected a table, got {show(value)}", hint)
+    return None
+
+
+def read_place(faults: Faults, path: str, value: object) -> complex | None:
+    """Read ``[x, y]``, m."""
+    if not isinstance(value, list) or len(value) != 2:
+        faults.add(path, f"expected [x, y] in metres, got {show(value)}")
+        return None
+    x = read_coordinate(faults, f"{path}[0]", value[0], "a coordinate in metres")
+    y = read_coordinate(faults, f"{path}[1]", value[1], "a coordinate in metres")
+    return None if x is None or y is None else complex(x, y)
+
+
+def read_keys(faults: Faults, path: str, table: Table, known: Iterable[str]) -> dict[str, Any]:
+    """Return the known keys of a table; the others are faults, with the nearest name."""
+    names = tuple(known)
+    kept: dict[str, Any] = {}
+    for key, value in table.items():
+        name = unmask(faults, joined(path, segment(key)), key) if key not in names else key
+        if name in names:
+            kept[name] = value
+            continue
+        report_unknown(faults, joined(path, segment(key)), name, names)
+    return kept
+
+
+def report_unknown(
+    faults: Faults, path: str, name: str, known: Iterable[str], *, noun: str = "key"
+) -> None:
+    """Note an unknown key or name with the nearest known one."""
+    names = tuple(known)
+    # the nearest name is searched for only while the fault will be listed
+    guess = near(name, names) if faults.count < FAULT_LIMIT else None
+    hint = f"Did you mean '{guess}'?" if guess else ""
+    if not hint and names:
+        hint = f"Known here: {listed(names)}."
+    faults.add(path, f"unknown {noun}" + (f" '{short(name)}'" if noun != "key" else ""), hint)
+
+
+def unmask(faults: Faults, path: str, name: str) -> str:
+    """Note the look-alike letters of a name and return the name that was meant."""
+    if lookalikes(name) and fold(name).isascii():
+        meant = short(fold(name))
+        faults.add(path, describe_lookalikes(name), f"Type '{meant}' in the Latin layout.")
+    return fold(name) if fold(name).isascii() else name
+
+
+def read_point_name(faults: Faults, path: str, value: object) -> str | None:
+    """Read the name of a point."""
+    if not isinstance(value, str):
+        faults.add(path, f"expected the name of a point, got {show(value)}", "Put it in quotes.")
+        return None
+    name = unmask(faults, path, value)
+    if not is_point_name(name):
+        faults.add(
+            path,
+            f"expected the name of a point, got {show(value)}",
+            "A point is a Latin letter, perhaps with digits or primes: B, O3, S2, C'.",
+        )
+        return None
+    return name
+
+
+def read_known_point(
+    faults: Faults, path: str, value: object, known: Iterable[str], *, of: str
+) -> str | None:
+    """Read the name of a point that must be one of those known; ``of`` says whose they are."""
+    name = read_point_name(faults, path, value)
+    if name is None:
+        return None
+    points = tuple(known)
+    if name not in points:
+        guess = near(name, points)
+        hint = f"Did you mean '{guess}'?" if guess else f"Its points are {listed(points)}."
+        faults.add(path, f"{of} has no point '{name}'", hint if points else "")
+        return None
+    return name
+
+
+def read_line_name(
+    faults: Faults, path: str, value: object, known: Iterable[str], *, of: str
+) -> tuple[str, str] | None:
+    """Read a line named by two points, ``BC``: from B towards C."""
+    if not isinstance(value, str):
+        faults.add(path, f'expected two points such as "BC", got {show(value)}')
+        return None
+    pair = split_pair(unmask(faults, path, value))
+    if pair is None or pair[0] == pair[1]:
+        faults.add(path, f'expected two different points such as "BC", got {show(value)}')
+        return None
+    points = tuple(known)
+    for name in pair:
+        if name not in points:
+            hint = f"Its points are {listed(points)}." if points else ""
+            faults.add(path, f"{of} has no point '{name}'", hint)
+            return None
+    return pair

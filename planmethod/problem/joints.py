@@ -1,0 +1,148 @@
+"""Who is joined with whom: the mechanism behind the points and slides, and its cross checks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import combinations
+
+from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from planmethod.problem.fields import Faults
+from planmethod.problem.links import LinkText
+from planmethod.problem.model import Slide
+from planmethod.problem.names import listed
+from planmethod.problem.slides import Frame
+
+
+def join(
+    faults: Faults,
+    frame: Frame,
+    links: Mapping[str, LinkText],
+    hosts: Mapping[str, str],
+    driver: str,
+    *,
+    complete: bool,
+) -> Mechanism:
+    """Make the joints that shared names and slides mean, and check them.
+
+    Parameters
+    ----------
+    hosts : mapping of str to str
+        Host of each slider.
+    complete : bool
+        Whether every point and slide of the file could be read: if not, a missing joint means
+        nothing.
+    """
+    members: dict[str, list[str]] = {point: [FRAME] for point in frame.points}
+    for link in links.values():
+        for point in link.points:
+            members.setdefault(point, []).append(link.name)
+    revolutes = tuple(
+        Revolute(point, tuple(names)) for point, names in members.items() if len(names) > 1
+    )
+    prismatics = tuple(
+        Prismatic(slider, host, links[slider].points[0])
+        for slider, host in hosts.items()
+        if links[slider].points
+    )
+    _refuse_doubles(faults, revolutes, prismatics)
+    if complete:
+        _check_reach(faults, links, revolutes, prismatics, driver)
+    _check_coincident(faults, members, prismatics)
+    return Mechanism(tuple(links), revolutes, prismatics, driver)
+
+
+def coincident_points(slides: Iterable[Slide]) -> list[str]:
+    """Names that points under other links' points have: ``B3`` under a pin, ``E4`` on a slider."""
+    found: list[str] = []
+    for slide in slides:
+        if slide.host != FRAME:
+            found.append(f"{slide.pin}{slide.host}")
+            if slide.through is not None:
+                found.append(f"{slide.through}{slide.slider}")
+    return found
+
+
+def _called(link: str) -> str:
+    return "the frame" if link == FRAME else f"link {link}"
+
+
+def _refuse_doubles(
+    faults: Faults, revolutes: tuple[Revolute, ...], prismatics: tuple[Prismatic, ...]
+) -> None:
+    shared: dict[tuple[str, str], list[str]] = {}
+    for joint in revolutes:
+        for pair in combinations(joint.links, 2):
+            shared.setdefault(pair, []).append(joint.point)
+    for (one, two), points in shared.items():
+        if len(points) > 1:
+            faults.add(
+                f"links.{two}.points",
+                f"{_called(one)} and link {two} share the points {' and '.join(points)}: "
+                "they make one rigid body",
+                "Two links are joined in one point; give the other points other names.",
+            )
+    for slide in prismatics:
+        pair = (slide.host, slide.slider)
+        points = shared.get(pair) or shared.get(pair[::-1]) or []
+        if points:
+            faults.add(
+                f"links.{slide.slider}.slides",
+                f"link {slide.slider} slides on {_called(slide.host)} and is pivoted to it in "
+                f"{points[0]}: they make one rigid body",
+                f"The pin of a slider is not a point of the link that carries its line; "
+                f"remove {points[0]} from one of them.",
+            )
+
+
+def _check_reach(
+    faults: Faults,
+    links: Mapping[str, LinkText],
+    revolutes: tuple[Revolute, ...],
+    prismatics: tuple[Prismatic, ...],
+    driver: str,
+) -> None:
+    touching: dict[str, list[tuple[str, ...]]] = {name: [] for name in (FRAME, *links)}
+    for joint in revolutes:
+        for name in joint.links:
+            touching[name].append(joint.links)
+    for slide in prismatics:
+        touching[slide.slider].append((slide.slider, slide.host))
+        touching[slide.host].append((slide.slider, slide.host))
+    reached = {FRAME}
+    front = [FRAME]
+    while front:
+        for group in touching[front.pop()]:
+            for name in group:
+                if name not in reached:
+                    reached.add(name)
+                    front.append(name)
+    for name, link in links.items():
+        if name not in reached:
+            faults.add(
+                link.path,
+                f"link {name} is not joined to the frame through other links",
+                "Links are joined by points of the same name and by slides: check the names "
+                f"{listed(link.points)}.",
+            )
+        elif name != driver and len(touching[name]) < 2:
+            where = next((p for p in link.points if any(j.point == p for j in revolutes)), None)
+            faults.add(
+                link.path,
+                f"link {name} has one joint only" + (f", {where}" if where else ""),
+                "It would move freely: join another of its points, or make them points of the "
+                "link it is joined to.",
+            )
+
+
+def _check_coincident(
+    faults: Faults, members: Mapping[str, list[str]], prismatics: tuple[Prismatic, ...]
+) -> None:
+    for slide in prismatics:
+        name = f"{slide.pin}{slide.host}"
+        if slide.host != FRAME and name in members:
+            faults.add(
+                f"links.{slide.slider}.slides",
+                f"the point of link {slide.host} under the pin {slide.pin} is called {name}, "
+                "and another point has this name",
+                f"Rename the point {name}.",
+            )

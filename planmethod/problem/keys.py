@@ -1,0 +1,82 @@
+"""Every key the reader knows, table by table: the docs and the schema are tested against it."""
+
+from __future__ import annotations
+
+TOP = (
+    "title",
+    "source",
+    "frame",
+    "links",
+    "driver",
+    "assembly",
+    "scales",
+    "stamp",
+    "published",
+    "variants",
+    "dynamics",
+    "loads",
+    "gears",
+    "point",
+)
+FRAME = ("guides",)
+GUIDE = ("through", "angle")
+LINK = ("points", "slides")
+SLIDES = ("on", "along", "through", "angle", "offset")
+POINT_FORMS = {
+    "side": ("side",),
+    "on": ("on", "at", "across"),
+    "from": ("from", "at", "across"),
+    "vertex": ("vertex", "ray", "angle", "distance"),
+}
+"""The key that tells how a third point is given, and the keys that go with it."""
+POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
+CRANK = ("phi", "omega", "n", "epsilon")
+SLIDER = ("s", "v", "a")
+DRIVER = ("link", *CRANK, *SLIDER)
+SPAN = ("from", "to", "step", "count")
+NEAR = ("near",)
+SCALES = ("convention", "mu_l", "mu_v", "mu_a")
+STAMP = (
+    "organisation",
+    "department",
+    "group",
+    "author",
+    "checker",
+    "t_control",
+    "norm_control",
+    "approver",
+    "designation",
+    "title",
+    "material",
+    "letter",
+    "mass",
+    "scale",
+    "sheet",
+    "sheets",
+    "date",
+)
+PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
+
+KNOWN: dict[str, tuple[str, ...]] = {
+    "top": TOP,
+    "frame": FRAME,
+    "guide": GUIDE,
+    "link": LINK,
+    "slides": SLIDES,
+    "point": POINT,
+    "driver": DRIVER,
+    "span": SPAN,
+    "near": NEAR,
+    "scales": SCALES,
+    "stamp": STAMP,
+    "published": PUBLISHED,
+}
+"""All of them by the kind of table."""
+
+POINT_LIMIT = 400
+LINK_POINT_LIMIT = 60
+LINK_KEY_LIMIT = 200
+LINK_LIMIT = 60
+POSITION_LIMIT = 10_000
+VARIANT_LIMIT = 400
+PUBLISHED_LIMIT = 1000

@@ -1,0 +1,386 @@
+"""Links of the file as written: points, lengths, third points and slides, not yet placed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from itertools import permutations
+from typing import Any
+
+from planmethod.mechanism.model import FRAME
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    is_number,
+    read_angle,
+    read_coordinate,
+    read_keys,
+    read_known_point,
+    read_length,
+    read_line_name,
+    read_point_name,
+    read_table,
+    report_unknown,
+    show,
+    unmask,
+)
+from planmethod.problem.names import (
+    NAME_LIMIT,
+    fold,
+    is_label,
+    is_point_name,
+    listed,
+    looks_latin,
+    near,
+    segment,
+    split_pair,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Length:
+    """Length key of a link: metres between two of its points."""
+
+    key: str
+    a: str
+    b: str
+    value: float
+
+    def other(self, point: str) -> str:
+        """Return the end that is not ``point``."""
+        return self.b if point == self.a else self.a
+
+
+@dataclass(frozen=True, slots=True)
+class PointForm:
+    """How a third point is given (способ задания точки).
+
+    ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
+    of, ``point`` its point; lengths in metres, ``angle`` in degrees.
+    """
+
+    kind: str
+    line: tuple[str, str] = ("", "")
+    point: str = ""
+    left: bool = True
+    at: float = 0.0
+    across: float = 0.0
+    angle: float = 0.0
+    distance: float | None = None
+
+
+@dataclass(slots=True)
+class LinkText:
+    """One link as written.
+
+    Attributes
+    ----------
+    sound : bool
+        False once a fault was noted in the link.
+    whole : bool
+        False when its points or its slide could not be read: then nothing follows from what it
+        seems to be joined to.
+    faulty : set of str
+        Points whose tables could not be read.
+    """
+
+    name: str
+    points: tuple[str, ...] = ()
+    lengths: list[Length] = field(default_factory=list)
+    forms: dict[str, PointForm] = field(default_factory=dict)
+    slides: Table | None = None
+    sound: bool = True
+    whole: bool = True
+    faulty: set[str] = field(default_factory=set)
+
+    @property
+    def path(self) -> str:
+        """Dotted path of the link."""
+        return f"links.{segment(self.name)}"
+
+    def lengths_of(self, point: str) -> list[Length]:
+        """Lengths that end in a point, in file order."""
+        return [length for length in self.lengths if point in (length.a, length.b)]
+
+
+def read_label(faults: Faults, path: str, name: str, noun: str) -> bool:
+    """Check the name of a link, a guide or a variant."""
+    if is_label(name):
+        return True
+    faults.add(
+        path,
+        f"{name[:40]!r} cannot name a {noun}",
+        f"Use letters and digits, at most {NAME_LIMIT}.",
+    )
+    return False
+
+
+def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
+    """Read ``[links.*]``, in file order."""
+    found: dict[str, LinkText] = {}
+    entries = read_table(faults, "links", table, '[links.1] points = ["A", "B"]')
+    if entries is None:
+        return found
+    if not entries:
+        faults.add("links", "there are no links", 'Add [links.1] with points = ["A", "B"].')
+    if len(entries) > keys.LINK_LIMIT:
+        faults.add("links", f"{len(entries)} links, the limit is {keys.LINK_LIMIT}")
+        return found
+    for key, value in entries.items():
+        path = f"links.{segment(key)}"
+        name = unmask(faults, path, key) if looks_latin(key) else key
+        if name == FRAME:
+            faults.add(path, "the name 0 is the frame's (стойка)", "Number the links from 1.")
+            continue
+        if not read_label(faults, path, name, "link"):
+            continue
+        if name in found:
+            faults.add(path, f"link '{name}' is given twice")
+            continue
+        body = read_table(faults, path, value, 'points = ["A", "B"]')
+        before = len(faults)
+        link = LinkText(name) if body is None else _read_link(faults, path, name, body)
+        link.sound = link.sound and body is not None and len(faults) == before
+        link.whole = link.whole and body is not None
+        found[name] = link
+    total = len({point for link in found.values() for point in link.points})
+    if total > keys.POINT_LIMIT:
+        faults.add("links", f"{total} points, the limit is {keys.POINT_LIMIT}")
+        return {}
+    return found
+
+
+def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
+    link = LinkText(name)
+    if len(table) > keys.LINK_KEY_LIMIT:
+        faults.add(path, f"{len(table)} keys in a link, the limit is {keys.LINK_KEY_LIMIT}")
+        return link
+    if "points" in table:
+        link.points, link.whole = _read_points(faults, f"{path}.points", table["points"])
+    else:
+        hint = f"Write points = [...] with the names of its points{_seen_points(table)}."
+        faults.add(f"{path}.points", "missing", hint)
+        link.whole = False
+    for key, value in table.items():
+        where = f"{path}.{segment(key)}"
+        if key == "points":
+            continue
+        if key == "slides":
+            link.slides = read_table(faults, where, value, 'slides = { on = "x-x" }')
+            if link.slides is None:
+                link.slides = {}  # the link stays a slider: fewer follow-up faults
+                link.whole = False
+            continue
+        plain = unmask(faults, where, key)
+        if is_number(value):
+            _read_length_key(faults, where, plain, value, link)
+        elif isinstance(value, dict) and is_point_name(plain):
+            before = len(faults)
+            _read_form(faults, where, plain, value, link)
+            if len(faults) != before:
+                link.faulty.add(plain)
+        else:
+            _report_odd_key(faults, where, plain, value, link)
+    return link
+
+
+def _seen_points(table: Table) -> str:
+    pairs = [pair for key in table if (pair := split_pair(fold(key)))]
+    points = list(dict.fromkeys(point for pair in pairs for point in pair))
+    return f" ({listed(points)})" if points else ""
+
+
+def _read_points(faults: Faults, path: str, value: object) -> tuple[tuple[str, ...], bool]:
+    """Names of the points, and whether all of them could be read."""
+    if not isinstance(value, list) or not value:
+        hint = 'For example: points = ["A", "B"]'
+        faults.add(path, f"expected a list of point names, got {show(value)}", hint)
+        return (), False
+    if len(value) > keys.LINK_POINT_LIMIT:
+        faults.add(path, f"{len(value)} points in a link, the limit is {keys.LINK_POINT_LIMIT}")
+        return (), False
+    points: list[str] = []
+    whole = True
+    for index, item in enumerate(value):
+        name = read_point_name(faults, f"{path}[{index}]", item)
+        if name is None:
+            whole = False
+        elif name in points:
+            faults.add(f"{path}[{index}]", f"point '{name}' is listed twice")
+        else:
+            points.append(name)
+    return tuple(points), whole
+
+
+def _pair_names(points: Iterable[str]) -> list[str]:
+    return [a + b for a, b in permutations(points, 2)]
+
+
+def _read_length_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:
+    pair = split_pair(key)
+    if pair is None:
+        guess = near(key, (*keys.LINK, *_pair_names(link.points)))
+        example = "".join(link.points[:2]) if len(link.points) > 1 else "AB"
+        hint = f"A length has the names of its two points: {example}."
+        faults.add(path, "unknown key", f"Did you mean '{guess}'?" if guess else hint)
+        return
+    strangers = [point for point in dict.fromkeys(pair) if point not in link.points]
+    if strangers:
+        if link.whole:
+            names = " and ".join(f"'{point}'" for point in strangers)
+            adds = ", ".join(f'"{point}"' for point in strangers)
+            faults.add(
+                path,
+                f"link {link.name} has no point {names}",
+                f"Its points are {listed(link.points)}; add {adds} to {link.path}.points "
+                "or correct the name.",
+            )
+        return
+    if pair[0] == pair[1]:
+        faults.add(path, "a length is between two different points")
+        return
+    twin = next((known for known in link.lengths if {known.a, known.b} == set(pair)), None)
+    if twin is not None:
+        faults.add(path, f"the same length as {twin.key}", "Keep one of them.")
+        return
+    length = read_length(faults, path, value)
+    if length is not None:
+        link.lengths.append(Length(key, *pair, length))
+
+
+def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:
+    if split_pair(key) is not None:
+        read_length(faults, path, value)
+    elif is_point_name(key):
+        link.faulty.add(key)
+        hint = f'For example: {key} = {{ on = "{"".join(link.points[:2]) or "BC"}", at = 0.1 }}'
+        faults.add(path, f"expected a table that places the point, got {show(value)}", hint)
+    else:
+        report_unknown(faults, path, key, (*keys.LINK, *_pair_names(link.points)))
+
+
+def _read_form(faults: Faults, path: str, point: str, value: Table, link: LinkText) -> None:
+    if point not in link.points:
+        if not link.whole:
+            return  # it may be the name that could not be read
+        faults.add(
+            path,
+            f"link {link.name} has no point '{point}'",
+            f'Add "{point}" to {link.path}.points or correct the name.',
+        )
+        return
+    table = read_keys(faults, path, value, keys.POINT)
+    kinds = [kind for kind in keys.POINT_FORMS if kind in table]
+    if len(kinds) != 1:
+        got = f"got {' and '.join(kinds)}" if kinds else "got none of them"
+        hint = f'For example: {point} = {{ on = "BC", at = 0.1, across = 0 }}'
+        faults.add(path, f"expected one of side, on, from, vertex, {got}", hint)
+        return
+    (kind,) = kinds
+    allowed = keys.POINT_FORMS[kind]
+    for key in table:
+        if key not in allowed:
+            hint = f"With '{kind}' go {listed(allowed)}."
+            faults.add(f"{path}.{key}", f"does not go with '{kind}'", hint)
+    form = _FORM_READERS[kind](faults, path, point, table, link)
+    if form is not None:
+        link.forms[point] = form
+
+
+def _owner(link: LinkText) -> str:
+    return f"link {link.name}"
+
+
+def _need(faults: Faults, path: str, table: Table, *names: str) -> bool:
+    missing = [name for name in names if name not in table]
+    for name in missing:
+        faults.add(f"{path}.{name}", "missing")
+    return not missing
+
+
+def _read_side(
+    faults: Faults, path: str, point: str, table: Table, link: LinkText
+) -> PointForm | None:
+    value = table["side"]
+    where = f"{path}.side"
+    words = value.split() if isinstance(value, str) else []
+    words = [unmask(faults, where, word) for word in words]
+    if len(words) != 3 or words[0] not in ("left", "right") or words[1] != "of":
+        faults.add(where, f'expected "left of BC" or "right of BC", got {show(value)}')
+        return None
+    line = read_line_name(faults, where, words[2], link.points, of=_owner(link))
+    if line is None:
+        return None
+    if point in line:
+        faults.add(where, f"the line {words[2]} goes through {point} itself")
+        return None
+    return PointForm("side", line=line, left=words[0] == "left")
+
+
+def _read_along(faults: Faults, path: str, table: Table) -> tuple[float, float] | None:
+    if not _need(faults, path, table, "at"):
+        return None
+    at = read_coordinate(faults, f"{path}.at", table["at"])
+    across = read_coordinate(faults, f"{path}.across", table.get("across", 0.0))
+    return None if at is None or across is None else (at, across)
+
+
+def _read_on(
+    faults: Faults, path: str, point: str, table: Table, link: LinkText
+) -> PointForm | None:
+    line = read_line_name(faults, f"{path}.on", table["on"], link.points, of=_owner(link))
+    along = _read_along(faults, path, table)
+    if line is None or along is None:
+        return None
+    if point in line:
+        faults.add(f"{path}.on", f"the line {''.join(line)} is named by {point} itself")
+        return None
+    return PointForm("on", line=line, at=along[0], across=along[1])
+
+
+def _read_from(
+    faults: Faults, path: str, point: str, table: Table, link: LinkText
+) -> PointForm | None:
+    start = read_known_point(faults, f"{path}.from", table["from"], link.points, of=_owner(link))
+    along = _read_along(faults, path, table)
+    if start is None or along is None:
+        return None
+    if start == point:
+        faults.add(f"{path}.from", f"{point} cannot be measured from itself")
+        return None
+    return PointForm("from", point=start, at=along[0], across=along[1])
+
+
+def _read_vertex(
+    faults: Faults, path: str, point: str, table: Table, link: LinkText
+) -> PointForm | None:
+    vertex = read_known_point(
+        faults, f"{path}.vertex", table["vertex"], link.points, of=_owner(link)
+    )
+    if not _need(faults, path, table, "ray", "angle"):
+        return None
+    ray = read_line_name(faults, f"{path}.ray", table["ray"], link.points, of=_owner(link))
+    angle = read_angle(faults, f"{path}.angle", table["angle"])
+    distance: Any = table.get("distance")
+    if distance is not None:
+        distance = read_length(faults, f"{path}.distance", distance)
+        if distance is None:
+            return None
+    if vertex is None or ray is None or angle is None:
+        return None
+    if ray[0] != vertex or point in ray:
+        faults.add(
+            f"{path}.ray",
+            f"expected a ray from {vertex} to another point of the link, got '{''.join(ray)}'",
+        )
+        return None
+    return PointForm("vertex", point=vertex, line=ray, angle=angle, distance=distance)
+
+
+_FORM_READERS = {
+    "side": _read_side,
+    "on": _read_on,
+    "from": _read_from,
+    "vertex": _read_vertex,
+}

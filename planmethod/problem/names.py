@@ -1,0 +1,127 @@
+"""Names of points, links, guides and variants: what they may be and how they are confused.
+
+Point names are a Latin (or unmistakably Greek) letter with digits and primes, so a pair of names
+written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+POINT_NAME_LIMIT = 8
+NAME_LIMIT = 24
+TITLE_LIMIT = 300
+
+LOOKALIKES: dict[str, str] = {
+    **dict(zip("АВЕКМНОРСТУХІЈЅаекорсухіјѕһԛԝ", "ABEKMHOPCTYXIJSaekopcyxijshqw", strict=True)),
+    **dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABEZHIKMNOPTYXo", strict=True)),
+    "З": "3",
+    "′": "'",
+    "’": "'",
+}
+"""Letters that look like a Latin letter (or a digit) and are not; primes are made equal."""
+
+_PRIMES = "'′’"
+_FOLD = str.maketrans(LOOKALIKES)
+_LETTER = r"[A-Za-zΓΔΘΛΞΠΣΦΨΩα-νξπ-ω]"
+_POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
+_POINT_RE = re.compile(rf"{_POINT}\Z")
+_PAIR_RE = re.compile(rf"({_POINT})({_POINT})\Z")
+_LABEL_RE = re.compile(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
+
+
+def fold(text: str) -> str:
+    """Replace every look-alike letter by the Latin one (and any prime by the straight one)."""
+    return text.translate(_FOLD)
+
+
+def lookalikes(text: str) -> tuple[str, ...]:
+    """Look-alike letters of a text, each once, in order (буквы-двойники)."""
+    return tuple(dict.fromkeys(c for c in text if c in LOOKALIKES and c not in _PRIMES))
+
+
+def alphabet(letter: str) -> str:
+    """Name of the alphabet of a look-alike letter."""
+    return "Greek" if "Ͱ" <= letter <= "Ͽ" else "Cyrillic"
+
+
+def describe_lookalikes(text: str) -> str:
+    """Say which letters of a name are not Latin: the message of a fault."""
+    letters = lookalikes(text)
+    first = letters[0]
+    parts = [f"the {alphabet(c)} letter {c} (U+{ord(c):04X})" for c in letters]
+    wanted = ", ".join(f"'{LOOKALIKES[c]}'" for c in letters)
+    kind = "digit" if LOOKALIKES[first].isdigit() else "Latin letter"
+    plural = "s" if len(letters) > 1 else ""
+    verb = "is" if text == first else "has"
+    return f"'{short(text)}' {verb} {' and '.join(parts)}, expected the {kind}{plural} {wanted}"
+
+
+def is_point_name(text: str) -> bool:
+    """Whether a text (already folded) may name a point."""
+    return len(text) <= POINT_NAME_LIMIT and _POINT_RE.match(text) is not None
+
+
+def split_pair(text: str) -> tuple[str, str] | None:
+    """Split two point names written together, ``O3A`` into ``O3`` and ``A``; None if they are not.
+
+    Examples
+    --------
+    >>> split_pair("CS3")
+    ('C', 'S3')
+    """
+    match = _PAIR_RE.match(text)
+    return (match.group(1), match.group(2)) if match else None
+
+
+def is_label(text: str) -> bool:
+    """Whether a text may name a link, a guide or a variant: letters and digits of any alphabet."""
+    return 0 < len(text) <= NAME_LIMIT and _LABEL_RE.match(text) is not None
+
+
+def looks_latin(text: str) -> bool:
+    """Whether a name would be Latin throughout but for look-alikes: ``2а``, ``у-у``.
+
+    A word such as ``шатун`` has letters that cannot be taken for Latin ones and is left alone.
+    """
+    return bool(lookalikes(text)) and fold(text).isascii()
+
+
+def near(name: str, known: Iterable[str]) -> str | None:
+    """Nearest of the known names, or None when none is near (ближайшее имя)."""
+    from difflib import get_close_matches
+
+    choices = list(dict.fromkeys(known))
+    folded = fold(name).casefold()
+    for choice in choices:
+        if choice.casefold() == folded:
+            return choice
+    found = get_close_matches(fold(name), choices, 1, 0.6)
+    return found[0] if found else None
+
+
+def listed(names: Iterable[str], *, limit: int = 12) -> str:
+    """Names in one line for a message, cut when there are many."""
+    every = list(names)
+    text = ", ".join(every[:limit])
+    return f"{text}, ... ({len(every)} in all)" if len(every) > limit else text
+
+
+def short(text: str, limit: int = 40) -> str:
+    """Cut a stranger's text to a length that a message can carry."""
+    return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
+def segment(key: str) -> str:
+    """One part of a dotted path, in quotes unless it is letters and digits."""
+    shown = short(key, 60)
+    if shown and all(c.isalnum() or c in "_-'′" for c in shown):
+        return shown
+    plain = (c if c.isprintable() and c not in '"\\' else f"\\u{ord(c):04x}" for c in shown)
+    return '"' + "".join(plain) + '"'
+
+
+def joined(*parts: str) -> str:
+    """Dotted path of keys; empty parts are left out."""
+    return ".".join(part for part in parts if part)

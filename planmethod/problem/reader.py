@@ -1,0 +1,281 @@
+"""Read a problem file: every part in turn, all faults at once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.mechanism.model import FRAME
+from planmethod.problem import keys
+from planmethod.problem.bodies import place_points
+from planmethod.problem.drive import read_assembly, read_drive, read_scales
+from planmethod.problem.extras import read_heading, read_published, read_stamp, read_tables
+from planmethod.problem.fields import Faults, read_keys
+from planmethod.problem.joints import coincident_points, join
+from planmethod.problem.links import LinkText, read_links
+from planmethod.problem.model import Body, Problem, Slide
+from planmethod.problem.names import fold, listed, near
+from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
+from planmethod.problem.source import parse, read_source
+from planmethod.problem.variants import apply_variant, read_variants
+
+
+def load(path: str | Path, *, variant: str | None = None) -> Problem:
+    """Read a problem file (файл задачи).
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML file as ``docs/problem-file.md`` describes it.
+    variant : str, optional
+        Name of a ``[variants]`` table to lay over the main part.
+
+    Raises
+    ------
+    ProblemError
+        With every fault of the file: path, what was expected, what came, the next action.
+    """
+    path = Path(path)
+    table = parse(read_source(path), name=str(path))
+    return read_parsed(table, source=str(path), name=path.stem, variant=variant)
+
+
+def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
+    """Read a problem from a text; ``name`` stands for the stem of the file."""
+    return read_parsed(parse(text, name=name), source=name, name=name, variant=variant)
+
+
+def variant_names(path: str | Path) -> tuple[str, ...]:
+    """Return the names of the variants of a file, in file order.
+
+    Raises
+    ------
+    ProblemError
+        The file cannot be read, or its variants are faulty.
+    """
+    path = Path(path)
+    table = parse(read_source(path), name=str(path))
+    faults = Faults()
+    names = tuple(read_variants(faults, table))
+    if faults:
+        raise ProblemError(str(path), faults.found)
+    return names
+
+
+def read_parsed(
+    table: Mapping[str, Any], *, source: str, name: str, variant: str | None = None
+) -> Problem:
+    """Read a problem from what TOML made of its text.
+
+    Parameters
+    ----------
+    source : str
+        What messages call the file.
+    name : str
+        Name of the problem.
+
+    Raises
+    ------
+    ProblemError
+    """
+    faults = Faults()
+    variants = read_variants(faults, table)
+    if variant is not None:
+        if variant not in variants:
+            raise ProblemError(source, [*faults.found, _unknown_variant(variant, variants)])
+        table = apply_variant(table, variants[variant])
+    problem = _read_parts(faults, table, name)
+    if faults or problem is None:
+        raise ProblemError(source, faults.found)
+    return _with_variants(problem, tuple(variants), variant)
+
+
+def _unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
+    if not known:
+        return Fault("variants", f"there is no variant '{variant}'", "The file has no variants.")
+    guess = near(variant, known) or next((k for k in known if fold(k) == fold(variant)), None)
+    hint = f"Did you mean '{guess}'?" if guess else f"There are {listed(known)}."
+    if guess and fold(guess) == fold(variant):
+        hint = f"Did you mean '{guess}' in the other layout (Russian or Latin)?"
+    return Fault("variants", f"there is no variant '{variant}'", hint)
+
+
+def _with_variants(problem: Problem, names: tuple[str, ...], variant: str | None) -> Problem:
+    from dataclasses import replace
+
+    return replace(problem, variants=names, variant=variant)
+
+
+def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem | None:
+    given = read_keys(faults, "", table, keys.TOP)
+    title = read_heading(faults, given, "title")
+    source = read_heading(faults, given, "source")
+    stamp = read_stamp(faults, given.get("stamp", {}))
+    scales = read_scales(faults, given.get("scales", {}))
+    tables = read_tables(faults, given)
+    if "links" not in given:
+        _report_no_links(faults, given)
+        read_frame(faults, given.get("frame", {}))
+        return None
+    for key in ("frame", "driver"):
+        if key not in given:
+            faults.add(key, "missing", _MISSING[key])
+    frame = read_frame(faults, given.get("frame", {}))
+    links = read_links(faults, given["links"])
+    if "frame" not in given:
+        return None
+    for guide in frame.guides:
+        if guide in links:
+            hint = "Rename the guide, for instance x-x."
+            faults.add(f"frame.guides.{guide}", f"link {guide} has the same name", hint)
+    hosts, guides = _find_hosts(faults, links, frame)
+    bodies = _place(faults, links, frame, hosts)
+    slides = _read_slides(faults, links, frame, hosts, guides, bodies)
+    drive = None
+    if "driver" in given and links:
+        drive = read_drive(faults, given["driver"], links, frame.points, hosts)
+    driver = drive.link if drive else str(_driver_name(given))
+    complete = (
+        bool(links)
+        and frame.sound
+        and len(links) == len(given["links"])
+        and all(link.whole for link in links.values())
+    )
+    mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
+    moving = [p for link in links.values() for p in link.points if p not in frame.points]
+    moving = list(dict.fromkeys(moving))
+    assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
+    points = [*frame.points, *moving, *coincident_points(slides.values())]
+    published = read_published(
+        faults,
+        given.get("published", {}),
+        () if faults else points,
+        () if faults else tuple(links),
+        len(drive.positions) if drive else 0,
+    )
+    if faults or drive is None or mechanism is None:
+        assert faults, "a part was left out without a word"
+        return None
+    return Problem(
+        name=name,
+        title=title,
+        source=source,
+        mechanism=mechanism,
+        bodies=bodies,
+        slides={link: slides[link] for link in links if link in slides},
+        drive=drive,
+        lengths=tuple(
+            (link.name, length.key, length.value)
+            for link in links.values()
+            for length in link.lengths
+        ),
+        guides=frame.guides,
+        assembly=assembly,
+        scales=scales,
+        stamp=stamp,
+        published=published,
+        tables=tables,
+    )
+
+
+_MISSING = {
+    "frame": "Give the fixed points: [frame] A = [0, 0].",
+    "driver": 'Give the driving link: [driver] link = "1", phi = 20, omega = 50.',
+}
+
+
+def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
+    for key, what in (("gears", "a gear train"), ("point", "a moving point")):
+        if key in given:
+            faults.add(
+                "links",
+                f"missing: the file describes {what} ([{key}]), not a linkage",
+                "Plans of a linkage need [frame], [links] and [driver].",
+            )
+            return
+    faults.add("links", "missing", 'Give the links: [links.1] points = ["A", "B"], AB = 0.1.')
+
+
+def _driver_name(given: Mapping[str, Any]) -> object:
+    driver = given.get("driver")
+    return driver.get("link") if isinstance(driver, Mapping) else None
+
+
+def _find_hosts(
+    faults: Faults, links: Mapping[str, LinkText], frame: Frame
+) -> tuple[dict[str, str], dict[str, str | None]]:
+    """Host of every slider, and its guide where the host is the frame."""
+    hosts: dict[str, str] = {}
+    guides: dict[str, str | None] = {}
+    for name, link in links.items():
+        if link.slides is None:
+            continue
+        found = find_host(faults, link, links, frame)
+        if found is None:
+            link.sound = link.whole = False
+            continue
+        hosts[name], guides[name] = found
+    return hosts, guides
+
+
+def _place(
+    faults: Faults, links: Mapping[str, LinkText], frame: Frame, hosts: Mapping[str, str]
+) -> dict[str, Body]:
+    bodies = {FRAME: Body(dict(frame.points), None)}
+    carriers = set(hosts.values())
+    for name, link in links.items():
+        alone = len(link.points) == 1 and link.slides is None
+        if alone and name not in carriers and link.sound:
+            faults.add(
+                link.path,
+                f"link {name} has one point and neither slides nor carries a slide",
+                "List its second point, or give slides = { on = ... }.",
+            )
+            link.sound = link.whole = False
+            continue
+        body = place_points(faults, link)
+        if body is not None:
+            bodies[name] = body
+    return bodies
+
+
+def _read_slides(
+    faults: Faults,
+    links: Mapping[str, LinkText],
+    frame: Frame,
+    hosts: Mapping[str, str],
+    guides: Mapping[str, str | None],
+    bodies: Mapping[str, Body],
+) -> dict[str, Slide]:
+    slides: dict[str, Slide] = {}
+    turns: dict[str, float | None] = {FRAME: 0.0}
+    first: dict[str, str] = {}
+    for slider, host in hosts.items():
+        first.setdefault(host, slider)
+    for slider in order_hosts(faults, hosts):
+        host = hosts[slider]
+        turn = turns.get(host)
+        body = bodies.get(host) or _stand_in(links[host])
+        free = host != FRAME and host not in hosts and body.axis is None
+        slide = read_slide(
+            faults,
+            links[slider],
+            host,
+            guides[slider],
+            body,
+            frame,
+            turn=turn,
+            bare=free and first[host] == slider,
+        )
+        if slide is not None and host in bodies:
+            slides[slider] = slide
+            turns[slider] = None if turn is None else turn + slide.angle
+    return slides
+
+
+def _stand_in(link: LinkText) -> Body:
+    """Body of a link that could not be placed: its names are known, so slides can be checked."""
+    points = {point: complex(place) for place, point in enumerate(link.points)}
+    return Body(points, ("", "") if len(points) > 1 else None)

@@ -1,0 +1,265 @@
+"""Prismatic pairs: guides of the frame and lines carried by links."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from planmethod.mechanism.model import FRAME
+from planmethod.problem import keys
+from planmethod.problem.bodies import heading
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    read_angle,
+    read_coordinate,
+    read_keys,
+    read_known_point,
+    read_line_name,
+    read_place,
+    read_point_name,
+    read_table,
+    report_unknown,
+    show,
+    unmask,
+)
+from planmethod.problem.links import LinkText, read_label
+from planmethod.problem.model import Body, Slide
+from planmethod.problem.names import looks_latin, segment
+
+Guide = tuple[str | None, complex, float]
+"""Name of the fixed point (or None), base in m, angle in degrees."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """Fixed points, m, and guides of the frame (стойка)."""
+
+    points: Mapping[str, complex]
+    guides: Mapping[str, Guide]
+    sound: bool = True
+
+
+def read_frame(faults: Faults, table: object) -> Frame:
+    """Read ``[frame]``."""
+    before = len(faults)
+    points: dict[str, complex] = {}
+    entries = read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
+    if len(entries) > keys.POINT_LIMIT:
+        faults.add("frame", f"{len(entries)} points, the limit is {keys.POINT_LIMIT}")
+        return Frame({}, {}, sound=False)
+    rest: object = {}
+    for key, value in entries.items():
+        if key == "guides":
+            rest = value
+            continue
+        path = f"frame.{segment(key)}"
+        if isinstance(value, Mapping):
+            report_unknown(faults, path, key, keys.FRAME)
+            continue
+        name = read_point_name(faults, path, key)
+        place = read_place(faults, path, value)
+        if name is not None and name in points:
+            faults.add(path, f"point '{name}' is given twice")
+        elif name is not None:
+            # a point with a faulty place is still a point: others may name it
+            points[name] = 0j if place is None else place
+    guides = _read_guides(faults, rest, points)
+    return Frame(points, guides, sound=len(faults) == before)
+
+
+def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -> dict[str, Guide]:
+    example = 'guides.x-x = { through = "A", angle = 0 }'
+    entries = read_table(faults, "frame.guides", table, example) or {}
+    guides: dict[str, Guide] = {}
+    if len(entries) > keys.POINT_LIMIT:
+        faults.add("frame.guides", f"{len(entries)} guides, the limit is {keys.POINT_LIMIT}")
+        return guides
+    for key, value in entries.items():
+        path = f"frame.guides.{segment(key)}"
+        name = unmask(faults, path, key) if looks_latin(key) else key
+        if not read_label(faults, path, name, "guide"):
+            continue
+        guides[name] = (None, 0j, 0.0)
+        body = read_table(faults, path, value, example)
+        if body is None:
+            continue
+        given = read_keys(faults, path, body, keys.GUIDE)
+        for missing in (key for key in keys.GUIDE if key not in given):
+            faults.add(f"{path}.{missing}", "missing", f"For example: {example}")
+        through: str | None = None
+        base: complex | None = 0j
+        if isinstance(given.get("through"), str):
+            through = read_known_point(
+                faults, f"{path}.through", given["through"], points, of="the frame"
+            )
+            base = points.get(through, 0j) if through else None
+        elif "through" in given:
+            base = read_place(faults, f"{path}.through", given["through"])
+        angle = read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
+        if base is not None and angle is not None:
+            guides[name] = (through, base, angle)
+    return guides
+
+
+def find_host(
+    faults: Faults, link: LinkText, links: Mapping[str, LinkText], frame: Frame
+) -> tuple[str, str | None] | None:
+    """Return the host of a slider and the guide it is on, if it is a guide."""
+    assert link.slides is not None
+    path = f"{link.path}.slides"
+    known = (*frame.guides, *(name for name in links if name != link.name))
+    before = len(faults)
+    link.slides = read_keys(faults, path, link.slides, keys.SLIDES)
+    if "on" not in link.slides:
+        if link.sound and len(faults) == before:
+            faults.add(f"{path}.on", "missing", "Name a guide of the frame or a link.")
+        return None
+    value = link.slides["on"]
+    if not isinstance(value, str):
+        hint = f'Write on = "{value}".' if isinstance(value, int) else ""
+        faults.add(f"{path}.on", f"expected the name of a guide or link, got {show(value)}", hint)
+        return None
+    name = value if value in known else unmask(faults, f"{path}.on", value)
+    if name in frame.guides:
+        return FRAME, name
+    if name == FRAME:
+        return FRAME, None
+    if name == link.name:
+        faults.add(f"{path}.on", f"link {name} cannot slide on itself")
+        return None
+    if name not in links:
+        report_unknown(faults, f"{path}.on", name, known, noun="guide or link")
+        return None
+    return name, None
+
+
+def order_hosts(faults: Faults, hosts: Mapping[str, str]) -> list[str]:
+    """Sliders in an order in which every host comes before what slides on it.
+
+    ``hosts`` maps each slider to its host. A circle of sliders is a fault.
+    """
+    ordered: list[str] = []
+    for start in hosts:
+        chain: list[str] = []
+        link = start
+        while link in hosts and link not in ordered and link not in chain:
+            chain.append(link)
+            link = hosts[link]
+        if link in chain:
+            circle = chain[chain.index(link) :]
+            if start == min(circle, key=list(hosts).index):
+                names = " on ".join([*circle, circle[0]])
+                faults.add(
+                    f"links.{segment(start)}.slides.on",
+                    f"links slide in a circle: {names}",
+                    "One of them must carry the line without sliding itself.",
+                )
+            continue
+        ordered.extend(reversed(chain))
+    return ordered
+
+
+def read_slide(
+    faults: Faults,
+    link: LinkText,
+    host: str,
+    guide: str | None,
+    body: Body,
+    frame: Frame,
+    *,
+    turn: float | None,
+    bare: bool,
+) -> Slide | None:
+    """Read the line of one prismatic pair.
+
+    Parameters
+    ----------
+    body : Body
+        The host's points (the fixed points when the host is the frame).
+    turn : float or None, degrees
+        Direction of the host's own axis from +x when the host only translates, else None.
+    bare : bool
+        Whether this line is itself the host's own axis.
+    """
+    assert link.slides is not None
+    path = f"{link.path}.slides"
+    before = len(faults)
+    given = link.slides
+    offset = read_coordinate(faults, f"{path}.offset", given.get("offset", 0.0)) or 0.0
+    if not link.points:
+        return None
+    pin = link.points[0]
+    if guide is not None:
+        for key in ("along", "through", "angle"):
+            if key in given:
+                hint = f"The line is given in frame.guides.{guide}."
+                faults.add(f"{path}.{key}", f"does not go with the guide '{guide}'", hint)
+        fixed, base, direction = frame.guides[guide]
+        slide = Slide(link.name, FRAME, pin, base, direction, offset, guide, fixed)
+        return slide if len(faults) == before else None
+    owner = "the frame" if host == FRAME else f"link {host}"
+    if "along" in given:
+        for key in ("through", "angle"):
+            if key in given:
+                hint = "The line is given by along, or by through and angle."
+                faults.add(f"{path}.{key}", "does not go with 'along'", hint)
+        line = read_line_name(faults, f"{path}.along", given["along"], body.points, of=owner)
+        if line is None or len(faults) != before:
+            return None
+        start, end = body.points[line[0]], body.points[line[1]]
+        if start == end:
+            faults.add(f"{path}.along", f"{line[0]} and {line[1]} are one place")
+            return None
+        along = heading(end - start)
+        return Slide(link.name, host, pin, start, along, offset, "".join(line), *line)
+    through = _read_through(faults, path, given, body, owner)
+    if "through" not in given:
+        return None
+    angle = _read_slide_angle(faults, path, given, host, turn=turn, bare=bare)
+    if through is None or angle is None or len(faults) != before:
+        return None
+    return Slide(link.name, host, pin, body.points[through], angle, offset, through, through)
+
+
+def _read_through(faults: Faults, path: str, given: Table, body: Body, owner: str) -> str | None:
+    if "through" not in given:
+        points = list(body.points)
+        pair = "".join(points[:2]) if len(points) > 1 else ""
+        ways = [f'along = "{pair}"'] if pair else []
+        ways += [f'through = "{points[0]}", angle = 0'] if points else []
+        faults.add(
+            path, f"no line of {owner} is named", f"Add {' or '.join(ways)}." if ways else ""
+        )
+        return None
+    return read_known_point(faults, f"{path}.through", given["through"], body.points, of=owner)
+
+
+def _read_slide_angle(
+    faults: Faults, path: str, given: Table, host: str, *, turn: float | None, bare: bool
+) -> float | None:
+    """Angle of the line from the host's own axis, degrees."""
+    if "angle" not in given:
+        if bare:
+            return 0.0
+        axis = "+x" if turn is not None else f"the own axis of link {host}"
+        faults.add(f"{path}.angle", "missing", f"Give it in degrees from {axis}.")
+        return None
+    angle = read_angle(faults, f"{path}.angle", given["angle"])
+    if angle is None:
+        return None
+    if bare and angle != 0:
+        faults.add(
+            f"{path}.angle",
+            f"expected 0 or nothing, got {angle:g}",
+            f"Link {host} has no other axis than the line it carries.",
+        )
+        return None
+    # the file counts from +x where the host cannot turn: that is what the figure shows
+    return angle if turn is None else _principal(angle - turn)
+
+
+def _principal(angle: float) -> float:
+    """Angle brought into (-180, 180] degrees."""
+    turned = angle % 360.0
+    return turned - 360.0 if turned > 180.0 else turned

@@ -1,0 +1,201 @@
+"""From a file or a text to the table that TOML makes of it, within bounds."""
+
+from __future__ import annotations
+
+import re
+import stat
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.problem.names import describe_lookalikes, fold, looks_latin
+
+SIZE_LIMIT = 256 * 1024
+LINE_LIMIT = 8192
+DOT_LIMIT = 64
+DEPTH_LIMIT = 12
+
+_WHERE_RE = re.compile(
+    r"^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$", re.S
+)
+# the parser's time grows with the square of the parts of a key
+_DOTS_RE = re.compile(rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}")
+_BOMS = (
+    (b"\xff\xfe", "UTF-16"),
+    (b"\xfe\xff", "UTF-16"),
+)
+
+
+def read_source(path: Path) -> str:
+    """Return the text of a problem file.
+
+    Raises
+    ------
+    ProblemError
+        The file cannot be read, is too large, or is not UTF-8.
+    """
+    name = str(path)
+    try:
+        mode = path.stat().st_mode
+        if stat.S_ISDIR(mode):
+            raise _fail(name, "this is a directory", "Name the problem file itself, *.toml.")
+        if not stat.S_ISREG(mode):
+            raise _fail(name, "this is not an ordinary file", "Name a problem file, *.toml.")
+        with path.open("rb") as stream:
+            data = stream.read(SIZE_LIMIT + 1)
+    except FileNotFoundError:
+        raise _fail(name, "there is no such file", _nearby(path)) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise _fail(
+            name, f"the file cannot be read: {reason}", "Check the path and rights."
+        ) from None
+    if len(data) > SIZE_LIMIT:
+        raise _too_large(name)
+    for mark, encoding in _BOMS:
+        if data.startswith(mark):
+            raise _fail(name, f"the file is in {encoding}, expected UTF-8", "Save it as UTF-8.")
+    if data.startswith(b"\xef\xbb\xbf"):
+        raise _fail(name, *_BOM_FAULT)
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise _fail(
+            name,
+            f"line {line}: byte 0x{data[error.start]:02X} is not UTF-8",
+            "Save the file as UTF-8; Russian text is often saved as Windows-1251 by mistake.",
+        ) from None
+
+
+def parse(text: str, *, name: str) -> dict[str, Any]:
+    """Parse TOML within bounds.
+
+    Raises
+    ------
+    ProblemError
+        A syntax error (with line and column and the likely cause), or a bound is exceeded.
+    """
+    if len(text.encode("utf-8", "replace")) > SIZE_LIMIT:
+        raise _too_large(name)
+    if text.startswith("\ufeff"):
+        raise _fail(name, *_BOM_FAULT)
+    lines = text.split("\n")
+    for number, line in enumerate(lines, 1):
+        if len(line) > LINE_LIMIT:
+            raise _fail(
+                name,
+                f"line {number} has {len(line)} characters, the limit is {LINE_LIMIT}",
+                "Break it; lists may go over many lines.",
+            )
+        if line.count(".") >= DOT_LIMIT and _DOTS_RE.search(line):
+            raise _fail(name, f"line {number}: a key has over {DOT_LIMIT} parts", _DEPTH_HINT)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ProblemError(name, [_syntax_fault(str(error), lines)]) from None
+    except RecursionError:
+        raise _fail(name, "lists or tables are nested too deep", _DEPTH_HINT) from None
+    except ValueError as error:
+        # Python bounds the digits of an integer, and dates are checked late
+        raise _fail(name, f"a value cannot be read: {error}"[:200]) from None
+    if _depth_exceeds(table, DEPTH_LIMIT):
+        raise _fail(name, f"tables are nested deeper than {DEPTH_LIMIT} levels", _DEPTH_HINT)
+    return table
+
+
+_BOM_FAULT = (
+    "the file starts with a byte order mark (BOM)",
+    "Save it as UTF-8 without BOM.",
+)
+_DEPTH_HINT = "A problem file needs no more than links.2.D.at."
+
+
+def _fail(name: str, message: str, hint: str = "") -> ProblemError:
+    return ProblemError(name, [Fault("", message, hint)])
+
+
+def _too_large(name: str) -> ProblemError:
+    return _fail(
+        name,
+        f"the file is larger than {SIZE_LIMIT} bytes ({SIZE_LIMIT // 1024} KiB)",
+        "A problem is a few kilobytes; is this the right file?",
+    )
+
+
+def _nearby(path: Path) -> str:
+    """Hint for a missing file: the nearest name in its folder."""
+    from planmethod.problem.names import near
+
+    try:
+        names = [p.name for _, p in zip(range(1000), path.parent.glob("*.toml"), strict=False)]
+    except (OSError, ValueError):
+        names = []
+    guess = near(path.name, names)
+    return f"Did you mean '{path.with_name(guess)}'?" if guess else "Check the path."
+
+
+def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:
+    """Whether values are nested deeper than a limit; a loop, since the nesting is a stranger's."""
+    level: list[Any] = [table]
+    for _ in range(limit + 1):
+        level = [
+            child
+            for value in level
+            for child in (value.values() if isinstance(value, Mapping) else value)
+            if isinstance(child, Mapping | list)
+        ]
+        if not level:
+            return False
+    return True
+
+
+def _syntax_fault(message: str, lines: list[str]) -> Fault:
+    match = _WHERE_RE.match(message)
+    if match is None:
+        return Fault("", f"this is not TOML: {message}")
+    what, where = match["what"], match["where"]
+    if where == "end of document":
+        return Fault("", f"{what} at the end of the file", "Is a bracket or quote left open?")
+    number = int(where.split()[1].rstrip(","))
+    line = lines[number - 1] if number <= len(lines) else ""
+    return Fault(where, f"this is not TOML: {_lower(what)}", _syntax_hint(what, line, where))
+
+
+def _lower(what: str) -> str:
+    return what[:1].lower() + what[1:] if what[1:2].islower() else what
+
+
+def _syntax_hint(what: str, line: str, where: str) -> str:
+    """Guess the likely cause of a syntax error from its line, and say what to do."""
+    code = line.split("#", 1)[0].strip()
+    header = re.match(r"\[+([^\]\"']*)\]*", code)
+    key = header.group(1) if header else code.split("=", 1)[0]
+    for part in re.split(r"[.\s]+", key):
+        if part.isascii() or not part:
+            continue
+        if looks_latin(part):
+            return f"{describe_lookalikes(part)}. Type '{fold(part)}' in the Latin layout."
+        if not any(c in part for c in "\"'"):
+            quoted = key.strip().replace(part, f'"{part}"')
+            shown = f"[{quoted}]" if header else f"{quoted} = ..."
+            return f"A key with letters other than Latin stands in quotes: {shown}"
+    if "llegal character" in what and code.count('"') % 2:
+        return "The closing quote is missing."
+    if code.count("[") > code.count("]"):
+        return "The closing bracket is missing."
+    comma = re.search(r"=\s*([-+]?\d+),(\d+)", code)
+    if comma:
+        return f"Write {comma[1]}.{comma[2]} with a decimal point, not {comma[1]},{comma[2]}."
+    if "=" not in code and not code.startswith("["):
+        return "A line is 'key = value' or a '[table]'."
+    if "overwrite" in what or "twice" in what:
+        return "The same key or table stands above; keep one of them."
+    if re.search(r"=\s*$", code):
+        return "A value is missing after '='."
+    if re.search(r"=\s*[^\W\d]", code) and "true" not in code and "false" not in code:
+        return "Text stands in quotes."
+    column = int(where.rsplit(" ", 1)[1])
+    return f"Look at this line near column {column}: {line.strip()[:60]}" if line.strip() else ""

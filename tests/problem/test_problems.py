@@ -1,0 +1,214 @@
+"""The problems of the repository, the templates, the schema and the documentation."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
+from planmethod.problem.model import Convention
+from planmethod.problem.selector import parse_selector
+
+ROOT = Path(__file__).parents[2]
+PROBLEMS = sorted((ROOT / "problems").glob("*/*.toml"))
+SCHEMA: dict[str, Any] = json.loads(
+    (ROOT / "planmethod" / "problem" / "schema.json").read_text(encoding="utf-8")
+)
+DOCS = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
+LINKAGES = ROOT / "problems" / "linkages"
+LEVERS = ROOT / "problems" / "levers"
+PRESS = ROOT / "problems" / "press" / "press.toml"
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
+def test_every_problem_and_variant_loads(path: Path) -> None:
+    if "links" not in tomllib.loads(path.read_text(encoding="utf-8")):
+        pytest.skip("not a linkage")
+    problem = load(path)
+    assert problem.title
+    assert problem.source
+    assert problem.stamp["title"]
+    for name in variant_names(path):
+        assert load(path, variant=name).variant == name
+
+
+def test_the_worked_examples_are_here() -> None:
+    names = {path.stem for path in PROBLEMS}
+    assert {"ex1", "ex2", "ex3", "six-link", "task12", "task12-variants", "press"} <= names
+
+
+@pytest.mark.parametrize(
+    ("path", "count"),
+    [
+        (LINKAGES / "ex1.toml", 13),
+        (LINKAGES / "ex3.toml", 21),
+        (LEVERS / "six-link.toml", 33),
+        (LEVERS / "task12.toml", 55),
+        (PRESS, 19),
+    ],
+    ids=lambda value: value.stem if isinstance(value, Path) else "",
+)
+def test_every_printed_value_is_listed_and_says_what_it_is(path: Path, count: int) -> None:
+    published = load(path).published
+    assert len(published) == count
+    for item in published:
+        if item.what:
+            assert parse_selector(item.what)
+        else:
+            assert item.note
+
+
+def test_points_of_the_examples() -> None:
+    points = {
+        path.stem: list(
+            dict.fromkeys(p for body in load(path).bodies.values() for p in body.points)
+        )
+        for path in (*LINKAGES.glob("ex*.toml"), *LEVERS.glob("*.toml"), PRESS)
+    }
+    assert points["ex1"] == ["A", "B", "C", "D"]
+    assert points["ex2"] == ["O", "C", "A", "B", "D"]
+    assert points["ex3"] == ["A", "C", "B", "D", "E"]
+    assert points["six-link"] == ["A", "D", "B", "C", "S2", "H"]
+    assert points["task12"] == points["task12-variants"] == ["A", "C", "B", "D", "S3", "E", "S5"]
+    assert points["press"] == ["O3", "O1", "A", "S1", "S3", "N", "B"]
+
+
+def test_the_press_crank_follows_from_the_speed_ratio() -> None:
+    problem = load(PRESS)
+    theta = math.pi * (1.22 - 1) / (1.22 + 1)
+    crank = 1.08 * math.sin(theta / 2)
+    assert problem.bodies["1"].points["A"] == pytest.approx(crank, rel=1e-15)
+    assert problem.bodies["1"].points["S1"] == pytest.approx(crank / 2, rel=1e-15)
+    assert problem.drive.positions[0] == pytest.approx(
+        90 + math.degrees(theta / 2) + 120, rel=1e-14
+    )
+    assert problem.drive.rate == pytest.approx(130 * math.pi / 30, rel=1e-15)
+
+
+def test_the_rod_of_the_six_link_is_square_to_the_coupler() -> None:
+    problem = load(LEVERS / "six-link.toml")
+    slide = problem.slides["4"]
+    assert (slide.host, slide.base, abs(slide.angle)) == ("2", 0.3, 90)
+    assert problem.bodies["2"].points["S2"] == 0.2
+    assert problem.scales.convention is Convention.MM_PER_UNIT
+    assert problem.scales.mu_l == 0.004
+
+
+def test_the_stone_of_task_12_slides_along_x_in_a_link_that_slides_along_y() -> None:
+    problem = load(LEVERS / "task12.toml")
+    assert problem.slides["5"].angle == 90
+    assert problem.slides["4"].angle == -90
+    assert problem.bodies["5"].points == {"E": 0, "S5": 0.2}
+    assert problem.bodies["3"].points == {"C": 0, "D": 0.25, "S3": -0.1}
+
+
+def test_the_six_variants_of_task_12() -> None:
+    path = LEVERS / "task12-variants.toml"
+    phi = {name: load(path, variant=name).drive.positions for name in variant_names(path)}
+    assert phi == {"А": (60,), "Б": (120,), "В": (240,), "Г": (300,), "Д": (150,), "Е": (30,)}
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_templates_load_clean_and_are_commented_in_russian(family: str) -> None:
+    text = template(family)
+    problem = loads(text, name=family)
+    assert problem.title
+    assert len(re.findall(r"#.*[а-яё]", text)) >= 10
+    # what is commented out must be right as well
+    uncommented = re.sub(r"(?m)^# (?=\[|mu_|convention|driver)", "", text)
+    assert loads(uncommented, name=family, variant="Б").drive is not None
+
+
+def test_an_unknown_family() -> None:
+    with pytest.raises(KeyError):
+        template("perpetuum")
+
+
+SCHEMA_TABLES = {
+    "top": SCHEMA["properties"],
+    "frame": SCHEMA["$defs"]["frame"]["properties"],
+    "guide": SCHEMA["$defs"]["guide"]["properties"],
+    "link": SCHEMA["$defs"]["link"]["properties"],
+    "slides": SCHEMA["$defs"]["slides"]["properties"],
+    "point": SCHEMA["$defs"]["pointForm"]["properties"],
+    "driver": SCHEMA["$defs"]["driver"]["properties"],
+    "span": SCHEMA["$defs"]["span"]["properties"],
+    "near": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
+    "scales": SCHEMA["$defs"]["scales"]["properties"],
+    "stamp": SCHEMA["$defs"]["stamp"]["properties"],
+    "published": SCHEMA["$defs"]["published"]["additionalProperties"]["properties"],
+}
+
+
+@pytest.mark.parametrize("kind", keys.KNOWN)
+def test_the_schema_has_exactly_the_keys_the_reader_knows(kind: str) -> None:
+    assert set(SCHEMA_TABLES[kind]) == set(keys.KNOWN[kind])
+
+
+@pytest.mark.parametrize("kind", keys.KNOWN)
+def test_every_key_is_documented(kind: str) -> None:
+    rows = re.findall(r"^\| (`[^|]*`) \|", DOCS, re.MULTILINE)
+    documented = {name.split(".")[-1] for row in rows for name in re.findall(r"`([^`]+)`", row)}
+    if kind == "frame":
+        assert "`guides`" in DOCS
+    else:
+        assert set(keys.KNOWN[kind]) <= documented
+
+
+def documented_files() -> list[str]:
+    blocks = re.findall(r"```toml\n(.*?)```", DOCS, re.DOTALL)
+    return [block for block in blocks if "[links.1]" in block and "[driver]" in block]
+
+
+def test_the_example_of_the_documentation_loads() -> None:
+    (example,) = documented_files()
+    assert loads(example, name="doc").mechanism.lower_pairs == 7
+
+
+def validator() -> Any:
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    return jsonschema.Draft202012Validator(SCHEMA)
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
+def test_problems_satisfy_the_schema(path: Path) -> None:
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert [error.message for error in validator().iter_errors(table)] == []
+
+
+def test_templates_satisfy_the_schema() -> None:
+    for family in FAMILIES:
+        assert [e.message for e in validator().iter_errors(tomllib.loads(template(family)))] == []
+
+
+def test_the_schema_finds_faults() -> None:
+    table = tomllib.loads(template("four-bar"))
+    table["driver"]["omga"] = 1
+    table["links"]["1"]["OA"] = -1
+    table["links"]["2"]["D"] = {"on": "AB"}
+    paths = {".".join(error.absolute_path) for error in validator().iter_errors(table)}
+    assert paths == {"driver", "links.1.OA", "links.2.D"}
+
+
+def test_reading_needs_no_heavy_modules() -> None:
+    code = (
+        "import sys; from planmethod.problem import load; load(sys.argv[1]);"
+        "heavy = {'numpy', 'shapely', 'matplotlib', 'reportlab', 'difflib', 'json'};"
+        "print(*heavy & set(sys.modules))"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", code, str(LINKAGES / "ex3.toml")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert run.stdout.split() == []

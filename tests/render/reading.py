@@ -1,0 +1,213 @@
+"""Read drawings back out of the files: a second, independent reader of every vector format.
+
+All answers are in millimetres, y up, so that a test compares them with the display list itself.
+"""
+
+from __future__ import annotations
+
+import base64
+import re
+import xml.etree.ElementTree as ET
+import zlib
+from cmath import exp, phase, sqrt
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from math import cos, hypot, pi, radians, sin, tau
+
+SVG = "{http://www.w3.org/2000/svg}"
+XLINK = "{http://www.w3.org/1999/xlink}"
+
+
+@dataclass
+class Path:
+    """One painted path: its corners, points along its curves, and how it is painted."""
+
+    corners: list[complex] = field(default_factory=list)
+    along: list[complex] = field(default_factory=list)
+    starts: int = 0
+    closed: bool = False
+    filled: bool = False
+    width: float = 0.0
+    grey: float = 0.0
+
+
+@dataclass
+class Run:
+    """One run of letters: left end of its base line, em in mm, direction in degrees."""
+
+    at: complex
+    em: float
+    angle: float
+    text: str = ""
+
+
+@dataclass
+class Page:
+    """What a file says: size in mm, and what is painted, in order."""
+
+    width: float
+    height: float
+    items: list[Path | Run]
+
+
+def read_svg(data: bytes) -> Page:
+    """Read the SVG that the backend writes; a construct it should not write is an error."""
+    root = ET.fromstring(data)
+    box = [float(number) for number in root.attrib["viewBox"].split()]
+    assert box[:2] == [0.0, 0.0]
+    height = box[3]
+    assert root.attrib["width"].endswith("mm")
+    page = Page(float(root.attrib["width"][:-2]), float(root.attrib["height"][:-2]), [])
+    outlines = {f"#{path.attrib['id']}" for path in root.iter(f"{SVG}path") if "id" in path.attrib}
+    for group in root.findall(f"{SVG}g"):
+        for element in group:
+            if element.tag == f"{SVG}g":
+                page.items.append(_svg_run(element, height, outlines))
+                continue
+            if element.tag == f"{SVG}circle":
+                centre = complex(float(element.attrib["cx"]), height - float(element.attrib["cy"]))
+                radius = float(element.attrib["r"])
+                along = [centre + radius * exp(1j * tau * k / 64) for k in range(65)]
+                path = Path([], along, 1, True)
+            else:
+                path = _svg_path(element.attrib["d"], height)
+            path.filled = group.attrib["fill"] != "none"
+            colour = group.attrib["fill" if path.filled else "stroke"]
+            path.grey = int(colour[1:3], 16) / 255
+            path.width = 0.0 if path.filled else float(group.attrib["stroke-width"])
+            page.items.append(path)
+    return page
+
+
+def _svg_run(element: ET.Element, height: float, outlines: set[str]) -> Run:
+    number = r"(-?[\d.]+)"
+    found = re.fullmatch(
+        rf"translate\({number} {number}\)(?: rotate\({number}\))? scale\({number} -{number}\)",
+        element.attrib["transform"],
+    )
+    assert found, element.attrib["transform"]
+    x, y, turn, unit, unit_y = (float(part or 0) for part in found.groups())
+    assert unit == unit_y
+    for use in element.findall(f"{SVG}use"):
+        assert use.attrib[f"{XLINK}href"] in outlines
+    title = element.find(f"{SVG}title")
+    assert title is not None
+    assert title.text == element.attrib["aria-label"]
+    return Run(complex(x, height - y), 2048 * unit, -turn, element.attrib["aria-label"])
+
+
+def _svg_path(data: str, height: float) -> Path:
+    path = Path()
+    for verb, numbers in re.findall("([MLAZ])([^MLAZ]*)", data):
+        values = [float(number) for number in numbers.split()]
+        if verb == "Z":
+            path.closed = True
+            continue
+        point = complex(values[-2], height - values[-1])
+        if verb == "A":
+            path.along += _svg_arc(path.corners[-1], point, values[0], values[3], values[4])
+        path.starts += verb == "M"
+        path.corners.append(point)
+    assert "".join(re.findall("[A-Za-z]", data)) == "".join(re.findall("[MLAZ]", data))
+    return path
+
+
+def _svg_arc(a: complex, b: complex, radius: float, large: float, flag: float) -> list[complex]:
+    """Return points along an arc by the rule of the SVG specification (F.6), seen with y up."""
+    half = (b - a) / 2
+    rise = sqrt(max(0.0, radius**2 - abs(half) ** 2))
+    # Flag 0 is counter-clockwise here; the small arc then has its centre to the left of a→b.
+    assert flag == 0
+    centre = a + half + rise * 1j * half / abs(half) * (-1 if large else 1)
+    turn = phase((b - centre) / (a - centre)) % tau
+    assert (turn > pi) == bool(large)
+    return [centre + (a - centre) * exp(1j * turn * k / 32) for k in range(33)]
+
+
+def pdf_streams(data: bytes) -> Iterator[bytes]:
+    """Yield the decoded streams of a PDF."""
+    for head, body in re.findall(rb"<<([^<>]*)>>\s*stream\r?\n(.*?)\r?\n?endstream", data, re.S):
+        decoded = body
+        if b"ASCII85Decode" in head:
+            decoded = base64.a85decode(decoded.strip().removesuffix(b"~>"))
+        if b"FlateDecode" in head:
+            decoded = zlib.decompress(decoded)
+        yield decoded
+
+
+def read_pdf(data: bytes) -> Page:
+    """Read the one page of a PDF by its content stream."""
+    found = re.search(rb"/MediaBox \[\s*0 0 ([\d.]+) ([\d.]+)\s*\]", data)
+    assert found
+    width, height = (float(number) / 72 * 25.4 for number in found.groups())
+    page = Page(width, height, [])
+    content = next(stream for stream in pdf_streams(data) if b" cm" in stream)
+    state = {"w": 1.0, "G": 0.0, "g": 0.0}
+    scale = 1.0
+    em = 0.0
+    run: Run | None = None
+    path = Path()
+    stack: list[str] = []
+    text = content.decode("latin-1")
+    text = re.sub(r"\((?:\\.|[^\\)])*\)", "(text)", text, flags=re.S)
+    for word in text.split():
+        if re.fullmatch(r"-?[\d.]+|/\S+|\(text\)|\[.*\]", word):
+            stack.append(word)
+            continue
+        values = [float(part) for part in stack if re.fullmatch(r"-?[\d.]+", part)]
+        match word:
+            case "cm":
+                # The first matrix is the identity; the second makes the millimetre the unit.
+                assert values[1:3] == [0, 0]
+                assert values[4:] == [0, 0]
+                scale *= values[0]
+            case "w" | "G" | "g":
+                state[word] = values[0]
+            case "m" | "l":
+                path.starts += word == "m"
+                path.corners.append(complex(*values))
+            case "c":
+                path.along += _cubic(path.corners[-1], values)
+                path.corners.append(complex(values[4], values[5]))
+            case "h":
+                path.closed = True
+            case "S" | "f" | "F" | "f*":
+                assert word != "f*", "the rule of SVG and Agg is the non-zero one"
+                path.filled = word != "S"
+                path.width = 0.0 if path.filled else state["w"]
+                path.grey = state["g" if path.filled else "G"]
+                page.items.append(path)
+                path = Path()
+            case "Tf":
+                em = values[-1]
+            case "Tm":
+                a, b = values[0], values[1]
+                assert abs(hypot(a, b) - 1) < 1e-5
+                run = Run(complex(values[4], values[5]), 0.0, phase(complex(a, b)) * 180 / pi)
+            case "ET":
+                assert run is not None
+                run.em = em
+                page.items.append(run)
+        stack.clear()
+    # Within the millionth to which the file writes its numbers.
+    assert abs(scale - 72 / 25.4) < 1e-6
+    return page
+
+
+def _cubic(start: complex, values: list[float]) -> list[complex]:
+    c1, c2, end = complex(*values[:2]), complex(*values[2:4]), complex(*values[4:])
+    places = [k / 16 for k in range(17)]
+    return [
+        start * (1 - t) ** 3 + 3 * c1 * t * (1 - t) ** 2 + 3 * c2 * t**2 * (1 - t) + end * t**3
+        for t in places
+    ]
+
+
+def turned_box(
+    at: complex, angle: float, ink: tuple[float, float, float, float]
+) -> tuple[float, float, float, float]:
+    """Return the bounds of a box turned about its origin, which stands at ``at``."""
+    turn = complex(cos(radians(angle)), sin(radians(angle)))
+    corners = [at + turn * complex(x, y) for x in ink[::2] for y in ink[1::2]]
+    xs, ys = [z.real for z in corners], [z.imag for z in corners]
+    return (min(xs), min(ys), max(xs), max(ys))

@@ -1,0 +1,148 @@
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planmethod.construct.steps import PointName
+from planmethod.plans.model import Known, Vector, VectorEquation, VectorKind
+from planmethod.render.block import Lines, texts
+from planmethod.render.drawing import Item, Stroke, Text
+from planmethod.render.equations import EquationBlock, equation_block, formula_block
+from planmethod.render.lettering import LETTERING
+from planmethod.render.lint import lint
+from planmethod.render.typeset import PART_OF, typeset
+
+
+def vector(symbol: str, known: Known = Known.ONE, note: str = "") -> Vector:
+    letters = PointName("p"), PointName("b")
+    return Vector(symbol, VectorKind.ABSOLUTE, *letters, known, note)
+
+
+EQUATION = VectorEquation(
+    vector("a_{C}", Known.ONE, "∥ x-x"),
+    (
+        vector("a_{B}", Known.BOTH, "B → A"),
+        vector("a^{n}_{CB}", Known.BOTH, "C → B"),
+        vector("a^{τ}_{CB}", Known.ONE, "⊥ BC"),
+        vector("a_{S}", Known.NOTHING, ""),
+    ),
+)
+
+
+def underlines(items: list[Item]) -> list[Stroke]:
+    return [i for i in items if isinstance(i, Stroke) and not i.tag.startswith(PART_OF)]
+
+
+def inside(block: EquationBlock, corner: complex, items: list[Item]) -> bool:
+    slack = 1e-6
+    for item in items:
+        points = item.points if isinstance(item, Stroke) else ()
+        if isinstance(item, Text):
+            wide = LETTERING.width(item.text, item.height)
+            up = LETTERING.ascent(item.text, item.height)
+            down = LETTERING.descent(item.text, item.height)
+            points = (item.at - 1j * down, item.at + wide + 1j * up)
+        for p in points:
+            x, y = (p - corner).real, (corner - p).imag
+            if not (-slack <= x <= block.width + slack and -slack <= y <= block.height + slack):
+                return False
+    return True
+
+
+def test_underlines_tell_what_is_known() -> None:
+    items = equation_block(EQUATION).place(0j)
+    by_left: dict[float, int] = {}
+    for line in underlines(items):
+        left = round(line.points[0].real, 6)
+        by_left[left] = by_left.get(left, 0) + 1
+    assert [by_left[left] for left in sorted(by_left)] == [1, 2, 2, 1]
+
+
+def test_underlines_are_as_long_as_their_terms_and_level() -> None:
+    items = equation_block(EQUATION).place(0j)
+    lengths = {round(abs(line.points[1] - line.points[0]), 6) for line in underlines(items)}
+    wanted = {round(typeset(v.symbol, 5).width, 6) for v in (EQUATION.left, *EQUATION.right[:3])}
+    assert lengths == wanted
+    assert len({round(line.points[0].imag, 6) for line in underlines(items)}) == 2
+
+
+def test_every_vector_has_an_overbar_and_notes_are_smaller() -> None:
+    items = equation_block(EQUATION).place(0j)
+    bars = [i for i in items if isinstance(i, Stroke) and i.tag.startswith(PART_OF)]
+    assert len(bars) == 5
+    notes = [run for run in texts(items) if "⊥" in run.text or "→" in run.text]
+    assert len(notes) == 3
+    assert {run.height for run in notes} == {3.5}
+
+
+def test_wraps_at_a_plus_that_is_repeated() -> None:
+    whole = equation_block(EQUATION)
+    narrow = equation_block(EQUATION, width=whole.width * 0.75)
+    assert whole.place(0j) != narrow.place(0j)
+    assert narrow.width <= whole.width * 0.75
+    assert narrow.height > 1.8 * whole.height
+    count = [sum(run.text == "+" for run in texts(b.place(0j))) for b in (whole, narrow)]
+    assert count == [3, 4]
+
+
+def test_shrinks_when_single_terms_are_too_wide() -> None:
+    narrow = equation_block(EQUATION, width=20)
+    assert {run.height for run in texts(narrow.place(0j)) if run.text == "="} < {2.5, 3.5}
+
+
+words = st.text(alphabet="ABCDOxτn123", min_size=1, max_size=8)
+vectors = st.builds(
+    lambda index, known, note: vector(f"a_{{{index}}}", known, note),
+    words,
+    st.sampled_from(Known),
+    st.one_of(st.just(""), words.map("⊥ {}".format), words.map("∥ {} → A".format)),
+)
+equations = st.builds(
+    lambda left, right: VectorEquation(left, tuple(right)),
+    vectors,
+    st.lists(vectors, min_size=1, max_size=6),
+)
+
+
+@settings(deadline=None)
+@given(equations, st.sampled_from([None, 60.0, 90.0, 150.0]), st.sampled_from([3.5, 5.0, 7.0]))
+def test_nothing_in_an_equation_overlaps(
+    equation: VectorEquation, width: float | None, height: float
+) -> None:
+    block = equation_block(equation, height, width=width)
+    items = block.place(30 + 200j)
+    assert [f.message for f in lint(items)] == []
+    assert inside(block, 30 + 200j, items)
+    # Notes of neighbours keep apart.
+    notes = [run for run in texts(items) if run.text[0] in "⊥∥"]
+    for one, two in pairwise(notes):
+        if one.at.imag == two.at.imag:
+            assert two.at.real - one.at.real >= LETTERING.width(one.text, one.height) + 1
+
+
+def test_formula_on_one_line() -> None:
+    markup = "ω_{2} = v_{CB}/l_{BC} = 15,5 с^{-1}"
+    block = formula_block(markup, 3.5)
+    assert block.width == pytest.approx(typeset(markup, 3.5).width)
+    assert block.height < 3.5 * 2
+
+
+def test_formula_is_broken_at_signs_that_are_repeated() -> None:
+    block = formula_block("a = b + c = 15,5 + 16,5 = 32 м/с", 5, width=45)
+    assert isinstance(block, Lines)
+    lines = [line.markup.split(" ") for line in block.inscriptions]
+    assert len(lines) > 1
+    assert block.width <= 45
+    for above, below in pairwise(lines):
+        assert above[-1] == below[0]
+        assert above[-1] in "=+"
+    assert "32 м/с" in block.inscriptions[-1].markup
+
+
+def test_formula_without_signs_is_broken_at_spaces() -> None:
+    block = formula_block("Подобие фигур относительного движения", 5, width=70)
+    assert isinstance(block, Lines)
+    assert block.width <= 70

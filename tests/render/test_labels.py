@@ -1,0 +1,183 @@
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import LineString, box
+
+from planmethod.render.drawing import Arc, Bounds, Item, Stroke, Text
+from planmethod.render.labels import Label, Placed, _inside, place_labels, segment_label
+from planmethod.render.lint import lint
+from planmethod.render.symbols import revolute, slider
+from planmethod.render.typeset import typeset
+
+BOUNDS = (0.0, 0.0, 200.0, 150.0)
+
+
+def apart(one: Bounds, two: Bounds) -> bool:
+    return one[2] <= two[0] or two[2] <= one[0] or one[3] <= two[1] or two[3] <= one[1]
+
+
+def label(markup: str, anchor: complex, prefer: complex = 0j) -> Label:
+    return Label(typeset(markup, 3.5), anchor, prefer=prefer)
+
+
+def within(bounds: Bounds, limits: Bounds) -> bool:
+    low, high = zip(bounds[:2], limits[:2], strict=True), zip(bounds[2:], limits[2:], strict=True)
+    return all(b >= m - 1e-9 for b, m in low) and all(b <= m + 1e-9 for b, m in high)
+
+
+def middle(placed: Placed) -> complex:
+    x0, y0, x1, y1 = placed.bounds
+    return complex((x0 + x1) / 2, (y0 + y1) / 2)
+
+
+@pytest.mark.parametrize("direction", [1, -1, 1j, -1j, 1 + 1j, -1 - 1j])
+def test_a_free_label_looks_the_preferred_way(direction: complex) -> None:
+    (placed,) = place_labels([label("B", 50 + 50j, direction)], [], BOUNDS)
+    way = middle(placed) - (50 + 50j)
+    assert (way * complex(direction).conjugate()).real > 0.8 * abs(way) * abs(direction)
+    assert placed.free
+    assert placed.leader is None
+
+
+def test_a_label_keeps_its_gap() -> None:
+    wide = Label(typeset("B_{3}", 5), 50 + 50j, gap=4.0, prefer=1 + 0j)
+    (placed,) = place_labels([wide], [], BOUNDS)
+    assert placed.bounds[0] == pytest.approx(54)
+
+
+def test_a_label_avoids_lines_arcs_and_texts() -> None:
+    items: list[Item] = [
+        Stroke((50 + 50j, 100 + 50j)),
+        Stroke((50 + 50j, 80 + 90j)),
+        Arc(50 + 50j, 6),
+        Text(56 + 44j, "занято", 5),
+    ]
+    (placed,) = place_labels([label("B", 50 + 50j, 1 + 0.4j)], items, BOUNDS)
+    assert placed.free
+    assert lint([*items, *placed.items()]) == []
+
+
+def test_a_line_is_crossed_only_where_nothing_is_free() -> None:
+    narrow = (0.0, 0.0, 12.0, 12.0)
+    grid: list[Item] = [Stroke((complex(x, 0), complex(x, 12))) for x in range(13)]
+    (placed,) = place_labels([label("B", 6 + 6j)], grid, narrow)
+    assert not placed.free
+    assert within(placed.bounds, narrow)
+
+
+@pytest.mark.parametrize("prefer", [1j, -1j])
+def test_a_segment_label_is_beside_the_middle_on_the_asked_side(prefer: complex) -> None:
+    wanted = segment_label("2", 20 + 50j, 120 + 50j, 5, prefer=prefer)
+    (placed,) = place_labels([wanted], [Stroke((20 + 50j, 120 + 50j))], BOUNDS)
+    assert middle(placed).real == pytest.approx(70)
+    assert (middle(placed).imag - 50) * prefer.imag > 0
+    assert placed.leader is None
+
+
+def test_a_segment_label_gives_way_along_the_segment() -> None:
+    bar = Stroke((70 + 30j, 70 + 70j))
+    wanted = segment_label("2", 20 + 50j, 120 + 50j, 5)
+    (placed,) = place_labels([wanted], [Stroke((20 + 50j, 120 + 50j)), bar], BOUNDS)
+    assert placed.free
+    assert abs(middle(placed).real - 70) < 20
+
+
+def test_a_far_label_gets_a_leader_line_that_ends_at_both() -> None:
+    hedge: list[Item] = [Stroke((complex(40, y), complex(60, y))) for y in range(40, 61)]
+    (placed,) = place_labels([label("B", 50 + 50j)], hedge, BOUNDS)
+    assert placed.free
+    assert placed.leader is not None
+    start, end = placed.leader
+    assert abs(start - 50 - 50j) < 1
+    assert LineString([(end.real, end.imag), (end.real + 0.01, end.imag)]).distance(
+        box(*placed.bounds)
+    ) == pytest.approx(0.42, abs=0.02)
+    assert isinstance(placed.items()[0], Stroke)
+
+
+def test_a_leader_may_start_inside_what_it_names() -> None:
+    hedge: list[Item] = [Stroke((complex(40, y), complex(60, y))) for y in range(40, 61)]
+    pin = [*slider(50 + 50j), *revolute(50 + 50j)]
+    (placed,) = place_labels([label("B", 50 + 50j)], [*hedge, *pin], BOUNDS)
+    assert placed.free
+    assert placed.leader is not None
+
+
+def test_no_label_inside_a_slider() -> None:
+    wide = [*slider(50 + 50j, length=40, width=20), *revolute(50 + 50j)]
+    (placed,) = place_labels([label("B", 50 + 50j)], wide, BOUNDS)
+    assert placed.free
+    assert apart(placed.bounds, (30, 40, 70, 60))
+
+
+def test_labels_of_one_point_spread_around_it() -> None:
+    many = [label(f"B_{{{k}}}", 60 + 60j, 1 + 1j) for k in range(8)]
+    placed = place_labels(many, [], BOUNDS)
+    assert all(p.free for p in placed)
+    for one, two in combinations(placed, 2):
+        assert apart(one.bounds, two.bounds)
+
+
+def test_priority_takes_the_better_place() -> None:
+    first, second = label("A", 60 + 60j, 1 + 0j), label("B", 60 + 60j, 1 + 0j)
+    important = Label(second.inscription, second.anchor, prefer=1 + 0j, priority=1)
+    a, b = place_labels([first, important], [], BOUNDS)
+    alone = place_labels([second], [], BOUNDS)[0]
+    assert b.at == alone.at
+    assert a.at != b.at
+
+
+def test_same_input_same_places() -> None:
+    many = [label(f"P_{{{k}}}", 50 + 3 * k + 40j, 1j) for k in range(12)]
+    lines: list[Item] = [Stroke((40 + 40j, 90 + 41j))]
+    assert place_labels(many, lines, BOUNDS) == place_labels(many, lines, BOUNDS)
+
+
+def test_no_labels() -> None:
+    assert place_labels([], [Stroke((0j, 1 + 1j))], BOUNDS) == []
+
+
+places = st.builds(complex, st.floats(15, 185), st.floats(15, 135))
+ways = st.builds(complex, st.floats(-40, 40), st.floats(-40, 40))
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    st.lists(st.tuples(places, ways, st.booleans()), min_size=5, max_size=45),
+    st.lists(st.tuples(places, ways), max_size=25),
+)
+def test_labels_never_overlap_however_crowded(
+    wanted: list[tuple[complex, complex, bool]], drawn: list[tuple[complex, complex]]
+) -> None:
+    lines: list[Item] = [Stroke((a, a + way)) for a, way in drawn if abs(way) > 1]
+    labels = [
+        segment_label(f"v_{{{k}}}", at, at + way) if beside else label(f"B_{{{k}}}", at, way)
+        for k, (at, way, beside) in enumerate(wanted)
+    ]
+    placed = place_labels(labels, lines, BOUNDS)
+    for one, two in combinations(placed, 2):
+        assert apart(one.bounds, two.bounds)
+    assert all(within(p.bounds, BOUNDS) for p in placed)
+    items = [*lines, *(item for p in placed for item in p.items())]
+    told = {f.code for f in lint(items, BOUNDS)}
+    assert "PM-D01" not in told
+    assert "PM-D04" not in told
+    if all(p.free for p in placed):
+        assert told == set()
+
+
+@given(places, ways, places, st.floats(0.1, 60), st.floats(0.1, 60))
+def test_clipping_agrees_with_shapely(
+    at: complex, way: complex, corner: complex, width: float, height: float
+) -> None:
+    end = at + way
+    bounds = (corner.real, corner.imag, corner.real + width, corner.imag + height)
+    segment = np.array([[[at.real, at.imag], [end.real, end.imag]]])
+    (length,) = _inside(segment, np.array([bounds]))
+    inside = LineString(segment[0]).intersection(box(*bounds))
+    assert max(length, 0.0) == pytest.approx(inside.length, abs=1e-6)

@@ -1,0 +1,142 @@
+"""Lines start, end and turn with strokes, and their lengths stay within the standard."""
+
+from __future__ import annotations
+
+from cmath import exp
+from itertools import pairwise
+from math import pi, tau
+
+import pytest
+
+from planmethod.render.drawing import Arc, Pen, Stroke
+from planmethod.render.style import (
+    HEIGHTS,
+    PENS,
+    Dashes,
+    S,
+    arc_spans,
+    closes,
+    dash_spans,
+    dashed,
+    stroke_lines,
+    sweep,
+)
+
+DASHED = [style.dashes for style in PENS.values() if style.dashes]
+LENGTHS = [0.01, 1.0, 3.9, 5.4, 5.6, 13.9, 14.1, 15.0, 27.3, 100.0, 333.3, 1189.0]
+
+
+def length(line: tuple[complex, ...]) -> float:
+    return sum(abs(b - a) for a, b in pairwise(line))
+
+
+def test_every_pen_has_a_style_and_thin_lines_are_a_third_to_a_half() -> None:
+    assert set(PENS) == set(Pen)
+    assert {PENS[pen].width for pen in (Pen.MAIN, Pen.FRAME)} == {S}
+    thin = set(Pen) - {Pen.MAIN, Pen.FRAME}
+    assert all(S / 3 <= PENS[pen].width <= S / 2 for pen in thin)
+    assert list(HEIGHTS) == sorted(HEIGHTS)
+
+
+@pytest.mark.parametrize("dashes", DASHED)
+@pytest.mark.parametrize("total", LENGTHS)
+def test_open_line_starts_and_ends_with_a_stroke(dashes: Dashes, total: float) -> None:
+    spans = dash_spans(total, dashes)
+    assert spans[0][0] == 0.0
+    assert spans[-1][1] == total
+    assert all(a[1] < b[0] for a, b in pairwise(spans))
+    lengths = [b - a for a, b in spans]
+    strokes = lengths[::2] if dashes.dot else lengths
+    assert max(strokes) - min(strokes) < 1e-9
+    if len(spans) > 1:
+        assert strokes[0] >= dashes.least - 1e-9
+        assert strokes[0] < 2.0 * dashes.stroke
+        whole = [b[0] - a[1] for a, b in pairwise(spans)]
+        gap = (dashes.gap - dashes.dot) / 2 if dashes.dot else dashes.gap
+        assert whole == pytest.approx([gap] * len(whole))
+    else:
+        assert total < 2.0 * dashes.least + dashes.gap or total < dashes.stroke * 2.0
+
+
+@pytest.mark.parametrize("dashes", DASHED)
+def test_closed_line_has_no_seam(dashes: Dashes) -> None:
+    total = 123.4
+    spans = dash_spans(total, dashes, closed=True)
+    first_gap = spans[1][0] - spans[0][1]
+    assert total - spans[-1][1] == pytest.approx(first_gap)
+
+
+@pytest.mark.parametrize("dashes", DASHED)
+def test_corner_is_a_corner_of_one_stroke(dashes: Dashes) -> None:
+    corner = 50 + 0j
+    lines = dashed((0j, 20 + 0j, corner, 50 + 40j), dashes)
+    assert lines[0][0] == 0j
+    assert lines[-1][-1] == 50 + 40j
+    assert sum(corner in line[1:-1] for line in lines) == 1
+    assert all(20 + 0j not in (line[0], line[-1]) for line in lines)
+
+
+def test_closed_polygon_is_cornered_by_strokes_all_round() -> None:
+    corners = (0j, 60 + 0j, 60 + 40j, 40j)
+    lines = dashed(corners, DASHED[0], closed=True)
+    # The corner where the line begins is met by the first stroke and by the last.
+    assert lines[0][0] == lines[-1][-1] == corners[0]
+    for corner in corners[1:]:
+        assert sum(corner in line[1:-1] for line in lines) == 1
+
+
+def test_smooth_curve_is_dashed_by_its_length() -> None:
+    hidden = PENS[Pen.HIDDEN].dashes
+    assert hidden
+    points = tuple(30 * exp(1j * k * pi / 180) for k in range(181))
+    lines = dashed(points, hidden)
+    assert [length(line) for line in lines] == pytest.approx([length(lines[0])] * len(lines))
+    assert all(abs(abs(point) - 30) < 0.01 for line in lines for point in line)
+    ring = dashed(tuple(30 * exp(1j * k * pi / 90) for k in range(180)), hidden, closed=True)
+    assert [length(line) for line in ring] == pytest.approx([length(ring[0])] * len(ring))
+
+
+def test_lines_without_length_leave_nothing() -> None:
+    for points in ((), (1 + 1j,), (1 + 1j, 1 + 1j)):
+        assert dashed(points, DASHED[0]) == []
+        assert dashed(points, DASHED[0], closed=True) == []
+    assert dash_spans(0.0, DASHED[0]) == ()
+
+
+def test_there_and_back_is_a_corner() -> None:
+    lines = dashed((0j, 30 + 0j, 0j), DASHED[0])
+    assert any(30 + 0j in line[1:-1] for line in lines)
+    assert dashed((0j, 30 + 0j), DASHED[0], closed=True)
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "turn"),
+    [
+        (0.0, tau, tau),
+        (1.0, 1.0 - tau, tau),
+        (0.0, 3 * tau, tau),
+        (0.0, pi / 2, pi / 2),
+        (pi / 2, 0.0, 3 * pi / 2),
+        (-pi / 2, pi / 2, pi),
+        (350 * pi / 180, 370 * pi / 180, 20 * pi / 180),
+        (1.0, 1.0, 0.0),
+    ],
+)
+def test_sweep_is_counter_clockwise(start: float, end: float, turn: float) -> None:
+    assert sweep(Arc(0j, 5.0, start, end)) == pytest.approx(turn)
+
+
+def test_pieces_of_solid_and_dashed_items() -> None:
+    square = (0j, 40 + 0j, 40 + 40j, 40j)
+    solid = Stroke(square, Pen.MAIN, closed=True)
+    assert stroke_lines(solid) == [square]
+    assert closes(solid)
+    assert not closes(Stroke(square, Pen.HIDDEN, closed=True))
+    assert arc_spans(Arc(0j, 5.0)) == [(0.0, tau)]
+    assert arc_spans(Arc(0j, 5.0, 1.0, 1.0)) == []
+    assert arc_spans(Arc(0j, 0.0)) == []
+    # A circle below 12 mm: its centre line is solid.
+    assert arc_spans(Arc(0j, 1.0, pen=Pen.AXIS)) == [(0.0, tau)]
+    spans = arc_spans(Arc(0j, 40.0, 1.0, 3.0, Pen.AXIS))
+    assert spans[0][0] == 1.0
+    assert sum(spans[-1]) == pytest.approx(3.0)

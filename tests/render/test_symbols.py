@@ -1,0 +1,194 @@
+from __future__ import annotations
+
+import cmath
+from itertools import pairwise
+from math import isclose, pi, tau
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planmethod.render import symbols
+from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.style import sweep
+from planmethod.render.symbols import SIZES
+
+angles = st.floats(-180, 180)
+
+
+def hatching(items: list[Item]) -> list[Stroke]:
+    return [i for i in items if isinstance(i, Stroke) and i.pen is Pen.HATCH]
+
+
+def fills(items: list[Item]) -> list[Fill]:
+    return [i for i in items if isinstance(i, Fill)]
+
+
+def test_revolute_pair_is_a_white_circle_of_3_mm() -> None:
+    disc, arc = symbols.revolute(5 + 6j)
+    assert isinstance(disc, Disc)
+    assert isinstance(arc, Arc)
+    assert (disc.ink, disc.radius, arc.radius) == (Ink.WHITE, 1.5, 1.5)
+    assert isclose(sweep(arc), tau)
+
+
+def test_fixed_pivot_stands_on_a_hatched_base_of_14_mm() -> None:
+    items = symbols.fixed_pivot(10 + 20j)
+    legs, base = (i for i in items if isinstance(i, Stroke) and i.pen is Pen.MAIN)
+    assert legs.points == pytest.approx((5.5 + 11j, 10 + 20j, 14.5 + 11j))
+    assert base.points == pytest.approx((3 + 11j, 17 + 11j))
+    assert all(p.imag <= 11 + 1e-9 for s in hatching(items) for p in s.points)
+    assert isinstance(items[-1], Arc)  # the joint is drawn over the legs
+
+
+@given(angles, st.sampled_from([0.6, 1.0, 1.5]))
+def test_pivots_turn_and_scale(angle: float, factor: float) -> None:
+    direction = cmath.rect(1, angle / 180 * pi)
+    items = symbols.fixed_pivot(0j, direction=direction, factor=factor)
+    base = next(i for i in items if isinstance(i, Stroke) and len(i.points) == 2)
+    middle = (base.points[0] + base.points[1]) / 2
+    assert middle == pytest.approx(9 * factor * direction)
+    assert abs(base.points[1] - base.points[0]) == pytest.approx(14 * factor)
+    for stroke in hatching(items):
+        for p in stroke.points:
+            beyond = (p / direction).real - 9 * factor
+            assert -1e-6 <= beyond <= 3 * factor * 0.7072
+            assert abs((p / direction).imag) <= 7 * factor + 1e-6
+
+
+@given(angles, st.sampled_from([1, -1]), st.floats(6, 60))
+def test_hatching_is_on_its_side_at_45_degrees_in_even_steps(
+    angle: float, side: int, length: float
+) -> None:
+    end = cmath.rect(length, angle / 180 * pi)
+    strokes = hatching(symbols.ground_line(0j, end, side=side))
+    feet: list[float] = []
+    for stroke in strokes:
+        top, foot = (p / symbols.unit(end) for p in stroke.points)
+        for p in (top, foot):
+            assert -1e-9 <= p.real <= length + 1e-9
+            assert p.imag * side >= -1e-9
+        way = foot - top
+        assert abs(way.real) == pytest.approx(abs(way.imag), abs=1e-9)
+        assert abs(way) <= SIZES.hatch_stroke + 1e-9
+        # Where the stroke, drawn on, meets the line: the clipped ones too are in step.
+        feet.append(top.real - way.real / way.imag * top.imag)
+    steps = [abs(b - a) for a, b in pairwise(feet)]
+    assert len(strokes) >= 2 or length < 8
+    assert all(step == pytest.approx(SIZES.hatch_step) for step in steps)
+
+
+def test_hatching_leans_one_way_on_both_sides() -> None:
+    for side in (1, -1):
+        for stroke in hatching(symbols.ground_line(0j, 30 + 0j, side=side)):
+            way = stroke.points[1] - stroke.points[0]
+            assert way.real * way.imag > 0
+
+
+@given(angles)
+def test_slider_is_14_by_8_along_its_guide(angle: float) -> None:
+    white, outline = symbols.slider(3 + 4j, angle=angle)
+    assert isinstance(white, Fill)
+    assert isinstance(outline, Stroke)
+    assert white.ink is Ink.WHITE
+    turn = cmath.rect(1, angle / 180 * pi)
+    corners = [(p - 3 - 4j) / turn for p in outline.points]
+    assert sorted({round(abs(c.real), 6) for c in corners}) == [7]
+    assert sorted({round(abs(c.imag), 6) for c in corners}) == [4]
+
+
+def test_stone_has_its_guide_line_and_pin() -> None:
+    items = symbols.stone(0j, angle=30)
+    assert isinstance(items[0], Fill)
+    assert isinstance(items[-1], Arc)
+    assert not any(isinstance(i, Disc) for i in symbols.stone(0j, pin=False))
+
+
+def test_guide_line_touches_the_slider() -> None:
+    line = symbols.guide_line(10 + 10j, before=5, after=9)[0]
+    assert isinstance(line, Stroke)
+    assert line.points == pytest.approx((5 + 6j, 19 + 6j))
+
+
+def test_plates_are_on_both_sides() -> None:
+    items = symbols.guide_plates(0j)
+    levels = {
+        round(i.points[0].imag, 6) for i in items if isinstance(i, Stroke) and i.pen is Pen.MAIN
+    }
+    assert levels == {4, -4}
+
+
+def test_rigid_corner_fills_the_angle_and_no_straight_one() -> None:
+    (mark,) = symbols.rigid_corner(0j, 20 + 0j, 20j)
+    assert isinstance(mark, Fill)
+    assert mark.points == (0, 5, 5j)
+    assert symbols.rigid_corner(0j, 20 + 0j, -20 + 0.1j) == []
+
+
+def test_hatch_stays_inside_its_polygon() -> None:
+    corners = (0j, 40 + 0j, 20 + 25j)
+    strokes = symbols.hatch(corners)
+    assert len(strokes) > 10
+    for stroke in strokes:
+        assert isinstance(stroke, Stroke)
+        way = stroke.points[1] - stroke.points[0]
+        assert way.real == pytest.approx(way.imag)
+        for p in stroke.points:
+            assert p.imag >= -1e-9
+            assert p.imag <= 1.25 * p.real + 1e-9
+            assert p.imag <= 1.25 * (40 - p.real) + 1e-9
+
+
+def test_hatch_of_a_hollow_polygon_leaves_the_hollow_white() -> None:
+    hollow = (0j, 20 + 0j, 20 + 20j, 10 + 5j, 20j)
+    for stroke in symbols.hatch(hollow):
+        assert isinstance(stroke, Stroke)
+        middle = sum(stroke.points) / 2
+        assert middle.imag <= 5 + 1.5 * abs(middle.real - 10) + 1e-6
+
+
+def test_vector_arrow_ends_at_its_head() -> None:
+    line, head = symbols.vector_arrow(0j, 40 + 0j)
+    assert isinstance(line, Stroke)
+    assert isinstance(head, Fill)
+    assert head.points[0] == 40
+    assert head.points[1].real == pytest.approx(35)
+    assert 35 < line.points[1].real < 40
+    assert abs(head.points[1].imag) * 2 >= 1.6
+
+
+@given(st.floats(0.31, 9.9), angles)
+def test_short_vectors_get_smaller_heads(length: float, angle: float) -> None:
+    head = cmath.rect(length, angle / 180 * pi)
+    _, fill = symbols.vector_arrow(0j, head)
+    assert isinstance(fill, Fill)
+    assert max(abs(p - head) for p in fill.points) < length
+
+
+def test_no_arrow_for_a_zero_vector() -> None:
+    assert symbols.vector_arrow(1 + 1j, 1 + 1j) == []
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_circular_arrow_points_along_its_sense(sense: int) -> None:
+    arc, head = symbols.turn_arrow(0j, 10, sense, middle=90, sweep=120)
+    assert isinstance(arc, Arc)
+    assert isinstance(head, Fill)
+    tip, back = head.points[0], head.points[2]
+    assert abs(tip) == pytest.approx(10)
+    turn = (tip * back.conjugate()).imag
+    assert turn * sense > 0
+    assert sweep(arc) < 2 * pi / 3
+    middle = cmath.rect(1, (arc.start + arc.end) / 2)
+    assert middle.imag > 0.8
+
+
+def test_no_circular_arrow_at_rest() -> None:
+    assert symbols.turn_arrow(0j, 10, 0) == []
+
+
+def test_triangle_link() -> None:
+    items = symbols.stiff_triangle(0j, 30 + 0j, 10 + 20j, hatched=True)
+    assert hatching(items)
+    assert isinstance(items[-1], Stroke)
+    assert items[-1].closed
