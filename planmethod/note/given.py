@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import UNITS_RU, russian, trimmed
 from planmethod.plans.solution import Solution
@@ -18,16 +20,18 @@ def point_name(point: str) -> str:
     return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
 
 
-def given(problem: Problem) -> list[str]:
-    """Return what is given, one ``symbol = value unit`` each."""
+def given(problem: Problem, positions: Sequence[float] | None = None) -> list[str]:
+    """Return what is given, one ``symbol = value unit`` each.
+
+    ``positions`` are the driver's, degrees (m for a slider); the file's when absent.
+    """
     drive = problem.drive
-    lines = []
-    if len(drive.positions) == 1:
-        value = number(drive.positions[0])
-        lines.append(f"φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"s = {value} м")
-    elif drive.is_crank:
-        first, last = number(drive.positions[0]), number(drive.positions[-1])
-        lines.append(f"φ_{{{drive.link}}} = {first}°…{last}° ({len(drive.positions)} полож.)")
+    asked = drive.positions if positions is None else positions
+    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", " м")
+    said = f"{number(float(asked[0]))}{unit}"
+    if len(asked) > 1:
+        said += f"…{number(float(asked[-1]))}{unit} ({len(asked)} полож.)"
+    lines = [f"{symbol} = {said}"]
     named = {name for _, name, _ in problem.lengths}
     for _, name, metres in problem.lengths:
         lines.append(f"l_{{{name}}} = {number(metres)} м")
@@ -111,3 +115,23 @@ def wanted(solution: Solution) -> str:
     symbols = [f"v_{{{p}}}" for p in points] + [f"ω_{{{k}}}" for k in links]
     symbols += [f"a_{{{p}}}" for p in points] + [f"ε_{{{k}}}" for k in links]
     return ", ".join(symbols)
+
+
+_ENGLISH = (
+    (" м/с^{2}", " m/s^{2}"),
+    (" м/с", " m/s"),
+    (" м", " m"),
+    (" с^{", " s^{"),
+    (" полож.", " positions"),
+    (",", "."),
+)
+
+
+def given_lines(problem: Problem, lang: str) -> list[str]:
+    """Return what is given in a language, one ``symbol = value unit`` each (rich text)."""
+    lines = given(problem)
+    if lang == "ru":
+        return lines
+    for russian_text, english in _ENGLISH:
+        lines = [line.replace(russian_text, english) for line in lines]
+    return lines

@@ -6,15 +6,18 @@ Everything here follows from the graph; where things stand is found by `embeddin
 
 from __future__ import annotations
 
+from cmath import exp
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
+from math import radians
 
 from planmethod.mechanism.describe import pairs
-from planmethod.mechanism.groups import AssurGroup, links_of
+from planmethod.mechanism.groups import AssurGroup, Joint, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
-from planmethod.render.embedding import Bar, Net
+from planmethod.render.embedding import Bar, Net, places
 
 
 class Far(Enum):
@@ -97,7 +100,7 @@ def letters(name: str) -> str:
 def mechanism_chain(mechanism: Mechanism, structure: Structure) -> Chain:
     """Return the chain of the whole mechanism."""
     seen: list[_Seen] = []
-    joints: tuple[Revolute | Prismatic, ...] = (*mechanism.revolutes, *mechanism.prismatics)
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
     for joint in joints:
         ends = links_of(joint)
         own = tuple(link for link in ends if link != FRAME)
@@ -111,7 +114,7 @@ def mechanism_chain(mechanism: Mechanism, structure: Structure) -> Chain:
 def driver_chain(mechanism: Mechanism) -> Chain:
     """Return the driver with the frame (первичный механизм): one joint, the far end free."""
     driver = mechanism.driver
-    joints = (*mechanism.revolutes, *mechanism.prismatics)
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
     first = next(joint for joint in joints if {FRAME, driver} <= set(links_of(joint)))
     chain = _chain(mechanism, [_Seen(first, (driver,), Far.FRAME)], {driver: 0.0})
     if isinstance(first, Prismatic):
@@ -124,7 +127,7 @@ def driver_chain(mechanism: Mechanism) -> Chain:
 
 def group_chain(mechanism: Mechanism, group: AssurGroup) -> Chain:
     """Return a group taken apart, its outer joints open (структурная группа)."""
-    outer: dict[Revolute | Prismatic, list[str]] = {}
+    outer: dict[Joint, list[str]] = {}
     to = {lead.joint: lead.to for lead in group.leads}
     for lead in group.leads:
         outer.setdefault(lead.joint, []).append(lead.link)
@@ -140,7 +143,7 @@ def group_chain(mechanism: Mechanism, group: AssurGroup) -> Chain:
 class _Seen:
     """Joint as a picture sees it: which of its links are there, what is on the other side."""
 
-    joint: Revolute | Prismatic
+    joint: Joint
     own: tuple[str, ...]
     far: Far
     to: str = ""
@@ -189,7 +192,7 @@ def _slides(
             for link in choices
             for pin in pins
             if link in pin.links and count[link] == 2 and pin.node not in taken
-            if one.far is Far.CHAIN or pin.far is Far.CHAIN or one.far is Far.OPEN
+            if one.far is not Far.FRAME or pin.far is Far.CHAIN
         ]
         name = names[joint.pin, frozenset(links_of(joint))]
         if free:
@@ -238,14 +241,17 @@ def _shapes(
     return shapes, between
 
 
-def _rests_on(between: Mapping[str, tuple[str, str, float]], node: str, ends: Iterable[str]) -> bool:
+def _rests_on(
+    between: Mapping[str, tuple[str, str, float]], node: str, ends: Iterable[str]
+) -> bool:
     """Whether the place of one of the ends follows from the node's."""
     queue = list(ends)
     while queue:
         end = queue.pop()
         if end == node:
             return True
-        queue += between.get(end, ("", "", 0.0))[:2] if end in between else ()
+        if end in between:
+            queue += between[end][:2]
     return False
 
 
@@ -263,7 +269,14 @@ def _net(
     for shape in shapes:
         for start, _ in shape.tips:
             members.setdefault(start, [shape.link])
-    everywhere: dict[str, tuple[str, str, float]] = dict(between)
+    everywhere: dict[str, tuple[str, str, float]] = {}
+    while len(everywhere) < len(between):
+        # A stone may lie between nodes that lie between others themselves: those first.
+        everywhere |= {
+            node: rule
+            for node, rule in between.items()
+            if all(end not in between or end in everywhere for end in rule[:2])
+        }
     bars: list[Bar] = []
     faces: list[tuple[str, ...]] = []
     for shape in shapes:
@@ -274,7 +287,7 @@ def _net(
             bars.append(Bar(shape.link, *shape.outline))
         elif shape.outline:
             ring = (*shape.outline, shape.outline[0])
-            bars += [Bar(shape.link, a, b, 1.5) for a, b in zip(ring, ring[1:], strict=False)]
+            bars += [Bar(shape.link, a, b, 1.5) for a, b in pairwise(ring)]
             faces.append(shape.outline)
         for start, stone in shape.tips:
             tip = f"{shape.link}:{stone}>"
@@ -286,7 +299,8 @@ def _net(
         node: 1.6 * sum(rank[link] for link in links) / len(links)
         for node, links in members.items()
     }
-    opened = {joint.node for joint in (*pins, *slides) if joint.far is Far.OPEN}
+    every: tuple[Pin | Slide, ...] = (*pins, *slides)
+    opened = {joint.node for joint in every if joint.far is Far.OPEN}
     return Net(
         tuple(node for node in members if node not in between),
         frozenset(low),
@@ -297,3 +311,58 @@ def _net(
         wish,
         frozenset(opened),
     )
+
+
+def textbook_places(chain: Chain) -> dict[str, complex] | None:
+    """Return the places that textbooks give to the joints of a group, grid units.
+
+    There are such places for the five dyads and for the triad of revolute pairs.
+    """
+    if len(chain.shapes) == 2:
+        return _dyad(chain)
+    base = [shape for shape in chain.shapes if len(shape.outline) == 3 and not shape.on]
+    bars = [shape for shape in chain.shapes if len(shape.outline) == 2 and not shape.on]
+    if chain.slides or len(base) != 1 or len(base) + len(bars) != len(chain.shapes):
+        return None
+    corners = base[0].outline
+    if any(pin.far is Far.OPEN for pin in chain.pins if pin.node in corners):
+        return None
+    # Three leads stand out from the corners of the base link (трёхповодковая группа).
+    found: dict[str, complex] = {}
+    for corner, turn in zip(corners, (215.0, 90.0, -35.0), strict=True):
+        found[corner] = 0.85 * exp(1j * radians(turn))
+        for bar in bars:
+            if corner in bar.outline:
+                end = next(node for node in bar.outline if node != corner)
+                found[end] = 2.2 * exp(1j * radians(turn - 14.0))
+    return found if set(found) == set(chain.net.nodes) else None
+
+
+def _dyad(chain: Chain) -> dict[str, complex] | None:
+    """Return the places of a dyad's joints, from the left to the right."""
+    joints: tuple[Pin | Slide, ...] = (*chain.pins, *chain.slides)
+    outer = [joint for joint in joints if joint.far is Far.OPEN]
+    inner = next(joint for joint in joints if joint.far is Far.CHAIN)
+    if len(outer) != 2 or len({joint.node for joint in outer}) != 2:
+        return None
+    outer.sort(key=lambda joint: isinstance(joint, Slide))
+    first, last = outer
+    if isinstance(inner, Pin) and inner.node not in (first.node, last.node):
+        top = 1.1 + 1.25j if isinstance(last, Pin) else 1.2 + 1.0j
+        return _if_whole(chain, {first.node: 0j, inner.node: top, last.node: 2.3 + 0j})
+    if isinstance(inner, Pin):
+        # The inner pin stands on one of the sliders; the other is at the end of an arm.
+        own, other = (first, last) if inner.node == first.node else (last, first)
+        from_left = {own.node: 1.7 + 0j, other.node: 1.15j}
+        mirrored = {own.node: 1.15j, other.node: 1.7 + 0j}
+        return _if_whole(chain, from_left if own is last else mirrored)
+    if isinstance(last, Slide):
+        return _if_whole(chain, {last.node: 0j, inner.node: 1.5j})
+    if inner.node in (first.node, last.node):
+        return _if_whole(chain, {first.node: 0j, last.node: 1.7 + 1.15j})
+    return None
+
+
+def _if_whole(chain: Chain, found: dict[str, complex]) -> dict[str, complex] | None:
+    """Return the places of all nodes when those of the free ones, and no others, are there."""
+    return places(chain.net, found) if set(found) == set(chain.net.nodes) else None

@@ -173,9 +173,7 @@ class _Judge:
             if name not in ends[s] and not _of_same(net, name, bar)
         ]
         self.near = np.array(near, dtype=int).reshape(-1, 2)
-        self.flat = np.array(
-            [s for s, bar in enumerate(net.bars) if ends[s] & net.flat], dtype=int
-        )
+        self.flat = np.array([s for s, bar in enumerate(net.bars) if ends[s] & net.flat], dtype=int)
         self.faces = [
             tuple(index[name] for name in (face[0], face[k], face[k + 1]))
             for face in net.faces
@@ -201,7 +199,7 @@ class _Judge:
         a, b = z[:, self.starts], z[:, self.ends]
         way = b - a
         size = np.maximum(np.abs(way), 1e-9)
-        total = 0.4 * ((size - self.lengths) ** 2).sum(axis=1)
+        total: Floats = 0.4 * ((size - self.lengths) ** 2).sum(axis=1)
         total += _CLOSE * np.maximum(0.0, _SHORTEST * self.lengths / 1.7 - size).sum(axis=1)
         total += self._crossings(a, b)
         total += self._angles(way / size)

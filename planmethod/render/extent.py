@@ -1,10 +1,12 @@
-"""Room that items take on the paper."""
+"""Room that items take on the paper, and pictures with their letters put around them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
+from planmethod.render.block import Picture
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
+from planmethod.render.labels import Label, place_labels
 from planmethod.render.symbols import arc_points
 from planmethod.render.typeset import text_corners
 
@@ -26,3 +28,19 @@ def ink_bounds(items: Iterable[Item]) -> Bounds:
         return 0.0, 0.0, 0.0, 0.0
     xs, ys = [p.real for p in points], [p.imag for p in points]
     return min(xs), min(ys), max(xs), max(ys)
+
+
+ROOMS = (26.0, 60.0)
+"""Room around a picture for its letters, mm: more where they find no free place in less."""
+
+
+def lettered(items: Sequence[Item], labels: Sequence[Label]) -> Picture:
+    """Return a picture of items with their labels in free places around them."""
+    left, low, right, high = ink_bounds(items)
+    for room in ROOMS:
+        bounds = (left - room, low - room, right + room, high + room)
+        placed = place_labels(labels, items, bounds)
+        if all(label.free for label in placed):
+            break
+    whole = [*items, *(item for label in placed for item in label.items())]
+    return Picture(tuple(whole), ink_bounds(whole))

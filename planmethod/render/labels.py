@@ -43,6 +43,7 @@ _CROSSING = 400.0  # a label on a line, and its share per mm of line under it
 _PER_MM = 20.0
 _LEADER = 25.0  # having a leader line at all
 _BETWEEN = 7.0  # per line between a label and what it names
+_THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
 _TURNED = 3.0  # looking quite away from the preferred direction, mm of distance
 
 
@@ -291,7 +292,7 @@ class _Field:
                 # A leader may start inside what it names: a joint, a slider.
                 anchor = candidates.label.anchor
                 named = self.areas.query(points(anchor.real, anchor.imag), predicate="intersects")
-                costs[ask[which[~np.isin(area, named)]]] += _FORBIDDEN
+                np.add.at(costs, ask[which[~np.isin(area, named)]], _THROUGH)
         return costs
 
     def choose(self, candidates: _Candidates, static: Floats) -> Placed:
@@ -344,7 +345,8 @@ class _Field:
         for k in long:
             segment = np.broadcast_to(_as_segments(starts[[k]], ends[[k]]), (len(others), 2, 2))
             spaced = others + np.array([-_CLEAR, -_CLEAR, _CLEAR, _CLEAR]) / 2
-            costs[k] += _FORBIDDEN * float(np.any(_inside(segment, spaced) >= 0))
+            # A leader through a label is bad, a label on a label worse.
+            costs[k] += _FORBIDDEN / 2 * float(np.any(_inside(segment, spaced) >= 0))
         return costs
 
     def _everywhere(self, label: Label) -> _Candidates:

@@ -8,14 +8,12 @@ from planmethod.plans.model import Plan, PlanKind, VectorKind
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.extent import ink_bounds
-from planmethod.render.labels import Label, place_labels
+from planmethod.render.extent import lettered
+from planmethod.render.labels import Label
 from planmethod.render.symbols import vector_arrow
 from planmethod.render.typeset import typeset
 
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
-ROOM = 14.0
-"""Room around a plan for its letters, mm."""
 
 
 def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, PointName]]:
@@ -58,16 +56,11 @@ def plan_picture(
             tag=vector.kind.value,
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag="pole"))
-    labels = _labels(solution, plan, at, letter_height)
-    left, low, right, high = ink_bounds(items)
-    room = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
-    for placed in place_labels(labels, items, room):
-        items += placed.items()
-    return Picture(tuple(items), ink_bounds(items))
+    return lettered(items, _labels(solution, plan, at, letter_height, f"{kind.value} {index}"))
 
 
 def _labels(
-    solution: Solution, plan: Plan, at: dict[PointName, complex], height: float
+    solution: Solution, plan: Plan, at: dict[PointName, complex], height: float, prefix: str
 ) -> list[Label]:
     """Return the letters; points that coincide on the paper share one inscription."""
     letters = shown_letters(solution.problem, plan)
@@ -86,7 +79,7 @@ def _labels(
             place,
             prefer=place - centre,
             gap=1.4,
-            name=f"{plan.kind.value}:{texts[0]}",
+            name=f"{prefix}: {texts[0]}",
         )
         for place, texts in spots
     ]

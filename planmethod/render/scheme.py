@@ -14,8 +14,8 @@ from planmethod.plans.solution import Solution
 from planmethod.problem.model import Slide
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.extent import ink_bounds
-from planmethod.render.labels import Label, place_labels, segment_label
+from planmethod.render.extent import lettered
+from planmethod.render.labels import Label, segment_label
 from planmethod.render.symbols import (
     angle_of,
     fixed_pivot,
@@ -29,9 +29,6 @@ from planmethod.render.symbols import (
     unit,
 )
 from planmethod.render.typeset import typeset
-
-ROOM = 16.0
-"""Room around the mechanism for its labels, mm."""
 
 OVERHANG = 5.0
 """How far a bar goes on beyond the stone that slides on it, mm."""
@@ -419,11 +416,7 @@ def scheme_picture(
         *scheme.joints,
         *scheme.arrows,
     ]
-    left, low, right, high = ink_bounds(items)
-    room = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
-    for placed in place_labels(scheme.labels, items, room):
-        items += placed.items()
-    return Picture(tuple(items), ink_bounds(items))
+    return lettered(items, scheme.labels)
 
 
 def _numbers(solution: Solution, letter_height: float) -> list[Label]:

@@ -10,6 +10,8 @@ from __future__ import annotations
 import cmath
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import pairwise
 from math import radians
 
 from planmethod.mechanism.groups import AssurGroup
@@ -25,9 +27,10 @@ from planmethod.render.chains import (
     driver_chain,
     group_chain,
     mechanism_chain,
+    textbook_places,
 )
 from planmethod.render.drawing import Arc, Item, Pen, Stroke
-from planmethod.render.embedding import embed, places, turned_outwards
+from planmethod.render.embedding import embed, turned_outwards
 from planmethod.render.extent import ink_bounds
 from planmethod.render.labels import Label, place_labels, segment_label
 from planmethod.render.symbols import (
@@ -48,20 +51,14 @@ from planmethod.render.typeset import typeset
 MARGIN = 13.0
 """Room about the joints for symbols and letters, mm."""
 
-LARGEST_STEP = 34.0
+LARGEST_STEP = 42.0
 """Greatest length of a grid unit, mm: a four-bar linkage should not fill a wall."""
+
+SMALLEST_STEP = 8.0
+"""Least length of a grid unit, mm: below it the symbols run into each other."""
 
 STUB = 13.0
 """Length of the dashed stub of an open joint, mm."""
-
-_DYADS: Mapping[str, tuple[complex, complex, complex]] = {
-    # Outer joint, inner joint, outer joint: as every textbook draws the five kinds.
-    "RRR": (0j, 1.1 + 1.3j, 2.2 + 0j),
-    "RRP": (0j, 1.4 + 1.1j, 1.4 + 1.1j),
-    "RPR": (0j, 0j, 2.2 + 0j),
-    "PRP": (0j, 0j, 0j),
-    "RPP": (0j, 0j, 0j),
-}
 
 
 def mechanism_picture(
@@ -82,9 +79,8 @@ def mechanism_picture(
     sense : int
         Of the driver's motion: +1 counter-clockwise or to the right, -1 the other way.
     """
-    chain = mechanism_chain(mechanism, structure)
-    at = _fitted(embed(chain.net), width, height)
-    return _picture(chain, at, letter_height, mechanism.driver, sense)
+    chain, found = _whole(mechanism, structure)
+    return _fitted(chain, found, (width, height), letter_height, mechanism.driver, sense)
 
 
 def driver_picture(
@@ -93,7 +89,7 @@ def driver_picture(
     """Return the driver with the frame (первичный механизм), mm."""
     chain = driver_chain(mechanism)
     node = chain.net.nodes[0]
-    reach = min(30.0, width - 2 * MARGIN, height - 2 * MARGIN)
+    reach = min(38.0, width - 2 * MARGIN, height - 2 * MARGIN)
     at = {node: 0j, f"{node}>": reach * cmath.exp(1j * radians(50))}
     return _picture(chain, at, letter_height, mechanism.driver, sense)
 
@@ -107,68 +103,46 @@ def group_picture(
     letter_height: float = 5.0,
 ) -> Picture:
     """Return a group taken apart (структурная группа), mm; outer joints open."""
+    chain, found = _apart(mechanism, group)
+    return _fitted(chain, found, (width, height), letter_height)
+
+
+@lru_cache(maxsize=16)
+def _whole(mechanism: Mechanism, structure: Structure) -> tuple[Chain, Mapping[str, complex]]:
+    """Return the chain of a mechanism and its places: a sheet asks for several sizes."""
+    chain = mechanism_chain(mechanism, structure)
+    return chain, embed(chain.net)
+
+
+@lru_cache(maxsize=64)
+def _apart(mechanism: Mechanism, group: AssurGroup) -> tuple[Chain, Mapping[str, complex]]:
+    """Return the chain of a group and its places."""
     chain = group_chain(mechanism, group)
-    found = _classical(chain, group) or embed(chain.net)
-    at = _fitted(found, width - STUB, height - STUB)
-    return _picture(chain, at, letter_height)
+    return chain, textbook_places(chain) or embed(chain.net)
 
 
-def _classical(chain: Chain, group: AssurGroup) -> dict[str, complex] | None:
-    """Return the places that textbooks give to the joints of a group, grid units."""
-    if len(group.links) == 2:
-        return _dyad(chain)
-    base = [shape for shape in chain.shapes if len(shape.outline) == 3 and not shape.on]
-    bars = [shape for shape in chain.shapes if len(shape.outline) == 2 and not shape.on]
-    if chain.slides or len(base) != 1 or len(base) + len(bars) != len(chain.shapes):
-        return None
-    corners = base[0].outline
-    if any(pin.far is Far.OPEN for pin in chain.pins if pin.node in corners):
-        return None
-    # Three leads stand out from the corners of the base link (трёхповодковая группа).
-    found: dict[str, complex] = {}
-    for corner, turn in zip(corners, (215.0, 90.0, -35.0), strict=True):
-        found[corner] = 0.85 * cmath.exp(1j * radians(turn))
-        for bar in bars:
-            if corner in bar.outline:
-                end = next(node for node in bar.outline if node != corner)
-                found[end] = 2.2 * cmath.exp(1j * radians(turn - 14.0))
-    return found if set(found) == set(chain.net.nodes) else None
-
-
-def _dyad(chain: Chain) -> dict[str, complex] | None:
-    """Return the places of a dyad's joints, from the left to the right."""
-    joints: tuple[Pin | Slide, ...] = (*chain.pins, *chain.slides)
-    outer = [joint for joint in joints if joint.far is Far.OPEN]
-    inner = next(joint for joint in joints if joint.far is Far.CHAIN)
-    if len(outer) != 2 or len({joint.node for joint in outer}) != 2:
-        return None
-    outer.sort(key=lambda joint: isinstance(joint, Slide))
-    first, last = outer
-    if isinstance(inner, Pin) and inner.node not in (first.node, last.node):
-        top = 1.1 + 1.25j if isinstance(last, Pin) else 1.2 + 1.0j
-        return places(chain.net, {first.node: 0j, inner.node: top, last.node: 2.3 + 0j})
-    if isinstance(inner, Pin):
-        # The inner pin stands on one slider or on both.
-        own = first if inner.node == first.node else last
-        other = last if own is first else first
-        return places(chain.net, {own.node: 1.0 + 0j, other.node: (0j if other is first else 2.5)})
-    if inner.node in (first.node, last.node):
-        return places(chain.net, {first.node: 0j, last.node: 1.5 + 1.2j})
-    free = [node for node in chain.net.nodes if node not in (first.node, last.node)]
-    found = {first.node: 0j, last.node: 2.2 + 0j}
-    found |= dict.fromkeys(free, 1.1 + 1.1j)
-    return places(chain.net, found)
-
-
-def _fitted(found: Mapping[str, complex], width: float, height: float) -> dict[str, complex]:
-    """Stretch places in grid units to a room in mm, a little more one way than the other."""
+def _fitted(
+    chain: Chain,
+    found: Mapping[str, complex],
+    room: tuple[float, float],
+    letter_height: float,
+    driver: str = "",
+    sense: int = 1,
+) -> Picture:
+    """Stretch places in grid units so that the picture with its letters fills a room, mm."""
     xs, ys = [z.real for z in found.values()], [z.imag for z in found.values()]
-    wide, tall = max(max(xs) - min(xs), 0.5), max(max(ys) - min(ys), 0.5)
-    across = min(LARGEST_STEP, (width - 2 * MARGIN) / wide)
-    up = min(LARGEST_STEP, (height - 2 * MARGIN) / tall)
-    across, up = min(across, 1.3 * up), min(up, 1.3 * across)
-    low = min(ys)
-    return {name: complex(z.real * across, (z.imag - low) * up) for name, z in found.items()}
+    wide, tall = max(max(xs) - min(xs), 1e-3), max(max(ys) - min(ys), 1e-3)
+    about = (2 * MARGIN, 2 * MARGIN)  # what symbols and letters take, until it is measured
+    for _ in range(3):
+        across = min(LARGEST_STEP, max(SMALLEST_STEP, (room[0] - about[0]) / wide))
+        up = min(LARGEST_STEP, max(SMALLEST_STEP, (room[1] - about[1]) / tall))
+        across, up = min(across, 1.3 * up), min(up, 1.3 * across)
+        at = {name: complex(z.real * across, z.imag * up) for name, z in found.items()}
+        made = _picture(chain, at, letter_height, driver, sense)
+        if made.width <= room[0] and made.height <= room[1]:
+            break
+        about = (made.width - across * wide + 0.5, made.height - up * tall + 0.5)
+    return made
 
 
 def _picture(
@@ -219,7 +193,8 @@ class _Draft:
             )
             target = self.arms if carried else self.lines
             target.append(Stroke((start, end), tag=f"link {link}"))
-            self.segments.append((link, start, end))
+            stops = [start, *([at[shape.on]] if shape.on else []), end]
+            self.segments += [(link, a, b) for a, b in pairwise(stops)]
         elif shape.outline:
             ring = turned_outwards(shape.outline, at)
             corners = [at[node] for node in ring]
@@ -229,7 +204,10 @@ class _Draft:
         for start_node, stone in shape.tips:
             start, through = at[start_node], at[stone]
             tip = through + unit(through - start) * (SIZES.slider_length / 2 + 5.0)
-            self.lines.append(Stroke((start, tip), tag=f"link {link}"))
+            # Over the stone that slides on it, under a stone that it carries.
+            near = through - unit(through - start) * SIZES.slider_length / 2
+            self.arms.append(Stroke((start, near), tag=f"link {link}"))
+            self.lines.append(Stroke((near, tip), tag=f"link {link}"))
             self.segments.append((link, start, tip))
             others = [at[node] for node in shape.outline if node != start_node]
             others += [at[other] for _, other in shape.tips if other != stone]
@@ -276,17 +254,30 @@ class _Draft:
             for way in (turn, -turn):
                 ends = (place + way * half, place + way * reach)
                 self.grounds.append(Stroke(ends, Pen.HIDDEN, tag="open"))
-            self._number(slide.to, place + turn * reach, turn, gap=1.2)
+            self._number(f"({slide.to})", place + turn * reach, turn, gap=1.2)
         if slide.text:
-            self._letter(slide.text, place, 1j if turn.imag == 0 else 1 + 0j, gap=5.2)
+            if slide.far is Far.FRAME:
+                self._letter(slide.text, place - half, -1 + 0j, gap=1.2)
+            else:
+                lines = -sum(self.directions(place), 0j)
+                self._letter(slide.text, place, lines if abs(lines) > 0.3 else 1j * turn, gap=5.4)
         if not self.chain.shape(slide.stone).outline and not self.chain.shape(slide.stone).tips:
-            away = 1j * turn if (1j * turn).imag >= 0 else -1j * turn
-            self._number(slide.stone, place, away + 0.6 * turn, gap=5.2)
+            if slide.far is Far.FRAME:
+                self._number(slide.stone, place + half, 1 + 0j, gap=1.2)
+            else:
+                # Beside an end of the stone, away from its letter.
+                lean = -sum(self.directions(place), 0j)
+                end = -turn if (lean * turn.conjugate()).real > 0 else turn
+                away = 1j * turn if (1j * turn).imag >= 0 else -1j * turn
+                self._number(slide.stone, place + end * 3.0, end + 1.6 * away, gap=4.0)
 
     def _cross_direction(self, place: complex, slide: Slide) -> complex:
         """Return the direction of a guide: level, or upright if a bar leaves along the level."""
         if slide.far is Far.FRAME:
             return 1 + 0j
+        opened = [other for other in self.chain.slides if other.far is Far.OPEN]
+        if len(opened) == 2 and opened[0] is slide:
+            return 1j  # two parallel guides would let the group slip
         level = max((abs(u.real) for u in self.directions(place)), default=0.0)
         return 1j if level > 0.9 else 1 + 0j
 
@@ -312,12 +303,14 @@ class _Draft:
         elif pin.far is Far.OPEN:
             way = _freest(busy, tuple(cmath.exp(1j * radians(15 * k)) for k in range(24)))
             if len(busy) == 1:
-                # The link goes on as one would expect: bent a little from the line of the lead.
-                way = -busy[0] * cmath.exp(1j * radians(35 if busy[0].real < 0 else -35))
-            end = place + way * STUB
+                # Bent a little from the line of the lead, and upright: groups stand side by side.
+                bends = [-busy[0] * cmath.exp(1j * radians(turn)) for turn in (35, -35)]
+                way = max(bends, key=lambda bend: round(abs(bend.imag), 6))
+            on_stone = any(slide.node == pin.node for slide in self.chain.slides)
+            end = place + way * (STUB + (4.0 if on_stone else 0.0))
             self.grounds.append(Stroke((place, end), Pen.HIDDEN, tag="open"))
             self.segments.append(("", place, end))
-            self._number(pin.to, end, way, gap=0.8)
+            self._number(f"({pin.to})", end, way, gap=0.8)
         self.joints += revolute(place)
         for k in range(1, pin.count):
             # GOST 2.770 shows a joint of several pairs by circles about one another.
@@ -335,9 +328,12 @@ class _Draft:
             if driver in pin.links and pin.far is Far.FRAME:
                 place = self.at[pin.node]
                 way = next(iter(self.directions(place, driver)), 1j)
-                arrow = turn_arrow(place, 9.0, sense, middle=angle_of(way), sweep=80)
-                self.grounds += arrow
-                tail = place + 9.0 * way * cmath.exp(-1j * radians(40 * sense))
+                # Ahead of the crank, so that the arrow does not cross it; outside a stone.
+                stone = any(slide.node == pin.node for slide in self.chain.slides)
+                middle = way * cmath.exp(1j * radians((-48 if stone else 48) * sense))
+                radius = 13.0 if stone else 10.0
+                self.grounds += turn_arrow(place, radius, sense, middle=angle_of(middle), sweep=76)
+                tail = place + radius * middle
                 self.labels.append(
                     Label(
                         typeset(f"ω_{{{driver}}}", self.letter_height),
@@ -365,7 +361,7 @@ class _Draft:
         self.labels.append(Label(mark, place, prefer=prefer, gap=gap, priority=1))
 
     def picture(self) -> Picture:
-        """Number the links and put all inscriptions down."""
+        """Return the picture with the links numbered and all inscriptions placed."""
         longest: dict[str, tuple[complex, complex]] = {}
         for link, start, end in self.segments:
             old = longest.get(link)

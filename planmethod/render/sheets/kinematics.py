@@ -29,7 +29,7 @@ from planmethod.render.typeset import typeset
 PER_SHEET = 12
 """Most positions on one sheet; more go on further sheets."""
 
-PAPERS = ("A3", "A2", "A1")
+PAPERS = ("A3", "A2", "A1", "A0")
 """Formats tried in turn when none is asked for."""
 
 TITLES = {
@@ -58,11 +58,12 @@ HEIGHTS = {
     "A3": Heights(3.5, 5.0, 3.5),
     "A2": Heights(5.0, 5.0, 3.5),
     "A1": Heights(5.0, 7.0, 5.0),
+    "A0": Heights(5.0, 7.0, 5.0),
 }
 
 NBSP = "\u00a0"
 
-COLUMN_WIDTHS = {"A4": 170.0, "A3": 125.0, "A2": 180.0, "A1": 250.0}
+COLUMN_WIDTHS = {"A4": 170.0, "A3": 125.0, "A2": 180.0, "A1": 250.0, "A0": 280.0}
 """Width that texts and equations are set to, mm."""
 
 
@@ -98,10 +99,11 @@ def _view(solution: Solution, kind: PlanKind, picture: Block, size: Heights, tit
 
 def _statement(solution: Solution, size: Heights, width: float) -> Block:
     """Return "Дано" and "Определить"."""
-    facts = "; ".join(fact.replace(" ", NBSP) for fact in given(solution.problem)) + "."
+    facts = given(solution.problem, list(solution.positions))
+    said = "; ".join(fact.replace(" ", NBSP) for fact in facts)
     return Column(
         [
-            paragraph(f"Дано: {facts}", size.text, width=width),
+            paragraph(f"Дано: {said}.", size.text, width=width),
             paragraph(f"Определить: {wanted(solution)}.", size.text, width=width),
         ],
         gap=3.0,
@@ -193,7 +195,7 @@ def _blocks(
     column = COLUMN_WIDTHS.get(paper, 180.0)
     result = table_block(
         result_columns(solution, indices),
-        size.text,
+        size.text if len(indices) == 1 else min(size.text, 3.5),
         max_width=max(185.0, 0.58 * inside),
         leading=2 if len(solution.positions) > 1 else 0,
         title="Результаты",
@@ -305,5 +307,5 @@ def kinematics_sheets(
             return sheets
     raise LayoutError(
         f"{problem.name}: the views do not fit {papers[-1]} with the scales of the file. "
-        "Take a larger format (--paper A1) or coarser scales in [scales]."
+        "Take coarser scales in [scales], or leave them out."
     )

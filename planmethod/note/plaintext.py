@@ -1,0 +1,130 @@
+"""Plain text for a terminal or a note: rich text made plain, numbers, wrapping, aligned tables."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+import unicodedata
+from collections.abc import Iterator, Sequence
+
+from planmethod.note.numbers import russian, significant, trimmed
+from planmethod.note.wording.model import Wording
+
+WIDTH = 100
+"""Columns of the terminal that every table and paragraph keeps to."""
+
+GAP = "  "
+
+_SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
+_SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
+_UP = re.compile(r"\^\{([^}]*)\}")
+_DOWN = re.compile(r"_\{([^}]*)\}")
+
+
+def plain_text(rich: str) -> str:
+    """Return rich text as plain: ``ω_{2}`` gives ``ω₂``, ``a^{n}_{CB}`` gives ``aⁿ_CB``."""
+
+    def up(match: re.Match[str]) -> str:
+        return "".join(_SUPER.get(c, c) for c in match[1])
+
+    def down(match: re.Match[str]) -> str:
+        text = match[1]
+        if not text:
+            return ""
+        return "".join(_SUB[c] for c in text) if all(c in _SUB for c in text) else f"_{text}"
+
+    return _DOWN.sub(down, _UP.sub(up, rich))
+
+
+def spoken(text: str, words: Wording) -> str:
+    """Return a number with a decimal point as the language writes it."""
+    plain = plain_text(russian(text))
+    return plain if words.decimal == "," else plain.replace(",", words.decimal)
+
+
+def found(value: float, words: Wording) -> str:
+    """Return a result, four significant digits."""
+    return spoken(significant(value), words)
+
+
+def given(value: float, words: Wording, digits: int = 6) -> str:
+    """Return a given number, no more digits than it has."""
+    return spoken(trimmed(value, digits), words)
+
+
+def fixed(value: float, words: Wording, places: int = 2) -> str:
+    """Return a number with so many digits after the decimal sign."""
+    return spoken(f"{value + 0.0:.{places}f}", words)
+
+
+def width(text: str) -> int:
+    """Return how many columns a terminal needs for a text."""
+    columns = 0
+    for char in text:
+        if not unicodedata.combining(char):
+            columns += 2 if unicodedata.east_asian_width(char) in "WF" else 1
+    return columns
+
+
+def pad(text: str, columns: int, *, right: bool = False) -> str:
+    """Return a text filled with spaces up to so many columns."""
+    space = " " * max(0, columns - width(text))
+    return space + text if right else text + space
+
+
+def wrap(text: str, *, first: str = "", rest: str = "") -> list[str]:
+    """Return a paragraph cut into lines, never within a word or a formula's product."""
+    return textwrap.wrap(
+        text,
+        WIDTH,
+        initial_indent=first,
+        subsequent_indent=rest,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def table(header: Sequence[str], rows: Sequence[Sequence[str]], *, left: int = 1) -> list[str]:
+    """Return an aligned table: the first ``left`` columns to the left, the others to the right."""
+    columns = list(zip(header, *rows, strict=True))
+    widths = [max(width(cell) for cell in column) for column in columns]
+
+    def line(cells: Sequence[str]) -> str:
+        padded = (
+            pad(cell, size, right=i >= left)
+            for i, (cell, size) in enumerate(zip(cells, widths, strict=True))
+        )
+        return GAP.join(padded).rstrip()
+
+    rule = "─" * (sum(widths) + len(GAP) * (len(widths) - 1))
+    return [line(header), rule, *(line(row) for row in rows)]
+
+
+def cut(columns: Sequence[Sequence[str]], lead: int) -> Iterator[list[Sequence[str]]]:
+    """Cut columns (header and cells each) into tables that fit, each with the leading columns."""
+    sizes = [max(width(cell) for cell in column) + len(GAP) for column in columns]
+    start = sum(sizes[:lead])
+    part, total = list(columns[:lead]), start
+    for column, size in zip(columns[lead:], sizes[lead:], strict=True):
+        if total + size > WIDTH + len(GAP) and len(part) > lead:
+            yield part
+            part, total = list(columns[:lead]), start
+        part.append(column)
+        total += size
+    if len(part) > lead:
+        yield part
+
+
+def columns_text(columns: Sequence[Sequence[str]], lead: int) -> list[str]:
+    """Return columns as tables one under another, a blank line between."""
+    lines: list[str] = []
+    for part in cut(columns, lead):
+        header = [column[0] for column in part]
+        rows = list(zip(*(column[1:] for column in part), strict=True))
+        lines += [*([""] if lines else []), *table(header, rows, left=0)]
+    return lines
+
+
+def heading(text: str, rule: str = "─") -> list[str]:
+    """Return a heading and the line under it."""
+    return [text, rule * width(text)]

@@ -1,0 +1,204 @@
+"""Protocol of a construction: its program in words, as a student's note tells it (протокол)."""
+
+from __future__ import annotations
+
+from planmethod.construct.steps import MeasureAlong, PointName
+from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.structure import roman
+from planmethod.note.equations import equation_lines
+from planmethod.note.given import given_lines
+from planmethod.note.naming import Names
+from planmethod.note.narrate import Narrator
+from planmethod.note.plaintext import given, heading, plain_text, wrap
+from planmethod.note.sections import Section, sections
+from planmethod.note.structure_text import local_letters
+from planmethod.note.tables import position_line, position_tables, scale_texts
+from planmethod.note.wording import Wording, wording
+from planmethod.plans.model import PlanKind
+from planmethod.plans.solution import Solution
+
+
+def protocol(solution: Solution, *, lang: str = "ru", position: int = 0) -> str:
+    """Tell the construction of one position step by step (протокол построения).
+
+    Parameters
+    ----------
+    solution : Solution
+    lang : str
+        ``ru`` or ``en``.
+    position : int
+        Index into ``solution.positions``.
+
+    Returns
+    -------
+    str
+        Plain text, lines of at most 100 columns, ending in a newline.
+
+    Raises
+    ------
+    UnknownLanguageError
+    IndexError
+        When there is no such position.
+    """
+    words = wording(lang)
+    count = len(solution.positions)
+    if not 0 <= position < count:
+        raise IndexError(f"position {position} of {count}: expected 0 to {count - 1}")
+    return "\n".join(_Writer(solution, words, position).write()) + "\n"
+
+
+class _Writer:
+    """Text of a protocol while it is being written: headings and numbered steps."""
+
+    def __init__(self, solution: Solution, words: Wording, index: int) -> None:
+        self.solution, self.words, self.index = solution, words, index
+        self.names = Names(solution, words)
+        self.narrator = Narrator(solution, self.names, index)
+        self.lines: list[str] = []
+        self.steps = 0
+        self.chapter = self.part = 0
+
+    def write(self) -> list[str]:
+        words, problem = self.words, self.solution.problem
+        self.lines += heading(f"{words.title_protocol}. {problem.title}", "═")
+        if problem.source:
+            self.lines += wrap(words.source.format(source=problem.source))
+        self.lines.append(position_line(self.solution, words, self.index))
+        self.lines.append(words.formula.format(formula=self.solution.structure.formula))
+        text = "; ".join(plain_text(line) for line in given_lines(problem, words.lang))
+        self.lines += wrap(words.given.format(given=text))
+        self._chapter(words.scales)
+        self._item([words.scales_text.format(scales="; ".join(scale_texts(self.solution, words)))])
+        self._item([words.ruler.format(ruler=given(self.solution.hand.ruler, words))])
+        titles = {
+            PlanKind.POSITION: words.plan_position,
+            PlanKind.VELOCITY: words.plan_velocity,
+            PlanKind.ACCELERATION: words.plan_acceleration,
+        }
+        kind: PlanKind | None = None
+        for section in sections(self.names.construction, self.solution.structure.groups):
+            if section.kind is not kind:
+                kind = section.kind
+                self._chapter(titles[kind])
+                self._open_plan(kind)
+            self._section(section)
+        self._chapter(words.title_results)
+        self.lines += position_tables(self.solution, words, self.index)
+        return self.lines
+
+    # Layout ----------------------------------------------------------------------------------
+
+    def _chapter(self, title: str) -> None:
+        self.chapter, self.part = self.chapter + 1, 0
+        self.lines += ["", *heading(f"{self.chapter}. {title}"), ""]
+
+    def _part(self, title: str) -> None:
+        self.part += 1
+        blank = [] if self.lines[-1] == "" else [""]
+        self.lines += [*blank, f"{self.chapter}.{self.part}. {title}", ""]
+
+    def _item(self, lines: list[str], *, more: bool = False) -> None:
+        """Write a numbered step; ``more`` goes on with the last one."""
+        if not lines:
+            return
+        if not more:
+            self.steps += 1
+        for i, line in enumerate(lines):
+            first = f"{self.steps:>3}) " if i == 0 and not more else " " * 5
+            self.lines += wrap(line, first=first, rest=" " * 5)
+
+    # Content ---------------------------------------------------------------------------------
+
+    def _open_plan(self, kind: PlanKind) -> None:
+        if kind is PlanKind.POSITION:
+            return
+        words = self.words
+        pole = self.names.construction.plan(kind).pole
+        assert pole is not None
+        fixed = self.names.others(pole)
+        template = words.pole_fixed if fixed else words.pole
+        self._item([template.format(pole=self.names.pole(kind), points=", ".join(fixed)) + "."])
+        if kind is PlanKind.VELOCITY:
+            self._item([words.equation_legend], more=True)
+
+    def _title(self, section: Section) -> str:
+        if section.frame:
+            return self.words.frame
+        if section.group is None:
+            return self.words.driver.format(link=self.solution.problem.drive.link)
+        return group_title(section.group, self.words)
+
+    def _section(self, section: Section) -> None:
+        words = self.words
+        self._part(self._title(section))
+        if section.frame:
+            self._fixed_points()
+        made = {PointName(step.out) for step in section.steps}
+        if section.kind is not PlanKind.POSITION:
+            self._equations(section.kind, made)
+        if section.kind is PlanKind.VELOCITY:
+            self._item(self._known_turning(section))
+        if section.kind is PlanKind.ACCELERATION:
+            self._item(self.narrator.without_coriolis(made))
+        measured = False
+        for step in section.steps:
+            told = self.narrator.tell(step)
+            self._item(told, more=measured and bool(told))
+            measured = isinstance(step, MeasureAlong)
+        if section.kind is not PlanKind.POSITION:
+            read = self.narrator.readings(section.kind, made)
+            if read:
+                closed = [*(f"{line};" for line in read[:-1]), f"{read[-1]}."]
+                self._item([words.read_off, *closed])
+
+    def _fixed_points(self) -> None:
+        points = []
+        for name in self.solution.problem.bodies[FRAME].points:
+            place = self.narrator.say.place(PointName(name))
+            x, y = (given(value, self.words, 5) for value in (place.real, place.imag))
+            points.append(f"{name} ({x}; {y})")
+        if points:
+            self._item([self.words.fixed_points.format(points=", ".join(points))])
+
+    def _equations(self, kind: PlanKind, made: set[PointName]) -> None:
+        plan = self.names.construction.plan(kind)
+        found = [e for e in plan.equations if e.left.head in made]
+        if not found:
+            return
+        self.lines += [self.words.equations, ""]
+        for equation in found:
+            self.lines += [*(f"     {line}" for line in equation_lines(equation, self.names)), ""]
+
+    def _known_turning(self, section: Section) -> list[str]:
+        """Return how the group's links turn when that is known before its plan is drawn."""
+        if section.group is None:
+            return []
+        lines, omega = [], self.names.kin.omega
+        own = {step.out for step in section.steps}
+        for link in section.group.links:
+            if link not in omega:
+                index = plain_text(f"_{{{link}}}")
+                lines.append(self.words.translating.format(link=link, index=index))
+            elif omega[link] not in own:
+                other = self.names.owner(omega[link])
+                lines.append(
+                    self.words.shared_turning.format(
+                        link=link,
+                        other=other,
+                        symbol=plain_text(f"ω_{{{link}}}"),
+                        same=plain_text(f"ω_{{{other}}}"),
+                    )
+                )
+        return lines
+
+
+def group_title(group: AssurGroup, words: Wording) -> str:
+    """Return a group's heading: links, letters, class, order and kind."""
+    links = "–".join(group.links)
+    if group.kind is None:
+        return words.higher_group.format(
+            links=links, roman=roman(group.class_number), order=group.order
+        )
+    letters = local_letters(group.signature, words)
+    return words.group.format(links=links, letters=letters, kind=group.kind)

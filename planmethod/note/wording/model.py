@@ -1,0 +1,160 @@
+"""What a language must be able to say: the sentence templates of the note."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wording:
+    """Sentence templates of one language (каталог фраз).
+
+    Every field is a template of `str.format`, with the same named places in every language. A
+    point is put in by one of the ``of_...`` phrases (genitive in Russian: "из точки b"), a line by
+    one of the ``line_...`` phrases (genitive) or ``draw_...`` phrases (accusative).
+    """
+
+    lang: str
+    decimal: str
+    units: Mapping[str, str]
+
+    # Senses and sides
+    ccw: str
+    cw: str
+    left: str
+    right: str
+    rightmost: str
+    leftmost: str
+    upper: str
+    lower: str
+
+    # Headings
+    title_protocol: str
+    title_results: str
+    source: str
+    position_crank: str
+    position_slider: str
+    formula: str
+    given: str
+    scales: str
+    scales_text: str
+    ruler: str
+    plan_position: str
+    plan_velocity: str
+    plan_acceleration: str
+    frame: str
+    driver: str
+    group: str
+    higher_group: str
+    letters: Mapping[str, str]
+
+    # Points, lines and directions
+    of_point: str
+    of_pole: str
+    of_guide_start: str
+    parallel: str
+    perpendicular: str
+    at_angle: str
+    along: str
+    beyond: str
+    backwards: str
+    to_left: str
+    to_right: str
+    line_join: str
+    line_guide: str
+    line_through: str
+    draw_parallel: str
+    draw_perpendicular: str
+    draw_at_angle: str
+    draw_join: str
+    draw_guide: str
+    draw_guide_at: str
+    carries: str
+    x_axis: str
+
+    # Steps of the position plan
+    fixed_points: str
+    lay_off_at: str
+    lay_off: str
+    two_arcs: str
+    arc_and_line: str
+    touch: str
+    meet: str
+    meet_coincide: str
+    measure: str
+    measure_drawing: str
+    exact: str
+    zero_length: str
+
+    # Steps of the velocity and acceleration plans
+    pole: str
+    pole_fixed: str
+    equation_legend: str
+    equations: str
+    lay_off_vector: str
+    sense_of: str
+    sense_normal: str
+    sense_coriolis: str
+    no_coriolis_frame: str
+    no_coriolis_link: str
+    translating: str
+    shared_turning: str
+    turning: str
+    turning_zero: str
+    similar_on: str
+    similar_beyond: str
+    similar_same: str
+    similar_triangle: str
+    read_off: str
+
+    # Result tables
+    table_points: str
+    table_links: str
+    table_sliding: str
+    table_segments: str
+    columns_points: tuple[str, ...]
+    columns_links: tuple[str, ...]
+    columns_sliding: tuple[str, ...]
+    columns_vectors: tuple[str, ...]
+    columns_lengths: tuple[str, ...]
+    sliding_row: str
+    hand_note: str
+    many_places: str
+    many_velocities: str
+    many_accelerations: str
+    many_by_hand: str
+    number: str
+    margin: str
+    sense_note: str
+
+    # Structure
+    structure_title: str
+    pairs: str
+    columns_pairs: tuple[str, ...]
+    revolute: str
+    prismatic: str
+    frame_name: str
+    links: str
+    columns_link: tuple[str, ...]
+    motion_rotation: str
+    motion_translation: str
+    motion_plane: str
+    mobility: str
+    mobility_counts: str
+    chebyshev: str
+    redundant: str
+    spatial: str
+    reshetov: str
+    assur: str
+    primary: str
+    assur_group: str
+    assur_higher: str
+    own_mobility: str
+    own_redundant: str
+    structural_formula: str
+    kinematic_order: str
+    force_order: str
+    mechanism_class: str
+    joint_outer: str
+    joint_inner: str

@@ -1,0 +1,293 @@
+"""Sheet of the structural analysis (структурный анализ механизма).
+
+On the left the structural scheme and below it the driver and the groups taken apart, in the order
+of formation; on the right, above the title block, the tables of pairs and links and the formulas.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from math import ceil
+
+from planmethod.errors import LayoutError
+from planmethod.mechanism.model import Mechanism
+from planmethod.mechanism.structure import Structure
+from planmethod.problem.model import Problem
+from planmethod.render.block import Block, Column, Line, Spacer, paragraph
+from planmethod.render.drawing import Bounds, Drawing, Item
+from planmethod.render.equations import formula_block
+from planmethod.render.frame import STAMP_WIDTH, paper_format, sheet_frame
+from planmethod.render.sheets.structure_texts import (
+    driver_caption,
+    formulas,
+    group_caption,
+    link_columns,
+    pair_columns,
+)
+from planmethod.render.structural import driver_picture, group_picture, mechanism_picture
+from planmethod.render.tables import TableColumn, table_block
+from planmethod.render.typeset import typeset
+
+TITLE = "Структурный анализ механизма"
+
+PAPERS = ("A3", "A2", "A1")
+"""Formats tried in turn when none is asked for."""
+
+EDGE = 6.0
+"""Least white between the blocks and the frame, mm."""
+
+GAP = 7.0
+"""Least white between two blocks, mm."""
+
+MOST_GAP = 16.0
+"""Most white between two blocks of the right column, mm: rather larger rows and letters."""
+
+GOOD_SHARE, LEAST_SHARE = 0.36, 0.25
+"""Part of the left column's height that the scheme should have, and must have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """Sizes of a sheet, mm (размеры надписей и видов).
+
+    ``cell`` is the least width of a group's cell, ``views`` the greatest height of a group's
+    picture, ``rows`` the heights of table rows to try, largest first.
+    """
+
+    letter: float
+    title: float
+    text: float
+    cell: float
+    views: tuple[float, ...]
+    rows: tuple[float, ...]
+
+
+MANNERS: Mapping[str, Manner] = {
+    "A3": Manner(3.5, 5.0, 3.5, 60.0, (80.0, 70.0, 62.0, 54.0, 46.0, 40.0), (8.0, 7.0, 6.0)),
+    "A2": Manner(5.0, 5.0, 3.5, 82.0, (95.0, 85.0, 75.0, 65.0, 56.0, 48.0), (8.0, 7.0, 6.0)),
+    "A1": Manner(5.0, 7.0, 5.0, 110.0, (130.0, 115.0, 100.0, 85.0, 70.0, 56.0), (10.0, 9.0, 8.0)),
+}
+
+
+def structure_sheet(
+    problem: Problem,
+    structure: Structure,
+    *,
+    paper: str | None = None,
+    fields: Mapping[str, str] | None = None,
+) -> Drawing:
+    """Draw the structural analysis of a mechanism on a sheet (лист структурного анализа).
+
+    Parameters
+    ----------
+    problem : Problem
+        Its mechanism and its title block; coordinates and lengths are not looked at.
+    structure : Structure
+        What `planmethod.mechanism.structure.analyse` says of the mechanism.
+    paper : str, optional
+        Format; A3, or the smallest larger one that everything fits, when absent.
+    fields : mapping, optional
+        Texts of the title block that outrank the file's.
+
+    Returns
+    -------
+    Drawing
+
+    Raises
+    ------
+    LayoutError
+        When everything fits no format, or not the asked one.
+    """
+    texts = {**problem.stamp, "title": TITLE, **(fields or {})}
+    texts = {key: value for key, value in texts.items() if value}
+    names = (paper_format(paper).name,) if paper else PAPERS
+    for name in names:
+        fmt = paper_format(name)
+        items, inner, stamp = sheet_frame(fmt, texts)
+        placed = _compose(problem, structure, MANNERS.get(name, MANNERS["A1"]), inner, stamp)
+        if placed is not None:
+            return Drawing(fmt.width, fmt.height, texts["title"], [*items, *placed])
+    larger = PAPERS[PAPERS.index(names[-1]) + 1 :] if names[-1] in PAPERS else PAPERS
+    advice = f"Take --paper {larger[0]}." if larger else "Draw parts of the mechanism on their own."
+    raise LayoutError(
+        f"{problem.name}: the structural analysis of {structure.moving_links} links and "
+        f"{len(structure.groups)} groups does not fit {names[-1]}. {advice}"
+    )
+
+
+def _compose(
+    problem: Problem, structure: Structure, manner: Manner, inner: Bounds, stamp: Bounds
+) -> list[Item] | None:
+    """Return the items inside the frame, or None when they do not fit."""
+    width = STAMP_WIDTH - 2 * EDGE
+    left = inner[0] + EDGE
+    right = stamp[0] + EDGE
+    top, low = inner[3] - EDGE, stamp[3] + EDGE
+    column = _told(problem, structure, manner, width, top - low)
+    if column is None:
+        return None
+    pictures = _shown(problem, structure, manner, right - GAP - left, top - inner[1] - EDGE)
+    if pictures is None:
+        return None
+    return [*pictures.place(complex(left, top)), *column.place(complex(right, top))]
+
+
+# The right column: tables and formulas ---------------------------------------------------------
+
+
+def _told(
+    problem: Problem, structure: Structure, manner: Manner, width: float, height: float
+) -> Block | None:
+    """Return tables and formulas, in rows as high as the room allows."""
+    for row in manner.rows:
+        blocks = [
+            _table(pair_columns(problem.mechanism), "Кинематические пары", manner, width, row),
+            _table(link_columns(problem.mechanism), "Звенья механизма", manner, width, row),
+            _formulas(problem.mechanism, structure, manner, width, 0.55 * row),
+        ]
+        spare = height - sum(block.height for block in blocks)
+        if spare >= GAP * (len(blocks) - 1):
+            return Column(blocks, gap=min(MOST_GAP, spare / len(blocks)))
+    return None
+
+
+def _table(
+    columns: Sequence[TableColumn], title: str, manner: Manner, width: float, row: float
+) -> Block:
+    table = table_block(columns, manner.text, width=width, units="none", row_height=row)
+    return Column([_title(title, manner), table], gap=3.0)
+
+
+def _title(text: str, manner: Manner) -> Block:
+    return Line(typeset(text, manner.title))
+
+
+def _formulas(
+    mechanism: Mechanism, structure: Structure, manner: Manner, width: float, gap: float
+) -> Block:
+    lines: list[Block] = [_title("Структурные формулы", manner)]
+    lines += [
+        formula_block(line, manner.text, width=width) for line in formulas(mechanism, structure)
+    ]
+    return Column(lines, gap=gap)
+
+
+# The left column: scheme and groups ------------------------------------------------------------
+
+
+def _shown(
+    problem: Problem, structure: Structure, manner: Manner, width: float, height: float
+) -> Block | None:
+    """Return the scheme and the grid of groups, which fill the column together."""
+    mechanism = problem.mechanism
+    sense = -1 if problem.drive.rate < 0 else 1
+    head = _title("Структурная схема механизма", manner)
+    below = _title("Первичный механизм и структурные группы", manner)
+    count = 1 + len(structure.groups)
+    most = max(1, int((width + GAP) / (manner.cell + GAP)))
+    rows = ceil(count / min(most, count))
+    across = ceil(count / rows)
+    cell = (width - GAP * (across - 1)) / across
+    for tall in manner.views:
+        pictures: list[Block] = [
+            driver_picture(
+                mechanism, width=cell, height=tall, letter_height=manner.letter, sense=sense
+            )
+        ]
+        pictures += [
+            group_picture(mechanism, group, width=cell, height=tall, letter_height=manner.letter)
+            for group in structure.groups
+        ]
+        told: list[Block] = [_caption(driver_caption(mechanism), manner, cell)]
+        told += [_caption(group_caption(group), manner, cell) for group in structure.groups]
+        grid = _grid(pictures, told, across, cell)
+        room = height - head.height - below.height - grid.height - 3 * GAP
+        share = LEAST_SHARE if tall == manner.views[-1] else GOOD_SHARE
+        scheme = mechanism_picture(
+            mechanism,
+            structure,
+            width=width,
+            height=max(room, 1.0),
+            letter_height=manner.letter,
+            sense=sense,
+        )
+        fits = scheme.height <= room and all(p.width <= cell for p in pictures)
+        if fits and scheme.width <= width and room >= share * height:
+            spare = (room - scheme.height) / 4
+            parts = [
+                head,
+                Spacer(width, GAP + spare),
+                scheme,
+                Spacer(width, GAP + spare),
+                below,
+                Spacer(width, GAP + spare),
+                grid,
+            ]
+            return Column(parts, gap=0.0, align="centre")
+    return None
+
+
+def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: float) -> Block:
+    """Return cells in rows: pictures stand on one line, captions begin on one line."""
+    rows: list[Block] = []
+    for first in range(0, len(pictures), across):
+        views, texts = pictures[first : first + across], told[first : first + across]
+        high = max(view.height for view in views)
+        low = max(text.height for text in texts)
+        cells = [
+            _Cell(view, text, cell, high, low) for view, text in zip(views, texts, strict=True)
+        ]
+        rows.append(_Cells(tuple(cells), GAP))
+    return Column(rows, gap=GAP + 2.0, align="centre")
+
+
+@dataclass(frozen=True, slots=True)
+class _Cell:
+    """Picture over its caption in a room of a given width; both are centred."""
+
+    view: Block
+    text: Block
+    width: float
+    room: float
+    below: float
+
+    @property
+    def height(self) -> float:
+        return self.room + 4.0 + self.below
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return picture and caption; the picture stands in the middle of its room."""
+        drop = (self.room - self.view.height) / 2
+        at = corner + (self.width - self.view.width) / 2 - 1j * drop
+        under = corner + (self.width - self.text.width) / 2 - 1j * (self.room + 4.0)
+        return [*self.view.place(at), *self.text.place(under)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Cells:
+    """Cells side by side."""
+
+    cells: tuple[_Cell, ...]
+    gap: float
+
+    @property
+    def width(self) -> float:
+        return sum(cell.width for cell in self.cells) + self.gap * (len(self.cells) - 1)
+
+    @property
+    def height(self) -> float:
+        return max(cell.height for cell in self.cells)
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of all cells."""
+        items: list[Item] = []
+        for cell in self.cells:
+            items += cell.place(corner)
+            corner += cell.width + self.gap
+        return items
+
+
+def _caption(lines: Iterable[str], manner: Manner, width: float) -> Block:
+    parts = [paragraph(line, manner.text, width, align="centre") for line in lines]
+    return Column(parts, gap=2.4, align="centre")
