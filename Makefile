@@ -26,5 +26,9 @@ format: $(VENV)/.ready
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
+# Files in byte order, as the test of the document has them.
+tables: $(VENV)/.ready
+	$(BIN)/planmethod audit --lang en -o docs/published.md $(sort $(wildcard problems/*/*.toml))
+
 clean:
 	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png

@@ -6,6 +6,7 @@ What a command does not need it does not import: the imports of the work stand i
 from __future__ import annotations
 
 import functools
+import gc
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -23,6 +24,9 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 MOST_POSITIONS = 1_000_000
 """Most positions that ``--phi`` may ask for."""
+
+MANY = 6
+"""Problems from which a command shows how far it is."""
 
 
 class Positions(click.ParamType[tuple[float, ...]]):
@@ -184,25 +188,34 @@ def _each(
     paths: tuple[Path, ...], variant: str | None, all_variants: bool, act: Callable[[Problem], None]
 ) -> None:
     """Act on every problem; a faulty one is reported and the others go on."""
-    first: PlanMethodError | None = None
+    errors: list[PlanMethodError] = []
 
     def problems() -> Iterator[Problem]:
-        nonlocal first
         for path in paths:
             try:
                 yield from _load(path, variant, all_variants)
             except PlanMethodError as error:
+                errors.append(error)
                 _fail(error)
-                first = first or error
 
-    for problem in problems():
+    found = list(problems())
+    for problem in _watched(found):
         try:
             act(problem)
         except PlanMethodError as error:
+            errors.append(error)
             _fail(error)
-            first = first or error
-    if first is not None:
-        sys.exit(first.exit_code)
+    if errors:
+        sys.exit(errors[0].exit_code)
+
+
+def _watched(found: list[Problem]) -> Iterator[Problem]:
+    """Yield problems, on a terminal with a bar when they are many (about a second of work)."""
+    if len(found) < MANY or not sys.stderr.isatty():
+        yield from found
+        return
+    with click.progressbar(found, label="planmethod", file=sys.stderr) as bar:
+        yield from bar
 
 
 def _stem(problem: Problem) -> str:
@@ -454,6 +467,52 @@ def protocol(
 
 
 @cli.command()
+@click.argument(
+    "problems", nargs=-1, required=True, metavar="PROBLEM...", type=click.Path(path_type=Path)
+)
+@click.option("--variant", metavar="NAME", help="Variant of the problem file.")
+@click.option("--all-variants", is_flag=True, help="Every variant of the problem file.")
+@click.option(
+    "--ruler",
+    type=click.FloatRange(min=0.0, min_open=True, max=50.0),
+    default=0.5,
+    show_default=True,
+    help="Ruler step with which the plans are read, mm.",
+)
+@click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)
+@click.option(
+    "-o",
+    "--out",
+    "file",
+    metavar="FILE",
+    help="Markdown file; to the terminal when absent.",
+)
+@guarded
+def audit(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    ruler: float,
+    lang: str,
+    file: str | None,
+) -> None:
+    """Compare what the sources print with the exact values and with the ruler's."""
+    from planmethod.note.audit import audit as examine
+    from planmethod.note.audit_table import Document
+
+    if file is not None and file.endswith(".toml"):
+        raise click.UsageError(f"-o would write over the problem file {file}; name another one")
+    audits: list[tuple[Problem, Any]] = []
+
+    def compare(problem: Problem) -> None:
+        audits.append((problem, examine(problem, ruler=ruler)))
+
+    # A faulty problem ends the command here: the document is written whole or not at all.
+    _each(problems, variant, all_variants, compare)
+    _put(Document(lang, ruler).markdown(audits), file)
+
+
+@cli.command()
 @click.argument("family", required=False)
 @click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
@@ -487,6 +546,8 @@ def new(family: str | None, file: Path | None, show: bool, force: bool) -> None:
 
 def main() -> None:
     """Run the command line; no traceback reaches a user."""
+    # A command lives a fraction of a second and makes few cycles: looking for them is a twentieth.
+    gc.set_threshold(100_000)
     try:
         cli()
     except BrokenPipeError:

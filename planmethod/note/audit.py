@@ -173,12 +173,22 @@ def _audited(solution: Solution, scales: Scales, value: Published) -> Audited:
         selector = _selector(value, scales)
         at = Quantities(solution, _position(value, len(solution.positions)))
         exact, read = at.exact(selector), at.read(selector)
-        per_mm = value.per_mm or at.per_mm(selector)
+        per_mm = value.per_mm or _per_mm(at, selector, scales)
     except UnansweredError as error:
         return Audited(value, why=error.why)
     if selector.kind == "phi" and selector.over is None:
         exact = value.value - _nearest_turn(value.value - exact)
     return Audited(value, exact, read, per_mm)
+
+
+def _per_mm(at: Quantities, selector: Selector, scales: Scales) -> float | None:
+    """Return what a millimetre of its plan is worth in an angle or a rate."""
+    lever = at.lever(selector)
+    if lever is None:
+        return None
+    plan, worth = lever
+    scale: float | None = getattr(scales, SYMBOLS[plan])
+    return None if scale is None else scale * worth
 
 
 def _selector(value: Published, scales: Scales) -> Selector:

@@ -101,10 +101,11 @@ class Calculation:
     def _about(self, vector: Vector) -> str | None:
         """Return the formula of a component of turning about a point: omega·l, omega²·l, eps·l."""
         bodies = self.solution.problem.bodies
-        arrow = vector.note.partition("→")
+        note = vector.note.replace("_{", "").replace("}", "")
+        arrow = note.partition("→")
         ends = (arrow[0].strip(), arrow[2].strip())
         if vector.kind is not VectorKind.NORMAL:
-            letters = vector.note.partition(" ")[2]
+            letters = note.partition(" ")[2]
             cuts = [(letters[:k], letters[k:]) for k in range(1, len(letters))]
             ends = next(
                 (c for c in cuts if any(set(c) <= set(b.points) for b in bodies.values())), ends

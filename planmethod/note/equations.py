@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import re
+
 from planmethod.note.naming import Names
 from planmethod.note.plaintext import pad, plain_text, width
 from planmethod.plans.model import Known, Vector, VectorEquation
 
+_MARKUP = re.compile(r"_\{|\}")
 _LINE = {Known.NOTHING: " ", Known.ONE: "─", Known.BOTH: "═"}
 
 
 def note_text(names: Names, note: str) -> str:
     """Return a direction note with links called as their lengths are: ``⊥ CB`` gives ``⊥ BC``."""
-    sign, space, base = note.partition(" ")
-    return f"{sign} {names.axis(base)}" if space and sign in "⊥∥" else note
+    plain = _MARKUP.sub("", note)  # in words a point is called O1, not O₁
+    sign, space, base = plain.partition(" ")
+    return f"{sign} {names.axis(base)}" if space and sign in "⊥∥" else plain
 
 
 def equation_lines(equation: VectorEquation, names: Names) -> list[str]:

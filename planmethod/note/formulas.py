@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from planmethod.construct.steps import Compute, NumberName, PointName
+import numpy as np
+
+from planmethod.construct.steps import Compute, LineName, NumberName, PointName
 from planmethod.note.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import found, given, plain_text
 from planmethod.plans.model import PlanKind, Vector
@@ -61,6 +63,11 @@ class Formulas:
         column = self.solution.complexes(self.solution.paper, point)
         return complex(column[self.index])
 
+    def course(self, line: LineName) -> complex:
+        """Return a vector along a line of the exact drawing."""
+        value = np.asarray(self.solution.paper.value[line][1], dtype=complex)
+        return complex(value if value.ndim == 0 else value[self.index])
+
     def per_mm(self, kind: PlanKind) -> float:
         """Return the scale of a plan, unit per mm."""
         return self.solution.scales[kind].per_mm
@@ -71,22 +78,27 @@ class Formulas:
         """Return a unit in the language."""
         return self.words.units[key]
 
-    def with_unit(self, value: float, key: str) -> str:
-        """Return a result and its unit."""
-        return f"{found(value, self.words)} {self.unit(key)}"
-
-    def exactly(self, value: float, text: str = "") -> str:
+    def exactly(self, value: float) -> str:
         """Return the exact value in brackets."""
-        return self.words.exact.format(value=text or found(value, self.words))
+        return self.words.exact.format(value=found(value, self.words))
 
     def product(
-        self, powers: Iterable[tuple[NumberName, int]], factor: float = 1.0
+        self,
+        powers: Iterable[tuple[NumberName, int]],
+        factor: float = 1.0,
+        *,
+        called: str | None = None,
     ) -> tuple[str, str]:
-        """Return a product of powers in symbols and in numbers, a fraction where there is one."""
-        return self.fraction(
-            [(self.names.symbol(n), abs(self.number(n)), p, n in SCALE_KIND) for n, p in powers],
-            factor,
-        )
+        """Return a product of powers in symbols and in numbers, a fraction where there is one.
+
+        ``called`` is another symbol for the factor that is no scale.
+        """
+        factors = []
+        for name, power in powers:
+            is_scale = name in SCALE_KIND
+            symbol = self.names.symbol(name) if is_scale or called is None else called
+            factors.append((symbol, abs(self.number(name)), power, is_scale))
+        return self.fraction(factors, factor)
 
     def fraction(
         self, factors: Sequence[tuple[str, float, int, bool]], factor: float = 1.0
@@ -109,10 +121,11 @@ class Formulas:
     def formula(
         self, symbol: str, sides: tuple[str, str], value: float, unit: str, more: str = ""
     ) -> str:
-        """Return ``symbol = in symbols = in numbers = value unit``, without saying a thing twice."""
-        result = f"{found(value, self.words)} {self.unit(unit)}".rstrip()
+        """Return ``symbol = in symbols = in numbers = value unit``, nothing twice."""
+        number = given(value, self.words, 4)
+        result = f"{number} {self.unit(unit)}"
         parts = [symbol, *sides] if symbol else list(sides)
-        if sides[1] == found(value, self.words):
+        if sides[1] == number:
             parts.pop()
         return " = ".join([*parts, result]) + more
 
@@ -131,11 +144,11 @@ class Formulas:
         lines = []
         if len(rest) > 1 or step.factor != 1.0:
             sides = self.product(rest, step.factor)
-            lines.append(self.formula(symbol, sides, length * mu, UNIT[kind]))
+            lines.append(self.formula(symbol, sides, length * mu, UNIT[kind], ";"))
         sides = self.fraction(
             [(symbol, _shown(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
         )
-        lines.append(self.formula(segment, sides, length, "mm"))
+        lines.append(self.formula(segment, sides, length, "mm", "."))
         return lines
 
     def scaled(self, vector: Vector, kind: PlanKind) -> str:
@@ -152,7 +165,10 @@ class Formulas:
             else [(segment, length, 1, False), (self.names.symbol(NumberName(scale)), mu, 1, True)]
         )
         exact = self.exactly(self.true_length(vector.tail, vector.head) * mu)
-        return self.formula(plain_text(vector.symbol), sides, length * mu, UNIT[kind], exact)
+        symbol = plain_text(vector.symbol)
+        if vector.tail in self.names.poles:  # from the pole: the whole, whatever drew it first
+            symbol = self.names.absolute(vector.head) or symbol
+        return self.formula(symbol, sides, length * mu, UNIT[kind], exact)
 
 
 def _shown(value: float) -> float:

@@ -23,7 +23,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.letters import pole_letter, shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
-from planmethod.plans.model import Plan, PlanKind, Vector
+from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Convention
 
@@ -75,6 +75,11 @@ class Names:
             if slide.host == FRAME
         }
         self._given = {q + p: p + q for p, q in self._lengths()}
+        self._slots: dict[str, str] = {}
+        for slide in problem.slides.values():
+            if slide.host != FRAME and slide.towards is None and slide.label == slide.through:
+                known = self._slots.get(slide.label, slide.host)
+                self._slots[slide.label] = slide.host if known == slide.host else ""
         self._feet: dict[PointName, str] = {}
         self._roles = dict(self._number_roles())
 
@@ -128,7 +133,14 @@ class Names:
     # Lines -----------------------------------------------------------------------------------
 
     def axis(self, text: str) -> str:
-        """Return a line of a link in the order in which its length was given: CB becomes BC."""
+        """Return a line of a link as the reader calls it.
+
+        Its letters stand in the order in which its length was given (CB becomes BC); a line that
+        is told by one point and an angle is called the guide of its link.
+        """
+        if text in self._slots:
+            link = self._slots[text]
+            return self.words.slot_of.format(link=link) if link else self.words.slot
         return self._given.get(text, text)
 
     def direction(self, line: LineName) -> Direction:
@@ -137,8 +149,13 @@ class Names:
         match step:
             case Join(_, tail, head):
                 return Direction(self.point(tail) + self.point(head), 0.0, tail, head)
-            case Parallel(_, _, to):
+            case Parallel(_, through, to):
                 found = self.direction(to)
+                if through == found.start:  # the same line drawn again
+                    return found
+                if through == found.end:  # produced beyond its end
+                    back = found.base if found.start is None else self.segment(through, found.start)
+                    return Direction(back, 180.0, through, found.start)
                 return Direction(found.base, found.angle)
             case Perpendicular(_, _, to):
                 found = self.direction(to)
@@ -231,12 +248,16 @@ class Names:
                 return self.segment(tail, head)
             case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
                 return f"({self.segment(tail, head)})"
-            case Compute() if number.startswith("|l_") or number == "|s|":
-                return number.strip("|")
             case Compute():
                 return number.strip("|")
             case _:
-                return "e" if number.startswith("e_") else str(number)
+                return self._offset(number) if number.startswith("e_") else str(number)
+
+    def _offset(self, number: NumberName) -> str:
+        """Return the symbol of an offset: its name without the link it is counted from."""
+        text = number.removeprefix("e_")
+        points = {p for body in self.solution.problem.bodies.values() for p in body.points}
+        return f"e_{max((p for p in points if text.startswith(p)), key=len, default='')}"
 
     def is_inverse_scale(self) -> bool:
         """Tell whether scales are written as millimetres per unit."""
@@ -260,6 +281,21 @@ class Names:
         found = [v for v in (*plan.vectors, *terms) if (v.tail, v.head) == (tail, head)]
         stated = [v for v in found if v.note and not v.note.startswith("=")]
         return next(iter(stated or found), None)
+
+    def absolute(self, head: PointName) -> str:
+        """Return the symbol of a point's whole velocity or acceleration, empty if it has none."""
+        plan = self.plan_of(head)
+        if plan is None:
+            return ""
+        vectors = [*(equation.left for equation in plan.equations), *plan.vectors]
+        return next(
+            (
+                plain_text(v.symbol)
+                for v in vectors
+                if v.head == head and v.kind is VectorKind.ABSOLUTE
+            ),
+            "",
+        )
 
     def ray(self, line: LineName) -> Vector | None:
         """Return the unknown component that a line of a plan carries."""

@@ -26,13 +26,12 @@ from planmethod.construct.steps import (
     Similar,
     Step,
     Touch,
-    Way,
 )
 from planmethod.mechanism.model import FRAME
 from planmethod.note.equations import note_text
 from planmethod.note.formulas import NOTHING, TURNING_UNIT, UNIT, Formulas
 from planmethod.note.naming import Names
-from planmethod.note.plaintext import fixed, given, plain_text
+from planmethod.note.plaintext import NO_BREAK, fixed, given, plain_text
 from planmethod.plans.model import PlanKind, Vector, VectorKind
 from planmethod.plans.solution import Solution
 
@@ -142,16 +141,27 @@ class Narrator:
 
     # Position plan ---------------------------------------------------------------------------
 
-    def _length(self, name: NumberName) -> str:
-        """Return a length of the drawing: computed when it is first used, afterwards its value."""
-        step = self.names.step[name]
-        value = f"{given(abs(self.say.number(name)), self.words, 5)} {self.say.unit('mm')}"
-        symbol = "" if _is_coordinate(name) else self.names.symbol(name)
+    def _length(self, name: NumberName, ends: tuple[PointName, PointName] | None = None) -> str:
+        """Return a length of the drawing: computed when it is first used, afterwards its value.
+
+        ``ends`` of a length that is laid off name it; one counted from the beginning of a guide
+        has no name.
+        """
+        step, names = self.names.step[name], self.names
+        equals = f"{NO_BREAK}={NO_BREAK}"
+        number = given(abs(self.say.number(name)), self.words, 5)
+        value = f"{number}{NO_BREAK}{self.say.unit('mm')}"
+        symbol = "" if _is_coordinate(name) else names.symbol(name)
+        if ends is not None:
+            symbol = "" if ends[0] in names.guides else names.segment(*ends)
         if name in self._told or not isinstance(step, Compute):
-            return f"{symbol} = {value}" if symbol else value
+            return f"{symbol}{equals}{value}" if symbol else value
         self._told.add(name)
-        sides = self.say.product(step.powers, step.factor)
-        return " = ".join([*([symbol] if symbol else []), *sides, value])
+        metres = None
+        if ends is not None and _is_distance(name, ends):
+            metres = f"l_{names.axis(symbol)}"
+        sides = self.say.product(step.powers, step.factor, called=metres)
+        return equals.join([*([symbol] if symbol else []), *sides, value])
 
     def _lay_off(
         self, out: PointName, origin: PointName, along: LineName, length: NumberName
@@ -160,8 +170,7 @@ class Narrator:
         point, value = names.point(out), self.say.number(length)
         if abs(value) < NOTHING:
             symbol = names.symbol(length)
-            text = words.zero_length.format(symbol=symbol, point=point, origin=names.point(origin))
-            return [text]
+            return [words.zero_length.format(symbol=symbol, point=point, of=names.of(origin))]
         step = names.step[along]
         if isinstance(step, AtAngle) and step.angle == "phi" and step.to is None and value > 0:
             return [
@@ -169,7 +178,7 @@ class Narrator:
                     of=names.of(origin),
                     symbol=names.symbol(step.angle),
                     angle=given(self.say.number(step.angle), words),
-                    length=self._length(length),
+                    length=self._length(length, (origin, out)),
                     point=point,
                 )
             ]
@@ -177,7 +186,7 @@ class Narrator:
         text = words.lay_off.format(
             of=names.of(origin),
             direction=direction,
-            length=self._length(length),
+            length=self._length(length, (origin, out)),
             sense=sense,
             point=point,
         )
@@ -189,7 +198,7 @@ class Narrator:
         base, angle = found.base, found.angle
         forward = value > 0
         if found.start is not None and found.end is not None and found.start == origin:
-            if forward:
+            if forward == (angle == 0.0):
                 return words.along.format(base=base), ""
             back = self.names.point(found.end) + self.names.point(found.start)
             return words.beyond.format(base=back, point=self.names.point(origin)), ""
@@ -220,8 +229,7 @@ class Narrator:
         return [text]
 
     def _arc_and_line(self, step: MeetLineCircle) -> list[str]:
-        line = self.solution.paper.value[step.line][1]
-        course = complex(self.solution._complex_column(line)[self.say.index]) * step.way.value
+        course = self.say.course(step.line) * step.way.value
         words = self.words
         if abs(course.real) >= abs(course.imag):
             which = words.rightmost if course.real > 0 else words.leftmost
@@ -271,8 +279,8 @@ class Narrator:
         symbol = plain_text(vector.symbol) if vector else segment
         point = names.point(step.out)
         if length < NOTHING:
-            origin = names.point(step.origin)
-            return [words.zero_length.format(symbol=symbol, point=point, origin=origin)]
+            of = names.of(step.origin)
+            return [words.zero_length.format(symbol=symbol, point=point, of=of)]
         lines = self.say.laid(compute, f"({segment})", plan.kind, vector)
         direction, sense = self._sense(step, compute, vector)
         text = words.lay_off_vector.format(
@@ -291,7 +299,9 @@ class Narrator:
         words, names = self.words, self.names
         value = self.say.number(step.length)
         if vector is not None and vector.kind is VectorKind.NORMAL:
-            place, _, joint = (text.strip() for text in vector.note.partition("→"))
+            place, _, joint = (
+                text.strip() for text in note_text(names, vector.note).partition("→")
+            )
             base = words.parallel.format(base=names.axis(place + joint))
             return words.sense_normal.format(base=base, tail=place, head=joint), ""
         base, angle = self._direction(step.along, vector)
@@ -346,6 +356,9 @@ class Narrator:
                 exact = self.say.exactly(abs(self.say.exact(step.out)))
                 sides = self.say.product(step.powers, step.factor)
                 symbol, unit = self.names.symbol(step.out), UNIT[PlanKind.VELOCITY]
+                if relative.to == FRAME:  # on a fixed guide the relative velocity is the whole one
+                    whole = self.names.absolute(relative.head)
+                    symbol = f"{whole} = {symbol}" if whole else symbol
                 return [self.say.formula(symbol, sides, value, unit, exact + ".")]
         return []
 
@@ -410,7 +423,7 @@ class Narrator:
             link = f"{step.link_b}{step.link_c}{step.link_s}"
             text = words.similar_triangle.format(plan=f"{b}{c}{point}", link=link, **said)
             return [first + ",", part(step.plan_c, step.link_c) + ".", text]
-        said |= {"start": b, "part": f"({names.segment(step.plan_b, step.out)})"}
+        said |= {"of": names.of(step.plan_b), "part": names.segment(step.plan_b, step.out)}
         if 0 < ratio.real < 1:
             return [first + ".", words.similar_on.format(segment=f"{b}{c}", **said)]
         ends = (f"{b}{c}", c) if ratio.real > 1 else (f"{c}{b}", b)
@@ -464,7 +477,7 @@ class Narrator:
         return self.names.point(head)
 
     def _track(self, vector: Vector) -> str:
-        return vector.note.partition(" ")[2] or vector.symbol
+        return note_text(self.names, vector.note).partition(" ")[2] or plain_text(vector.symbol)
 
 
 def _carriers(step: Step) -> tuple[LineName, ...]:
@@ -478,9 +491,11 @@ def _carriers(step: Step) -> tuple[LineName, ...]:
     return ()
 
 
+def _is_distance(name: NumberName, ends: tuple[PointName, PointName]) -> bool:
+    """Tell whether a coordinate of a point is its distance from another: no foot is between."""
+    return name[1:3] in ("x_", "y_") and not any("~" in end or ":" in end for end in ends)
+
+
 def _is_coordinate(name: NumberName) -> bool:
     """Tell whether a length has no ends to be called by: an offset or a coordinate."""
     return name == "|s|" or name[1:3] in ("x_", "y_", "e_")
-
-
-__all__ = ["Narrator", "Way"]

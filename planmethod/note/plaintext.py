@@ -15,6 +15,9 @@ WIDTH = 100
 
 GAP = "  "
 
+NO_BREAK = "\N{NO-BREAK SPACE}"
+"""Space at which a line is not cut; the finished text has plain spaces."""
+
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
 _UP = re.compile(r"\^\{([^}]*)\}")
@@ -73,8 +76,8 @@ def pad(text: str, columns: int, *, right: bool = False) -> str:
 
 
 def wrap(text: str, *, first: str = "", rest: str = "") -> list[str]:
-    """Return a paragraph cut into lines, never within a word or a formula's product."""
-    return textwrap.wrap(
+    """Return a paragraph cut into lines, never within a word or at a no-break space."""
+    lines = textwrap.wrap(
         text,
         WIDTH,
         initial_indent=first,
@@ -82,6 +85,7 @@ def wrap(text: str, *, first: str = "", rest: str = "") -> list[str]:
         break_long_words=False,
         break_on_hyphens=False,
     )
+    return [line.replace(NO_BREAK, " ") for line in lines]
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[str]], *, left: int = 1) -> list[str]:

@@ -10,7 +10,7 @@ from planmethod.note.equations import equation_lines
 from planmethod.note.given import given_lines
 from planmethod.note.naming import Names
 from planmethod.note.narrate import Narrator
-from planmethod.note.plaintext import given, heading, plain_text, wrap
+from planmethod.note.plaintext import NO_BREAK, given, heading, plain_text, wrap
 from planmethod.note.sections import Section, sections
 from planmethod.note.structure_text import local_letters
 from planmethod.note.tables import position_line, position_tables, scale_texts
@@ -66,7 +66,9 @@ class _Writer:
             self.lines += wrap(words.source.format(source=problem.source))
         self.lines.append(position_line(self.solution, words, self.index))
         self.lines.append(words.formula.format(formula=self.solution.structure.formula))
-        text = "; ".join(plain_text(line) for line in given_lines(problem, words.lang))
+        text = "; ".join(
+            plain_text(line).replace(" ", NO_BREAK) for line in given_lines(problem, words.lang)
+        )
         self.lines += wrap(words.given.format(given=text))
         self._chapter(words.scales)
         self._item([words.scales_text.format(scales="; ".join(scale_texts(self.solution, words)))])
@@ -78,6 +80,8 @@ class _Writer:
         }
         kind: PlanKind | None = None
         for section in sections(self.names.construction, self.solution.structure.groups):
+            if section.frame and not problem.bodies[FRAME].points:
+                continue  # guides alone: each is drawn where it is used
             if section.kind is not kind:
                 kind = section.kind
                 self._chapter(titles[kind])
@@ -140,6 +144,7 @@ class _Writer:
         if section.kind is PlanKind.VELOCITY:
             self._item(self._known_turning(section))
         if section.kind is PlanKind.ACCELERATION:
+            self._item(self._constant_speed(section))
             self._item(self.narrator.without_coriolis(made))
         measured = False
         for step in section.steps:
@@ -169,6 +174,13 @@ class _Writer:
         self.lines += [self.words.equations, ""]
         for equation in found:
             self.lines += [*(f"     {line}" for line in equation_lines(equation, self.names)), ""]
+
+    def _constant_speed(self, section: Section) -> list[str]:
+        drive = self.solution.problem.drive
+        if section.group is not None or not drive.is_crank or drive.acceleration != 0:
+            return []
+        symbol = plain_text(f"ω_{{{drive.link}}}")
+        return [self.words.constant_speed.format(symbol=symbol, link=drive.link)]
 
     def _known_turning(self, section: Section) -> list[str]:
         """Return how the group's links turn when that is known before its plan is drawn."""

@@ -6,6 +6,7 @@ draughtsman's, where every length is read with the ruler and carried on along hi
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -136,26 +137,34 @@ class Quantities:
         hand = Reading(solution, self.position, solution.by_hand, solution.hand.ruled, scales)
         return self._quotient(selector, hand)
 
-    def per_mm(self, selector: Selector) -> float | None:
-        """Return what a millimetre of the plan is worth in a link's omega or epsilon.
+    def lever(self, selector: Selector) -> tuple[PlanKind, float] | None:
+        """Return the plan that an angle or a rate is read off, and what a metre of it is worth.
 
-        The rate is a segment over the arm on which it was read, so a millimetre of the segment is
-        the scale over that arm. None for other quantities, and for a rate that is not read off.
+        An omega or epsilon is a segment over the arm on which it was read; an angle shows best
+        at the far end of its link. None for other quantities, and for a rate that is not read off.
         """
-        kinds = {"omega": PlanKind.VELOCITY, "epsilon": PlanKind.ACCELERATION}
-        kind = kinds.get(selector.kind)
-        if kind is None or selector.over is not None:
+        if selector.over is not None:
             return None
-        rates = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon
-        (asked,) = selector.names
+        kind, name = selector.kind, selector.names[0]
+        if kind == "phi":
+            reach = self._reach(name)
+            return (PlanKind.POSITION, math.degrees(1.0 / reach)) if reach else None
+        rates = {"omega": self.kin.omega, "epsilon": self.kin.epsilon}.get(kind, {})
+        plan = PlanKind.VELOCITY if kind == "omega" else PlanKind.ACCELERATION
         for (of, link), turning in self.kin.turnings.items():
             # Links of a prismatic pair turn alike: the rate was read on one of them.
-            if of is kind and asked in rates and rates[link] == rates[asked]:
-                points = self.solution.points
-                joint, place = (points[p].place for p in (turning.joint, turning.place))
-                arm = float(abs(place - joint)[self.position])
-                return self.solution.scales[kind].per_mm / arm
+            if of is plan and name in rates and rates[link] == rates[name]:
+                return plan, 1.0 / abs(self._place(turning.place) - self._place(turning.joint))
         return None
+
+    def _place(self, point: str) -> complex:
+        at = self.solution.complexes(self.solution.si, PointName(point))
+        return complex(at[self.position])
+
+    def _reach(self, link: str) -> float:
+        """Return the greatest distance between the places of a link, m."""
+        places = [self._place(place) for place in self.kin.velocity.moving.get(link, ())]
+        return max((abs(p - q) for p in places for q in places), default=0.0)
 
     # One reading -----------------------------------------------------------------------------
 
@@ -221,9 +230,7 @@ class Quantities:
     def _places(self, name: str) -> dict[str, str]:
         """Return where a name is on each link that has it: link to place of the drawing."""
         motion = self.kin.velocity
-        return {
-            link: place for link, place in motion.point if motion.label(link, place) == name
-        }
+        return {link: place for link, place in motion.point if motion.label(link, place) == name}
 
     def _arm(self, reading: Reading, point: str, about: str) -> tuple[str, float]:
         """Return the link that joins two points, and their distance, m.

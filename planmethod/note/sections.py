@@ -52,18 +52,18 @@ def sections(construction: Construction, groups: tuple[AssurGroup, ...]) -> list
     mark(PlanKind.POSITION, frame=True)
     place_driver(draft)
     mark(PlanKind.POSITION)
-    for group in groups:
-        place_group(draft, group)
-        mark(PlanKind.POSITION, group)
+    for each in groups:
+        place_group(draft, each)
+        mark(PlanKind.POSITION, each)
     velocity = Motion.start(PlanKind.VELOCITY, draft)
     acceleration = Motion.start(PlanKind.ACCELERATION, draft)
     kin = Kinematics(draft, velocity, acceleration)
     for motion in (velocity, acceleration):
         drive_motion(kin, motion)
         mark(motion.kind)
-        for group in groups:
-            group_motion(kin, motion, group)
-            mark(motion.kind, group)
+        for each in groups:
+            group_motion(kin, motion, each)
+            mark(motion.kind, each)
     if tuple(steps) != construction.program.steps:
         raise ProgramError("The construction planned again differs from the solved one")
     result, start = [], 0

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from planmethod.mechanism.groups import AssurGroup, Joint, links_of
-from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from collections.abc import Sequence
+
+from planmethod.mechanism.describe import PairKind, kind_of_motion, pairs
+from planmethod.mechanism.groups import AssurGroup, Joint, letter_of, links_of
+from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import LOCAL_MOBILITY, WAYS_IN, Structure, roman
-from planmethod.note.plaintext import heading, plain_text, table, wrap
+from planmethod.note.plaintext import heading, table, wrap
 from planmethod.note.wording import Wording, wording
 
 _MINUS = str.maketrans("-", "−")
@@ -49,46 +52,23 @@ def local_letters(signature: str, words: Wording) -> str:
 
 
 def _pair_table(mechanism: Mechanism, words: Wording) -> list[str]:
-    rows = []
-    for revolute in mechanism.revolutes:
-        one, *others = revolute.links
-        rows += [[revolute.point, f"{one}–{other}", words.revolute, "1"] for other in others]
-    for pair in mechanism.prismatics:
-        rows.append([_name(pair, words), f"{pair.host}–{pair.slider}", words.prismatic, "1"])
+    kinds = {PairKind.REVOLUTE: words.revolute, PairKind.PRISMATIC: words.prismatic}
+    rows = [[pair.name, "–".join(pair.links), kinds[pair.kind], "1"] for pair in pairs(mechanism)]
     return table(words.columns_pairs, rows, left=3)
 
 
-def _name(joint: Joint, words: Wording) -> str:
-    """Return what a pair is called: its point, with the letter of its kind where it slides."""
-    if isinstance(joint, Revolute):
-        return joint.point
-    return f"{joint.pin}{words.letters['P'].lower()}"
-
-
 def _link_table(mechanism: Mechanism, words: Wording) -> list[str]:
-    rows = [[FRAME, words.frame_name]]
-    rows += [[link, _motion(mechanism, link, words)] for link in mechanism.links]
-    return table(words.columns_link, rows, left=2)
+    rows = [
+        [row.link, words.roles[row.role.value], words.motions[row.motion.value]]
+        for row in kind_of_motion(mechanism)
+    ]
+    return table(words.columns_link, rows, left=3)
 
 
-def _motion(mechanism: Mechanism, link: str, words: Wording) -> str:
-    """Return the kind of motion of a link as its pairs alone tell it."""
-    if link in _translating(mechanism):
-        return words.motion_translation
-    for revolute in mechanism.revolutes:
-        if link in revolute.links and FRAME in revolute.links:
-            return words.motion_rotation.format(point=revolute.point)
-    return words.motion_plane
-
-
-def _translating(mechanism: Mechanism) -> set[str]:
-    """Return the links joined with the frame by prismatic pairs alone: they do not turn."""
-    found = {FRAME}
-    for _ in mechanism.prismatics:
-        for pair in mechanism.prismatics:
-            if found & {pair.slider, pair.host}:
-                found |= {pair.slider, pair.host}
-    return found - {FRAME}
+def _joint(joint: Joint, links: Sequence[str], words: Wording) -> str:
+    """Return a pair by its point, the letter of its kind and its links: ``B (В, 1–2)``."""
+    point = joint.point if isinstance(joint, Revolute) else joint.pin
+    return f"{point} ({words.letters[letter_of(joint)]}, {'–'.join(links)})"
 
 
 # Mobility ------------------------------------------------------------------------------------
@@ -129,12 +109,10 @@ def _counts(own: int, links: int, pairs: int, words: Wording) -> str:
 
 
 def _primary(mechanism: Mechanism, words: Wording) -> list[str]:
-    pair = next(
-        joint
-        for joint in (*mechanism.revolutes, *mechanism.prismatics)
-        if {FRAME, mechanism.driver} <= set(links_of(joint))
-    )
-    text = words.primary.format(frame=FRAME, link=mechanism.driver, pair=_name(pair, words))
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
+    pair = next(joint for joint in joints if {FRAME, mechanism.driver} <= set(links_of(joint)))
+    name = _joint(pair, (FRAME, mechanism.driver), words)
+    text = words.primary.format(frame=FRAME, link=mechanism.driver, pair=name)
     return [*wrap(text), _counts(WAYS_IN, 1, 1, words)]
 
 
@@ -147,23 +125,16 @@ def _group(group: AssurGroup, words: Wording) -> list[str]:
         text = words.assur_higher.format(
             links=links, letters=letters, roman=class_number, order=group.order
         )
-    outer = ", ".join(
-        f"{_name(lead.joint, words)} ({lead.to}–{lead.link})" for lead in group.leads
-    )
-    inner = ", ".join(
-        f"{_name(joint, words)} ({'–'.join(_inside(joint, group))})" for joint in group.inner
-    )
-    pairs = len(group.leads) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
+    outer = ", ".join(_joint(lead.joint, (lead.to, lead.link), words) for lead in group.leads)
+    inner = ", ".join(_joint(joint, _inside(joint, group), words) for joint in group.inner)
+    count = len(group.leads) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
     joints = [words.joint_outer.format(joints=outer), words.joint_inner.format(joints=inner)]
     return [
         *wrap(text),
         *wrap("; ".join(joints) + ".", first="   ", rest="   "),
-        _counts(0, len(group.links), pairs, words),
+        _counts(0, len(group.links), count, words),
     ]
 
 
-def _inside(joint: Revolute | Prismatic, group: AssurGroup) -> list[str]:
+def _inside(joint: Joint, group: AssurGroup) -> list[str]:
     return [link for link in group.links if link in links_of(joint)]
-
-
-__all__ = ["local_letters", "plain_text", "structure_text"]

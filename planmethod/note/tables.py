@@ -99,7 +99,9 @@ def position_tables(solution: Solution, words: Wording, index: int) -> list[str]
     }
     names = Names(solution, words)
     for kind, scale in zip(PlanKind, scale_texts(solution, words), strict=True):
-        title = words.table_segments.format(plan=titles[kind][:1].lower() + titles[kind][1:], scale=scale)
+        title = words.table_segments.format(
+            plan=titles[kind][:1].lower() + titles[kind][1:], scale=scale
+        )
         rows = _segments(solution, names, kind, index)
         if kind is PlanKind.POSITION:
             header = words.columns_lengths

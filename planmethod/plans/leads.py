@@ -17,7 +17,7 @@ from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
-from planmethod.plans.motion import SYMBOL, Motion, Ray
+from planmethod.plans.motion import SYMBOL, Motion, Ray, mark
 from planmethod.problem.model import Slide
 
 
@@ -112,14 +112,17 @@ def revolute_ray(kin: Kinematics, motion: Motion, link: str, joint: str, place: 
     if motion.kind is PlanKind.VELOCITY:
         line = b.perpendicular(start, lever.line)
         return Ray(
-            start, line, tuple(terms), (f"v_{{{both}}}", VectorKind.RELATIVE, f"⊥ {place}{joint}")
+            start,
+            line,
+            tuple(terms),
+            (f"v_{{{both}}}", VectorKind.RELATIVE, f"⊥ {mark(place, joint)}"),
         )
     end = _normal(kin, motion, link, (joint, place), start, lever)
     symbol = f"a^{{n}}_{{{both}}}"
-    note = f"{place} → {joint}"
+    note = f"{mark(place)} → {mark(joint)}"
     terms.append(motion.add(Vector(symbol, VectorKind.NORMAL, start, end, Known.BOTH, note)))
     line = b.perpendicular(end, lever.line)
-    unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, f"⊥ {place}{joint}")
+    unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, f"⊥ {mark(place, joint)}")
     return Ray(end, line, tuple(terms), unknown)
 
 
@@ -141,10 +144,15 @@ def _normal(
 
 
 def track_name(slide: Slide) -> str:
-    """Return what a direction note calls a slide line: ``x-x``, ``CD``, or ``CH`` (C to pin H)."""
-    if slide.through is None or slide.label != slide.through:
-        return slide.label
-    return f"{slide.through}{slide.pin}"
+    """Return what a direction note calls a slide line: ``x-x``, or ``CB`` from C to the pin B.
+
+    With an offset the pin is not on the line, and the line's own letters name it.
+    """
+    if slide.through is not None and slide.host != FRAME and not slide.offset:
+        return mark(slide.through, slide.pin)
+    if slide.through is not None and slide.towards is not None:
+        return mark(slide.through, slide.towards)
+    return slide.label
 
 
 def prismatic_ray(
@@ -296,7 +304,7 @@ def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: st
     if motion.kind is PlanKind.VELOCITY:
         length = b.compute(f"|{out}|", (kin.omega[link], 1), *lever.length, (motion.scale, -1))
         head = b.lay_off(out, start, b.perpendicular(start, lever.line), length)
-        note = f"⊥ {place}{joint}"
+        note = f"⊥ {mark(place, joint)}"
         kind = VectorKind.ABSOLUTE if fixed else VectorKind.RELATIVE
         last = motion.add(Vector(f"v_{{{both}}}", kind, start, head, Known.BOTH, note))
         if not fixed:
@@ -312,14 +320,19 @@ def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: st
         length = b.compute(f"|{out}|", (kin.omega[link], 2), *lever.length, (motion.scale, -1))
         head = end = b.lay_off(out, start, inward, length)
     normal = Vector(
-        f"a^{{n}}_{{{both}}}", VectorKind.NORMAL, start, end, Known.BOTH, f"{place} → {joint}"
+        f"a^{{n}}_{{{both}}}",
+        VectorKind.NORMAL,
+        start,
+        end,
+        Known.BOTH,
+        f"{mark(place)} → {mark(joint)}",
     )
     if end != head or not fixed:
         terms.append(motion.add(normal))
     else:
         terms.append(normal)
     if end != head:
-        symbol, note = f"a^{{τ}}_{{{both}}}", f"⊥ {place}{joint}"
+        symbol, note = f"a^{{τ}}_{{{both}}}", f"⊥ {mark(place, joint)}"
         tangential = Vector(symbol, VectorKind.TANGENTIAL, end, head, Known.BOTH, note)
         terms.append(motion.add(tangential))
     left = motion.absolute(label, head, Known.NOTHING)

@@ -25,6 +25,11 @@ def letter(point: str) -> str:
     return f"{head}_{{{tail}}}" if tail else head
 
 
+def mark(*points: str) -> str:
+    """Return names of mechanism points in rich text: ``mark("O3", "A")`` gives ``O_{3}A``."""
+    return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)
+
+
 @dataclass(slots=True)
 class Motion:
     """One plan being planned (план скоростей или ускорений в работе).

@@ -52,7 +52,7 @@ MARGIN = 13.0
 """Room about the joints for symbols and letters, mm."""
 
 LARGEST_STEP = 42.0
-"""Greatest length of a grid unit, mm: a four-bar linkage should not fill a wall."""
+"""Greatest length of a grid unit unless another is asked for, mm."""
 
 SMALLEST_STEP = 8.0
 """Least length of a grid unit, mm: below it the symbols run into each other."""
@@ -68,6 +68,7 @@ def mechanism_picture(
     width: float,
     height: float,
     letter_height: float = 5.0,
+    largest: float = LARGEST_STEP,
     sense: int = 1,
 ) -> Picture:
     """Return the structural scheme of a mechanism (структурная схема), mm.
@@ -75,12 +76,15 @@ def mechanism_picture(
     Parameters
     ----------
     width, height : float, mm
-        Room to fill; the picture is never larger than looks well.
+        Room to fill.
+    largest : float, mm
+        Greatest length of a grid unit: on a large sheet a simple mechanism does not fill the room.
     sense : int
         Of the driver's motion: +1 counter-clockwise or to the right, -1 the other way.
     """
     chain, found = _whole(mechanism, structure)
-    return _fitted(chain, found, (width, height), letter_height, mechanism.driver, sense)
+    room = (width, height)
+    return _fitted(chain, found, room, letter_height, largest, mechanism.driver, sense)
 
 
 def driver_picture(
@@ -101,10 +105,11 @@ def group_picture(
     width: float,
     height: float,
     letter_height: float = 5.0,
+    largest: float = LARGEST_STEP,
 ) -> Picture:
     """Return a group taken apart (структурная группа), mm; outer joints open."""
     chain, found = _apart(mechanism, group)
-    return _fitted(chain, found, (width, height), letter_height)
+    return _fitted(chain, found, (width, height), letter_height, largest)
 
 
 @lru_cache(maxsize=16)
@@ -126,6 +131,7 @@ def _fitted(
     found: Mapping[str, complex],
     room: tuple[float, float],
     letter_height: float,
+    largest: float,
     driver: str = "",
     sense: int = 1,
 ) -> Picture:
@@ -134,8 +140,8 @@ def _fitted(
     wide, tall = max(max(xs) - min(xs), 1e-3), max(max(ys) - min(ys), 1e-3)
     about = (2 * MARGIN, 2 * MARGIN)  # what symbols and letters take, until it is measured
     for _ in range(3):
-        across = min(LARGEST_STEP, max(SMALLEST_STEP, (room[0] - about[0]) / wide))
-        up = min(LARGEST_STEP, max(SMALLEST_STEP, (room[1] - about[1]) / tall))
+        across = min(largest, max(SMALLEST_STEP, (room[0] - about[0]) / wide))
+        up = min(largest, max(SMALLEST_STEP, (room[1] - about[1]) / tall))
         across, up = min(across, 1.3 * up), min(up, 1.3 * across)
         at = {name: complex(z.real * across, z.imag * up) for name, z in found.items()}
         made = _picture(chain, at, letter_height, driver, sense)
@@ -198,7 +204,13 @@ class _Draft:
         elif shape.outline:
             ring = turned_outwards(shape.outline, at)
             corners = [at[node] for node in ring]
-            self.arms += stiff_triangle(*corners, hatched=True)
+            # Hatched under the stones; the outline goes to the pins that stand on stones.
+            *hatching, outline = stiff_triangle(*corners, hatched=True)
+            self.arms += hatching
+            own = any(
+                slide.stone == link and slide.node in shape.outline for slide in self.chain.slides
+            )
+            (self.arms if own else self.lines).append(outline)
             sides = zip(corners, [*corners[1:], corners[0]], strict=True)
             self.segments += [(link, a, b) for a, b in sides]
         for start_node, stone in shape.tips:
@@ -345,8 +357,12 @@ class _Draft:
                 return
         for slide in self.chain.slides:
             if slide.stone == driver and slide.far is Far.FRAME:
-                start = self.at[slide.node] + 1j * (SIZES.slider_width / 2 + 3.0) - 7.0 * sense
-                end = start + 14.0 * sense
+                place = self.at[slide.node]
+                # Over the half of the slider that the link on its pin leaves free.
+                lean = sum(self.directions(place), 0j).real
+                middle = place - (7.5 if lean >= 0 else -7.5) + 1j * (SIZES.slider_width / 2 + 3.0)
+                middle = middle if self.directions(place) else middle + 7.5
+                start, end = middle - 6.0 * sense, middle + 6.0 * sense
                 self.grounds.append(Stroke((start, end - 3.0 * sense), Pen.THIN))
                 self.grounds += arrowhead(end, end - start, length=3.5, width=1.3)
                 mark = typeset(f"v_{{{driver}}}", self.letter_height)

@@ -110,7 +110,9 @@ class Move:
             return Rule(rule.point, Where.NEAR, (), self.place(near[rule.point]))
         if rule.where is Where.NEAR:
             return replace(rule, at=self.place(rule.at))
-        return replace(rule, where=MIRRORED.get(rule.where, rule.where) if self.mirrors else rule.where)
+        return replace(
+            rule, where=MIRRORED.get(rule.where, rule.where) if self.mirrors else rule.where
+        )
 
 
 def _mu(scales: Scales) -> tuple[float | None, float | None, float | None]:

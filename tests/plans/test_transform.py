@@ -36,9 +36,7 @@ def places(solution: Solution) -> dict[str, complex]:
     return {name: complex(motion.place[0]) for name, motion in solution.points.items()}
 
 
-def close(
-    got: npt.ArrayLike, wanted: npt.ArrayLike, largest: float, what: object
-) -> None:
+def close(got: npt.ArrayLike, wanted: npt.ArrayLike, largest: float, what: object) -> None:
     error = float(np.max(np.abs(np.asarray(got) - np.asarray(wanted))))
     assert error <= LIMIT * largest, (what, error, largest)
 
@@ -166,9 +164,7 @@ def test_the_driver_reversed_or_at_another_speed(name: str, times: float) -> Non
 def test_a_driver_at_rest_moves_nothing(name: str) -> None:
     """At rest with an acceleration there are no velocities; the accelerations are those of it."""
     problem = problem_of(name)
-    still = Solution(
-        replace(problem, drive=replace(problem.drive, rate=0.0, acceleration=-4.0))
-    )
+    still = Solution(replace(problem, drive=replace(problem.drive, rate=0.0, acceleration=-4.0)))
     going = Solution(replace(problem, drive=replace(problem.drive, rate=-4.0, acceleration=0.0)))
     for point, motion in still.points.items():
         assert (motion.velocity == 0).all()

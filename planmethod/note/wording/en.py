@@ -31,8 +31,8 @@ EN = Wording(
     given="Given: {given}.",
     scales="Scales",
     scales_text="We take the scales {scales}.",
-    ruler="Segments are laid off exactly and read with a ruler of {ruler} mm divisions; what stands "
-    "in brackets after “exactly” is free of the error of reading.",
+    ruler="Segments are laid off exactly and read with a ruler of {ruler} mm divisions; what "
+    "stands in brackets after “exactly” is free of the error of reading.",
     plan_position="Position plan",
     plan_velocity="Velocity plan",
     plan_acceleration="Acceleration plan",
@@ -63,6 +63,8 @@ EN = Wording(
     draw_guide_at="Through the point ({x}; {y}) mm, at {angle}° to the x axis, we draw the guide "
     "{guide}.",
     carries=": this is the direction of {symbol}",
+    slot="the guide",
+    slot_of="the guide of link {link}",
     x_axis="the x axis",
     fixed_points="We mark the fixed points, coordinates on the drawing in mm: {points}.",
     lay_off_at="From {of}, at {symbol} = {angle}° to the x axis, we lay off {length} and get point "
@@ -82,29 +84,31 @@ EN = Wording(
     measure_drawing="On the position plan we measure the segment {segment} = {length} mm (exactly "
     "{exact} mm).",
     exact=" (exactly {value})",
-    zero_length="{symbol} = 0, so point {point} falls on point {origin}.",
+    zero_length="{symbol} = 0, so point {point} stays at {of}.",
     pole="We choose the pole {pole}",
     pole_fixed="We choose the pole {pole}; the fixed points are there: {points}",
     equation_legend="Under the terms of the equations: a double line where magnitude and direction "
     "are known, a single line where only the direction is.",
     equations="Vector equations:",
-    lay_off_vector="From {of} {direction} we lay off the segment {segment} = {length} mm{sense} and "
-    "get point {point}{coincide}.",
+    lay_off_vector="From {of} {direction} we lay off the segment {segment} = {length} mm{sense} "
+    "and get point {point}{coincide}.",
     sense_of=" in the sense of {symbol} ({sense})",
     sense_normal="{base}, from {tail} to {head},",
     sense_coriolis=", the way {relative} points when it is turned by 90° along {omega} ({sense}),",
-    no_coriolis_frame="{symbol} = 0: the guide {guide} is fixed, there is no Coriolis acceleration.",
+    constant_speed="{symbol} is constant, so points of link {link} have normal acceleration only.",
+    no_coriolis_frame="{symbol} = 0: the guide {guide} is fixed, there is no Coriolis "
+    "acceleration.",
     no_coriolis_link="{symbol} = 0: link {link} does not turn, there is no Coriolis acceleration.",
     translating="Link {link} is in translation: ω{index} = 0, ε{index} = 0, all its points move "
     "alike.",
     shared_turning="Link {link} turns together with link {other}: {symbol} = {same}.",
     turning="The vector {segment}, carried over to point {place}, turns link {link} about point "
     "{joint} {sense}.",
-    turning_zero="{symbol} = 0: the segment {segment} is too short to read.",
-    similar_on="By the similarity theorem point {point} lies on the segment {segment}: from point "
-    "{start} we lay off {part}{coincide}.",
+    turning_zero="{symbol} = 0: the segment {segment} is zero.",
+    similar_on="By the similarity theorem point {point} lies on the segment {segment}: from {of} "
+    "we lay off {part}{coincide}.",
     similar_beyond="By the similarity theorem point {point} lies on the segment {segment} produced "
-    "beyond {beyond}: from point {start} we lay off {part}{coincide}.",
+    "beyond {beyond}: from {of} we lay off {part}{coincide}.",
     similar_same="By the similarity theorem point {point} falls on point {other}{coincide}.",
     similar_triangle="By the similarity theorem we draw with arcs the triangle {plan}, similar to "
     "the triangle {link}, its letters going round in the same sense, and get point "
@@ -133,12 +137,23 @@ EN = Wording(
     columns_pairs=("pair", "links", "kind", "mobility"),
     revolute="revolute (R)",
     prismatic="prismatic (P)",
-    frame_name="frame",
     links="Links",
-    columns_link=("link", "motion"),
-    motion_rotation="rotation about point {point}",
-    motion_translation="translation",
-    motion_plane="plane motion",
+    columns_link=("link", "name", "motion"),
+    roles={
+        "frame": "frame",
+        "crank": "crank",
+        "rocker": "rocker",
+        "slider": "slider",
+        "rod": "coupler",
+        "stone": "stone",
+        "slotted link": "slotted link",
+    },
+    motions={
+        "fixed": "fixed",
+        "rotation": "rotation",
+        "translation": "translation",
+        "plane": "plane motion",
+    },
     mobility="Mobility by Chebyshev's formula",
     mobility_counts="Moving links n = {n}, lower pairs p₁ = {p1}, higher pairs p₂ = {p2}.",
     chebyshev="W = 3n − 2p₁ − p₂ = 3·{n} − 2·{p1} − {p2} = {w}",

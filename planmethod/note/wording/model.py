@@ -71,6 +71,8 @@ class Wording:
     draw_guide: str
     draw_guide_at: str
     carries: str
+    slot: str
+    slot_of: str
     x_axis: str
 
     # Steps of the position plan
@@ -96,6 +98,7 @@ class Wording:
     sense_of: str
     sense_normal: str
     sense_coriolis: str
+    constant_speed: str
     no_coriolis_frame: str
     no_coriolis_link: str
     translating: str
@@ -134,12 +137,10 @@ class Wording:
     columns_pairs: tuple[str, ...]
     revolute: str
     prismatic: str
-    frame_name: str
     links: str
     columns_link: tuple[str, ...]
-    motion_rotation: str
-    motion_translation: str
-    motion_plane: str
+    roles: Mapping[str, str]
+    motions: Mapping[str, str]
     mobility: str
     mobility_counts: str
     chebyshev: str

@@ -63,6 +63,8 @@ RU = Wording(
     draw_guide_at="Через точку ({x}; {y}) мм под углом {angle}° к оси x проводим направляющую "
     "{guide}.",
     carries=": таково направление {symbol}",
+    slot="направляющей",
+    slot_of="направляющей звена {link}",
     x_axis="оси x",
     fixed_points="Наносим неподвижные точки, координаты на чертеже в мм: {points}.",
     lay_off_at="Из {of} под углом {symbol} = {angle}° к оси x откладываем {length}; получаем "
@@ -77,12 +79,12 @@ RU = Wording(
     "касательную к ней, точка касания {point} лежит {side} от прямой {centre}{source}, если "
     "смотреть от {centre} к {source}.",
     meet="В пересечении {first} и {second} получаем точку {point}{coincide}.",
-    meet_coincide=" (с ней совпадают {points})",
+    meet_coincide=" (она же {points})",
     measure="Измеряем отрезок {segment} = {length} мм (точно {exact} мм).",
     measure_drawing="Измеряем на плане положений отрезок {segment} = {length} мм (точно {exact} "
     "мм).",
     exact=" (точно {value})",
-    zero_length="{symbol} = 0, поэтому точка {point} совпадает с точкой {origin}.",
+    zero_length="{symbol} = 0, точка {point} не отходит от {of}.",
     pole="Выбираем полюс {pole}",
     pole_fixed="Выбираем полюс {pole}; в нём лежат неподвижные точки: {points}",
     equation_legend="Под членами уравнений: двойная черта — известны модуль и направление, "
@@ -94,22 +96,23 @@ RU = Wording(
     sense_normal="{base}, от {tail} к {head},",
     sense_coriolis=" в ту сторону, куда смотрит {relative}, если повернуть этот вектор на 90° по "
     "{omega} ({sense})",
+    constant_speed="{symbol} постоянна, поэтому ускорение точек звена {link} — только нормальное.",
     no_coriolis_frame="{symbol} = 0: направляющая {guide} неподвижна, кориолисова ускорения нет.",
     no_coriolis_link="{symbol} = 0: звено {link} не вращается, кориолисова ускорения нет.",
     translating="Звено {link} движется поступательно: ω{index} = 0, ε{index} = 0, все его точки "
     "движутся одинаково.",
     shared_turning="Звено {link} поворачивается вместе со звеном {other}: {symbol} = {same}.",
-    turning="Вектор {segment}, перенесённый в точку {place}, поворачивает звено {link} вокруг точки "
-    "{joint} {sense}.",
-    turning_zero="{symbol} = 0: отрезок {segment} не читается.",
-    similar_on="По теореме подобия точка {point} лежит на отрезке {segment}: откладываем от точки "
-    "{start} отрезок {part}{coincide}.",
+    turning="Вектор {segment}, перенесённый в точку {place}, поворачивает звено {link} вокруг "
+    "точки {joint} {sense}.",
+    turning_zero="{symbol} = 0: отрезок {segment} равен нулю.",
+    similar_on="По теореме подобия точка {point} лежит на отрезке {segment}: откладываем от {of} "
+    "отрезок {part}{coincide}.",
     similar_beyond="По теореме подобия точка {point} лежит на продолжении отрезка {segment} за "
-    "точку {beyond}: откладываем от точки {start} отрезок {part}{coincide}.",
+    "точку {beyond}: откладываем от {of} отрезок {part}{coincide}.",
     similar_same="По теореме подобия точка {point} совпадает с точкой {other}{coincide}.",
-    similar_triangle="По теореме подобия строим засечками треугольник {plan}, подобный треугольнику "
-    "{link} и сходственно с ним расположенный (порядок обхода букв один и тот же); получаем точку "
-    "{point}{coincide}.",
+    similar_triangle="По теореме подобия строим засечками треугольник {plan}, подобный "
+    "треугольнику {link} и сходственно с ним расположенный (порядок обхода букв один и тот же); "
+    "получаем точку {point}{coincide}.",
     read_off="Снимаем с плана:",
     table_points="Точки",
     table_links="Звенья",
@@ -134,12 +137,23 @@ RU = Wording(
     columns_pairs=("пара", "звенья", "вид", "подвижность"),
     revolute="вращательная (В)",
     prismatic="поступательная (П)",
-    frame_name="стойка",
     links="Звенья",
-    columns_link=("звено", "движение"),
-    motion_rotation="вращательное вокруг точки {point}",
-    motion_translation="поступательное",
-    motion_plane="плоское",
+    columns_link=("звено", "название", "движение"),
+    roles={
+        "frame": "стойка",
+        "crank": "кривошип",
+        "rocker": "коромысло",
+        "slider": "ползун",
+        "rod": "шатун",
+        "stone": "камень",
+        "slotted link": "кулиса",
+    },
+    motions={
+        "fixed": "неподвижна",
+        "rotation": "вращательное",
+        "translation": "поступательное",
+        "plane": "плоское",
+    },
     mobility="Число степеней свободы по формуле Чебышева",
     mobility_counts="Подвижных звеньев n = {n}, низших пар p₁ = {p1}, высших пар p₂ = {p2}.",
     chebyshev="W = 3n − 2p₁ − p₂ = 3·{n} − 2·{p1} − {p2} = {w}",

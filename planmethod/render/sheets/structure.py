@@ -47,26 +47,39 @@ GOOD_SHARE, LEAST_SHARE = 0.36, 0.25
 """Part of the left column's height that the scheme should have, and must have."""
 
 
+COLUMN = STAMP_WIDTH - 2 * EDGE
+"""Width of tables and formulas that stand over the title block, mm."""
+
+
 @dataclass(frozen=True, slots=True)
 class Manner:
     """Sizes of a sheet, mm (размеры надписей и видов).
 
-    ``cell`` is the least width of a group's cell, ``views`` the greatest height of a group's
-    picture, ``rows`` the heights of table rows to try, largest first.
+    ``column`` is the width of tables and formulas, ``cell`` the least width of a group's cell,
+    ``step`` the greatest length of a grid unit of the pictures; ``views`` are the heights of a
+    group's picture and ``rows`` those of table rows to try, largest first.
     """
 
     letter: float
     title: float
     text: float
+    column: float
     cell: float
+    step: float
     views: tuple[float, ...]
     rows: tuple[float, ...]
 
 
 MANNERS: Mapping[str, Manner] = {
-    "A3": Manner(3.5, 5.0, 3.5, 60.0, (80.0, 70.0, 62.0, 54.0, 46.0, 40.0), (8.0, 7.0, 6.0)),
-    "A2": Manner(5.0, 5.0, 3.5, 82.0, (95.0, 85.0, 75.0, 65.0, 56.0, 48.0), (8.0, 7.0, 6.0)),
-    "A1": Manner(5.0, 7.0, 5.0, 110.0, (130.0, 115.0, 100.0, 85.0, 70.0, 56.0), (10.0, 9.0, 8.0)),
+    "A3": Manner(
+        3.5, 5.0, 3.5, COLUMN, 60.0, 42.0, (80.0, 70.0, 62.0, 54.0, 46.0, 40.0), (8.0, 7.0, 6.0)
+    ),
+    "A2": Manner(
+        5.0, 5.0, 3.5, COLUMN, 82.0, 55.0, (95.0, 85.0, 75.0, 65.0, 56.0, 48.0), (8.0, 7.0, 6.0)
+    ),
+    "A1": Manner(
+        5.0, 7.0, 5.0, 250.0, 110.0, 70.0, (130.0, 115.0, 100.0, 85.0, 70.0, 56.0), (10.0, 9.0, 8.0)
+    ),
 }
 
 
@@ -120,14 +133,12 @@ def _compose(
     problem: Problem, structure: Structure, manner: Manner, inner: Bounds, stamp: Bounds
 ) -> list[Item] | None:
     """Return the items inside the frame, or None when they do not fit."""
-    width = STAMP_WIDTH - 2 * EDGE
-    left = inner[0] + EDGE
-    right = stamp[0] + EDGE
+    left, right = inner[0] + EDGE, inner[2] - EDGE - manner.column
     top, low = inner[3] - EDGE, stamp[3] + EDGE
-    column = _told(problem, structure, manner, width, top - low)
+    column = _told(problem, structure, manner, manner.column, top - low)
     if column is None:
         return None
-    pictures = _shown(problem, structure, manner, right - GAP - left, top - inner[1] - EDGE)
+    pictures = _shown(problem, structure, manner, right - EDGE - GAP - left, top - inner[1] - EDGE)
     if pictures is None:
         return None
     return [*pictures.place(complex(left, top)), *column.place(complex(right, top))]
@@ -196,7 +207,14 @@ def _shown(
             )
         ]
         pictures += [
-            group_picture(mechanism, group, width=cell, height=tall, letter_height=manner.letter)
+            group_picture(
+                mechanism,
+                group,
+                width=cell,
+                height=tall,
+                letter_height=manner.letter,
+                largest=manner.step,
+            )
             for group in structure.groups
         ]
         told: list[Block] = [_caption(driver_caption(mechanism), manner, cell)]
@@ -210,6 +228,7 @@ def _shown(
             width=width,
             height=max(room, 1.0),
             letter_height=manner.letter,
+            largest=manner.step,
             sense=sense,
         )
         fits = scheme.height <= room and all(p.width <= cell for p in pictures)

@@ -78,8 +78,10 @@ def formulas(mechanism: Mechanism, structure: Structure) -> list[str]:
     backwards = [*steps[::-1], first]
     spatial = structure.spatial_mobility
     return [
-        f"n = {n}; p_{{н}} = {low} (вращательных {revolute}, поступательных {low - revolute}); "
-        f"p_{{в}} = {high}",
+        # Broken between the three statements only, should it not fit one line.
+        f"n{NBSP}={NBSP}{n}; p_{{н}}{NBSP}={NBSP}{low} "
+        f"(вращательных{NBSP}{revolute}, поступательных{NBSP}{low - revolute}); "
+        f"p_{{в}}{NBSP}={NBSP}{high}",
         f"По Чебышеву: W = 3n − 2p_{{н}} − p_{{в}} = 3·{n} − 2·{low} − {high} = "
         f"{_signed(structure.mobility)}",
         f"Пространственная схема: W_{{пр}} = 6n − 5p_{{1}} = 6·{n} − 5·{low} = {_signed(spatial)}",
@@ -98,7 +100,7 @@ def driver_caption(mechanism: Mechanism) -> list[str]:
     kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
     return [
         f"Первичный механизм I{NBSP}класса ({KINDS[kind]} пара): "
-        f"звенья {FRAME},{NBSP}{mechanism.driver}",
+        f"звенья{NBSP}{FRAME},{NBSP}{mechanism.driver}",
         "W = 3·1 − 2·1 = 1".replace(" ", NBSP),
         "q = 1 − (6·1 − 5·1) = 0".replace(" ", NBSP),
     ]
@@ -117,7 +119,7 @@ def group_caption(group: AssurGroup) -> list[str]:
     elif len(group.leads) in _LEADS:
         named += f" ({_LEADS[len(group.leads)]})"
     return [
-        f"{named}: звенья {f',{NBSP}'.join(group.links)}",
+        f"{named}: звенья{NBSP}{f',{NBSP}'.join(group.links)}",
         f"W = 3·{n} − 2·{p} = {_signed(3 * n - 2 * p)}".replace(" ", NBSP),
         f"q = 0 − (6·{n} − 5·{p}) = {5 * p - 6 * n}".replace(" ", NBSP),
     ]

@@ -1,0 +1,240 @@
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from worked import problem_of
+
+from planmethod.construct.arithmetic import Float64, Hand
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.program import Builder, Program
+from planmethod.construct.steps import (
+    STEP_TYPES,
+    Compute,
+    Given,
+    Join,
+    Known,
+    LayOff,
+    LineName,
+    MeetLines,
+    NumberName,
+    PointName,
+    Side,
+    Way,
+    makes,
+    operands,
+)
+from planmethod.errors import ProgramError
+from planmethod.plans.solution import Solution
+
+A, B, C = PointName("A"), PointName("B"), PointName("C")
+AB, AC = LineName("AB"), LineName("AC")
+L = NumberName("l_AB")
+
+
+def test_a_program_is_checked_when_it_is_made() -> None:
+    Program((Given(A), Given(B), Join(AB, A, B)))
+    Program(())
+
+
+def test_every_name_is_made_once() -> None:
+    with pytest.raises(ProgramError, match=r"^step 3: 'A' is already made$"):
+        Program((Given(A), Given(B), Given(A)))
+    with pytest.raises(ProgramError, match=r"^step 2: 'A' is already made$"):
+        Program((Given(A), Known(NumberName("A"))))
+
+
+def test_an_unknown_name_comes_with_the_nearest_one() -> None:
+    with pytest.raises(
+        ProgramError,
+        match=r"^step 3 \(AB\): no earlier step makes 'point_b1'; did you mean 'point_b'\?$",
+    ):
+        Program(
+            (Given(A), Given(PointName("point_b")), Join(AB, A, PointName("point_b1"))),
+        )
+    with pytest.raises(ProgramError, match=r"^step 2 \(AB\): no earlier step makes 'B'$"):
+        Program((Given(A), Join(AB, A, B)))
+
+
+def test_a_name_is_made_before_it_is_used() -> None:
+    with pytest.raises(ProgramError, match=r"step 2 \(AB\): no earlier step makes 'B'"):
+        Program((Given(A), Join(AB, A, B), Given(B)))
+    with pytest.raises(ProgramError, match=r"no earlier step makes 'AB'"):
+        Program((Given(A), Given(B), MeetLines(C, AB, AB)))
+
+
+def test_a_line_is_not_a_point_nor_a_number_a_line() -> None:
+    drawn = (Given(A), Given(B), Join(AB, A, B), Known(L))
+    with pytest.raises(ProgramError, match=r"^step 5 \(AC\): 'AB' is not a .*PointName$"):
+        Program((*drawn, Join(AC, A, PointName("AB"))))
+    with pytest.raises(ProgramError, match=r"^step 5 \(C\): 'l_AB' is not a .*LineName$"):
+        Program((*drawn, LayOff(C, A, LineName("l_AB"), L)))
+    with pytest.raises(ProgramError, match=r"^step 5 \(C\): 'A' is not a .*NumberName$"):
+        Program((*drawn, LayOff(C, A, AB, NumberName("A"))))
+    with pytest.raises(ProgramError, match=r"^step 5 \(x\): 'A' is not a .*NumberName$"):
+        Program((*drawn, Compute(NumberName("x"), 1.0, ((NumberName("A"), 1),))))
+
+
+def test_an_absent_line_is_no_operand() -> None:
+    builder = Builder()
+    turn = builder.known("angle")
+    builder.at_angle(builder.given("A"), None, turn)
+    program = builder.program()
+    assert [name for name, _ in operands(program.steps[-1])] == ["A", "angle"]
+
+
+def test_every_step_makes_something_of_a_known_kind() -> None:
+    for step in STEP_TYPES:
+        assert dataclasses.is_dataclass(step)
+        names = {field.name for field in dataclasses.fields(step)}
+        assert "out" in names
+    assert makes(Given(A)) is PointName
+    assert makes(Join(AB, A, B)) is LineName
+    assert makes(Known(L)) is NumberName
+
+
+# Only what is needed ------------------------------------------------------------------------------
+
+
+def triangle() -> Program:
+    b = Builder()
+    p, q, r = b.given("P"), b.given("Q"), b.given("R")
+    pq, pr = b.join(p, q), b.join(p, r)
+    foot = b.meet_lines("F", pq, b.perpendicular(r, pq))
+    b.measure("height", r, foot)
+    b.lay_off("S", q, pr, b.known("l"))
+    return b.program()
+
+
+def test_only_the_steps_that_are_needed_are_kept() -> None:
+    program = triangle()
+    kept = program.needed_for([NumberName("height")])
+    assert [type(s).__name__ for s in kept.steps] == [
+        "Given", "Given", "Given", "Join", "Perpendicular", "MeetLines", "Measure",
+    ]  # fmt: skip
+    assert [s for s in program.steps if s in kept.steps] == list(kept.steps)
+    assert program.needed_for([PointName("P")]).steps == (Given(PointName("P")),)
+    assert program.needed_for([]).steps == ()
+    assert program.needed_for([s.out for s in program.steps]) == program
+
+
+def test_what_no_step_makes_cannot_be_asked() -> None:
+    with pytest.raises(ProgramError, match=r"^no step makes T, U$"):
+        triangle().needed_for([PointName("U"), PointName("P"), PointName("T")])
+
+
+def test_a_pruned_program_asks_for_no_more_data() -> None:
+    kept = triangle().needed_for([NumberName("height")])
+    trace = evaluate(kept, {"P": 0j, "Q": 4 + 0j, "R": 1 + 3j}, Float64())
+    assert trace.value[NumberName("height")] == 3.0
+
+
+def ends(value: Any) -> tuple[Any, ...]:
+    """Point and direction of a line; a point or a number alone."""
+    return value if isinstance(value, tuple) else (value,)
+
+
+@given(st.data())
+def test_pruned_and_full_give_the_same(data: st.DataObject) -> None:
+    """In every arithmetic, bit for bit, whatever is asked of a mechanism's plans."""
+    name = data.draw(st.sampled_from(["linkages/ex3", "levers/task12", "levers/six-link"]))
+    solution = Solution(problem_of(name))
+    program = solution.construction.program
+    asked = data.draw(st.sets(st.sampled_from([s.out for s in program.steps]), max_size=4))
+    kept = program.needed_for(asked)
+    assert set(kept.steps) <= set(program.steps)
+    given_data = {
+        **solution.construction.draft.numbers,
+        **solution.construction.draft.places,
+        **dict.fromkeys(("mu_l", "mu_v", "mu_a"), 1.0),
+        "phi": solution.positions,
+        "omega_1": solution.problem.drive.rate,
+        "epsilon_1": solution.problem.drive.acceleration,
+    }
+    for arithmetic in (Float64(), Hand(ruler=0.001)):
+        full = evaluate(program, given_data, arithmetic)
+        part = evaluate(kept, given_data, arithmetic)
+        assert set(part.value) == {s.out for s in kept.steps}
+        for step in kept.steps:
+            pair = zip(ends(part.value[step.out]), ends(full.value[step.out]), strict=True)
+            assert all(np.array_equal(one, two, equal_nan=True) for one, two in pair)
+        for step_name, margin in part.margin.items():
+            assert np.array_equal(np.asarray(margin), np.asarray(full.margin[step_name]))
+
+
+def test_a_velocity_plan_needs_no_acceleration() -> None:
+    solution = Solution(problem_of("linkages/ex3"))
+    kept = solution.construction.program.needed_for([PointName("v:E")])
+    assert not [s.out for s in kept.steps if "a:" in s.out or "epsilon" in s.out or s.out == "mu_a"]
+    assert len(kept.steps) < len(solution.construction.program.steps)
+
+
+# Builder ------------------------------------------------------------------------------------------
+
+
+def test_a_line_that_was_drawn_is_found_again() -> None:
+    b = Builder()
+    p, q, angle, other = b.given("P"), b.given("Q"), b.known("angle"), b.known("other")
+    pq = b.join(p, q)
+    once = [
+        pq,
+        b.join(q, p),  # the other way round: another sense
+        b.parallel(p, pq),
+        b.parallel(q, pq),
+        b.perpendicular(p, pq),
+        b.at_angle(p, pq, angle),
+        b.at_angle(p, None, angle),
+        b.at_angle(p, pq, other),
+    ]
+    again = [
+        b.join(p, q),
+        b.join(q, p),
+        b.parallel(p, pq),
+        b.parallel(q, pq),
+        b.perpendicular(p, pq),
+        b.at_angle(p, pq, angle),
+        b.at_angle(p, None, angle),
+        b.at_angle(p, pq, other),
+    ]
+    assert again == once
+    assert len(set(once)) == len(once)
+    assert len(b.program().steps) == 4 + len(once)
+
+
+def test_each_verb_makes_its_step_and_returns_its_name() -> None:
+    b = Builder()
+    p, q, r = b.given("P"), b.given("Q"), b.given("R")
+    one, two = b.known("one"), b.known("two")
+    pq = b.join(p, q)
+    made = [
+        b.lay_off("a", p, pq, one),
+        b.meet_lines("b", pq, b.join(p, r)),
+        b.meet_line_circle("c", pq, r, one, Way.BACKWARD),
+        b.meet_circles("d", p, one, q, two, Side.RIGHT),
+        b.touch("e", p, one, q, Side.LEFT),
+        b.similar("f", (p, q), (q, r, p), read_span=True),
+        b.measure("g", p, q),
+        b.measure_along("h", p, q, pq),
+        b.compute("i", (one, 2), (two, -1), factor=2.0),
+    ]
+    assert made == list("abcdefghi")
+    steps = {step.out: step for step in b.program().steps}
+    assert [type(steps[name]).__name__ for name in made] == [
+        "LayOff", "MeetLines", "MeetLineCircle", "MeetCircles", "Touch",
+        "Similar", "Measure", "MeasureAlong", "Compute",
+    ]  # fmt: skip
+    trace = evaluate(
+        b.program(), {"P": 0j, "Q": 3 + 0j, "R": 1 + 1j, "one": 3.0, "two": 4.0}, Float64()
+    )
+    assert trace.value[NumberName("i")] == 2 * 9 / 4
+
+
+def test_a_faulty_construction_of_the_builder_is_found() -> None:
+    b = Builder()
+    b.lay_off("X", PointName("nowhere"), LineName("no line"), NumberName("no length"))
+    with pytest.raises(ProgramError, match="nowhere"):
+        b.program()

@@ -1,0 +1,406 @@
+"""Geometry of every kind of step: made points lie where the step says they do."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+
+from planmethod.construct.arithmetic import Float64, Hand
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.program import Builder
+from planmethod.construct.steps import (
+    STEP_TYPES,
+    LineName,
+    Name,
+    NumberName,
+    PointName,
+    Side,
+    Way,
+)
+
+REACH = 300.0
+TINY = 1e-9  # mm, on a sheet of 300 mm
+
+coordinate = st.floats(-REACH, REACH, allow_nan=False).map(lambda x: round(x, 6))
+place = st.builds(complex, coordinate, coordinate)
+length = st.floats(0.01, REACH).map(lambda x: round(x, 6))
+signed = st.floats(-REACH, REACH).map(lambda x: round(x, 6))
+angles = st.floats(-1000, 1000)
+sides = st.sampled_from(Side)
+ways = st.sampled_from(Way)
+
+P, Q, R, S = (PointName(name) for name in "PQRS")
+SEEN: set[str] = set()
+
+
+def run(build: Callable[[Builder], Name], hand: Hand | None = None, **data: Any) -> tuple[Any, Any]:
+    """Value and margin of the last step of a construction on given points and numbers."""
+    b = Builder()
+    for name, value in data.items():
+        if isinstance(value, complex) or np.iscomplexobj(value):
+            b.given(name)
+        else:
+            b.known(name)
+    out = build(b)
+    program = b.program()
+    SEEN.update(type(step).__name__ for step in program.steps)
+    trace: Trace = evaluate(program, data, hand or Float64())
+    return trace.value[out], trace.margin.get(out)
+
+
+def scalar(value: Any) -> complex:
+    return complex(np.asarray(value))
+
+
+def real(value: Any) -> float:
+    return float(np.asarray(value))
+
+
+def cross(a: complex, b: complex) -> float:
+    return (a.conjugate() * b).imag
+
+
+def dot(a: complex, b: complex) -> float:
+    return (a.conjugate() * b).real
+
+
+def apart(a: complex, b: complex, least: float = 0.01) -> bool:
+    return abs(a - b) >= least
+
+
+# Lines --------------------------------------------------------------------------------------------
+
+
+@given(place, place)
+def test_join_goes_from_the_first_to_the_second(p: complex, q: complex) -> None:
+    (through, u), margin = run(lambda b: b.join(P, Q), P=p, Q=q)
+    assert scalar(through) == p
+    assert scalar(u) == q - p
+    assert margin is None
+
+
+@given(place, place, place)
+def test_parallel_keeps_the_sense_and_perpendicular_turns_to_the_left(
+    p: complex, q: complex, r: complex
+) -> None:
+    (through, u), _ = run(lambda b: b.parallel(R, b.join(P, Q)), P=p, Q=q, R=r)
+    assert scalar(through) == r
+    assert scalar(u) == q - p
+    (through, u), _ = run(lambda b: b.perpendicular(R, b.join(P, Q)), P=p, Q=q, R=r)
+    assert scalar(through) == r
+    assert scalar(u) == 1j * (q - p)
+
+
+@given(place, place, place, angles)
+def test_an_angle_is_laid_off_counter_clockwise(
+    p: complex, q: complex, r: complex, angle: float
+) -> None:
+    assume(apart(p, q))
+
+    def build(b: Builder) -> LineName:
+        return b.at_angle(R, b.join(P, Q), NumberName("turn"))
+
+    (through, u), _ = run(build, P=p, Q=q, R=r, turn=angle)
+    assert scalar(through) == r
+    wanted = (q - p) * cmath.rect(1.0, math.radians(math.remainder(angle, 360.0)))
+    assert abs(scalar(u) - wanted) <= 1e-13 * abs(q - p)
+    (_, u), _ = run(lambda b: b.at_angle(R, None, NumberName("turn")), R=r, turn=angle)
+    assert abs(scalar(u) - wanted / (q - p)) <= 1e-13
+
+
+# Points -------------------------------------------------------------------------------------------
+
+
+@given(place, place, place, signed)
+def test_a_length_is_laid_off_along_a_line(p: complex, q: complex, r: complex, x: float) -> None:
+    assume(apart(p, q))
+
+    def build(b: Builder) -> PointName:
+        return b.lay_off("X", R, b.join(P, Q), NumberName("x"))
+
+    at, margin = run(build, P=p, Q=q, R=r, x=x)
+    laid = scalar(at) - r
+    u = (q - p) / abs(q - p)
+    assert margin is None
+    assert abs(cross(u, laid)) < TINY
+    assert abs(dot(u, laid) - x) < TINY
+
+
+def test_a_zero_length_needs_no_direction() -> None:
+    def build(b: Builder) -> PointName:
+        return b.lay_off("X", R, b.join(P, Q), NumberName("x"))
+
+    assert scalar(run(build, P=1 + 1j, Q=1 + 1j, R=2 + 3j, x=0.0)[0]) == 2 + 3j
+    assert not np.isfinite(run(build, P=1 + 1j, Q=1 + 1j, R=2 + 3j, x=1.0)[0])
+    at, _ = run(build, P=np.array([0j, 0j]), Q=np.array([0j, 1j]), R=0j, x=np.array([0.0, 2.0]))
+    assert at.tolist() == [0j, 2j]
+
+
+@given(place, place, place, place)
+@example(0j, 1 + 0j, 1j, 1 + 1j)
+@example(0j, 1 + 0j, 1j, -1 + 1j)
+@example(0j, 2 + 0j, 5 + 0j, 7 + 0j)
+@example(0j, 0j, 5 + 0j, 7 + 0j)
+def test_lines_meet_on_both_or_are_parallel(p: complex, q: complex, r: complex, s: complex) -> None:
+    def build(b: Builder) -> PointName:
+        return b.meet_lines("X", b.join(P, Q), b.join(R, S))
+
+    value, margin = run(build, P=p, Q=q, R=r, S=s)
+    u, v = q - p, s - r
+    if u == 0 or v == 0:
+        assert not np.isfinite(value)
+        assert not margin > 0
+        return
+    assert 0 <= margin <= 1 + 1e-12
+    if margin <= 1e-12:
+        assert not np.isfinite(value)
+        return
+    at = scalar(value)
+    assert abs(margin - abs(math.sin(cmath.phase(v / u)))) <= 1e-12
+    assume(margin > 1e-3)
+    assert abs(cross(u / abs(u), at - p)) < TINY * max(1.0, abs(at - p) / REACH)
+    assert abs(cross(v / abs(v), at - r)) < TINY * max(1.0, abs(at - r) / REACH)
+
+
+def test_parallel_lines_do_not_meet_in_any_sense() -> None:
+    def build(b: Builder) -> PointName:
+        return b.meet_lines("X", b.join(P, Q), b.parallel(R, b.join(P, Q)))
+
+    value, margin = run(build, P=1 + 2j, Q=17.3 - 4.4j, R=3 + 3j)
+    assert not np.isfinite(value)
+    assert margin == 0
+
+    def back(b: Builder) -> PointName:
+        return b.meet_lines("X", b.join(P, Q), b.parallel(R, b.join(Q, P)))
+
+    assert not np.isfinite(run(back, P=1 + 2j, Q=17.3 - 4.4j, R=3 + 3j)[0])
+
+
+def nan_exactly_where_negative(value: Any, margin: Any) -> bool:
+    return bool(np.isfinite(value)) == bool(margin > -1e-12)
+
+
+@given(place, place, place, length, ways)
+@example(0j, 1 + 0j, 3j, 3.0, Way.FORWARD)
+@example(0j, 1 + 0j, 3j, 2.999999, Way.FORWARD)
+@example(0j, 1 + 0j, 5 + 3j, 5.0, Way.BACKWARD)
+def test_a_line_meets_an_arc_on_the_asked_way(
+    p: complex, q: complex, c: complex, r: float, way: Way
+) -> None:
+    assume(apart(p, q))
+
+    def build(b: Builder) -> PointName:
+        return b.meet_line_circle("X", b.join(P, Q), R, NumberName("r"), way)
+
+    value, margin = run(build, P=p, Q=q, R=c, r=r)
+    u = (q - p) / abs(q - p)
+    leg = abs(cross(u, c - p))
+    assert nan_exactly_where_negative(value, margin)
+    assert real(margin) == pytest.approx((r * r - leg * leg) / (r * r), rel=1e-9, abs=1e-9)
+    if margin < 1e-6:
+        return  # near the tangent a root doubles the digits that are lost
+    at = scalar(value)
+    assert abs(cross(u, at - p)) < TINY
+    assert abs(abs(at - c) - r) < TINY
+    assert dot(u, at - c) * way.value > 0
+    if margin > 0.01:
+        assert abs(leg) < r
+
+
+def test_what_lies_on_a_guide_stays_on_it_exactly() -> None:
+    def build(b: Builder) -> PointName:
+        return b.meet_line_circle("X", b.join(P, Q), R, NumberName("r"), Way.FORWARD)
+
+    at, _ = run(build, P=0j, Q=7 + 0j, R=13.37 + 41.9j, r=100.0)
+    assert scalar(at).imag == 0.0
+
+
+@given(place, length, place, length, sides)
+@example(0j, 3.0, 5 + 0j, 4.0, Side.LEFT)
+@example(0j, 3.0, 5 + 0j, 2.0, Side.LEFT)  # they touch
+@example(0j, 3.0, 1 + 0j, 4.0, Side.LEFT)  # one touches the other from inside
+@example(0j, 3.0, 5 + 0j, 1.9, Side.LEFT)
+@example(0j, 9.0, 1 + 0j, 2.0, Side.RIGHT)  # one inside the other
+@example(0j, 3.0, 0j, 3.0, Side.RIGHT)  # one and the same
+def test_arcs_meet_on_the_asked_side(
+    c1: complex, r1: float, c2: complex, r2: float, side: Side
+) -> None:
+    def build(b: Builder) -> PointName:
+        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), side)
+
+    value, margin = run(build, P=c1, Q=c2, r1=r1, r2=r2)
+    d = abs(c2 - c1)
+    if d == 0:
+        assert not np.isfinite(value)
+        assert not margin > 0
+        return
+    assert nan_exactly_where_negative(value, margin)
+    slack = 1e-9 * (r1 + r2 + d)
+    if abs(r1 - r2) + slack < d < r1 + r2 - slack:
+        assert margin > 0
+    elif d > r1 + r2 + slack or d < abs(r1 - r2) - slack:
+        assert margin < 0
+    # The half chord loses what a small centre distance or a flat triangle magnifies.
+    assume(margin > 1e-3 and d > 1.0 and r1 > 1.0)
+    at = scalar(value)
+    assert abs(abs(at - c1) - r1) < TINY
+    assert abs(abs(at - c2) - r2) < TINY * max(1.0, REACH / d)
+    assert cross(c2 - c1, at - c1) * side.value > 0
+
+
+def test_arcs_that_touch_meet_on_the_line_of_centres() -> None:
+    def build(b: Builder) -> PointName:
+        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+
+    value, margin = run(build, P=0j, Q=5 + 0j, r1=3.0, r2=2.0)
+    assert (scalar(value), float(margin)) == (3 + 0j, 0.0)
+    value, margin = run(build, P=0j, Q=0.3 + 0j, r1=0.1, r2=0.2)  # 0.1 + 0.2 is not 0.3
+    assert abs(scalar(value) - 0.1) < 1e-8
+    assert abs(margin) < 1e-12
+    value, margin = run(build, P=0j, Q=5 + 0j, r1=3.0, r2=1.999)
+    assert not np.isfinite(value)
+    assert margin < 0
+
+
+@given(place, length, place, sides)
+@example(0j, 3.0, 5 + 0j, Side.LEFT)
+@example(0j, 3.0, 3 + 0j, Side.RIGHT)
+@example(0j, 3.0, 2 + 0j, Side.RIGHT)
+@example(0j, 3.0, 0j, Side.RIGHT)
+def test_a_tangent_touches_on_the_asked_side(c: complex, r: float, s: complex, side: Side) -> None:
+    value, margin = run(lambda b: b.touch("X", P, NumberName("r"), Q, side), P=c, Q=s, r=r)
+    d = abs(s - c)
+    if d == 0:
+        assert not np.isfinite(value)
+        return
+    assert nan_exactly_where_negative(value, margin)
+    if d < r * (1 - 1e-9):
+        assert margin < 0
+    assume(margin > 1e-3 and d > 1.0)
+    at = scalar(value)
+    assert abs(abs(at - c) - r) < TINY
+    assert abs(dot(at - c, at - s)) / max(abs(at - c), abs(at - s)) < TINY
+    assert cross(s - c, at - c) * side.value > 0
+
+
+@given(place, place, place, place, place)
+def test_similar_keeps_the_order_of_the_letters(
+    b: complex, c: complex, B: complex, C: complex, s: complex
+) -> None:
+    assume(apart(B, C, 1.0))
+    names = (PointName("B"), PointName("C"), PointName("S"))
+
+    def build(builder: Builder) -> PointName:
+        return builder.similar("s", (PointName("b"), PointName("c")), names)
+
+    value, margin = run(build, b=b, c=c, B=B, C=C, S=s)
+    at = scalar(value)
+    assert margin is None
+    limit = TINY * max(1.0, abs(s - B) / abs(C - B)) * 10
+    assert abs((at - b) - (c - b) * (s - B) / (C - B)) < limit
+    # Side by side: |bs| : |bc| as |BS| : |BC|, turned the same way, not mirrored.
+    assert abs(abs(at - b) - abs(c - b) * abs(s - B) / abs(C - B)) < limit
+    assert abs(cross(c - b, at - b) * abs(C - B) ** 2 - cross(C - B, s - B) * abs(c - b) ** 2) < (
+        limit * abs(C - B) ** 2 * max(1.0, abs(c - b))
+    )
+
+
+def test_similar_of_the_ends_are_the_ends() -> None:
+    names = (PointName("B"), PointName("C"))
+    for third, wanted in (("B", 2 + 3j), ("C", -1 + 5j)):
+
+        def build(b: Builder, third: str = third) -> PointName:
+            return b.similar("s", (PointName("b"), PointName("c")), (*names, PointName(third)))
+
+        at = scalar(run(build, b=2 + 3j, c=-1 + 5j, B=10 + 10j, C=40 + 17j)[0])
+        assert abs(at - wanted) < 1e-14
+
+
+# Numbers ------------------------------------------------------------------------------------------
+
+
+@given(place, place)
+def test_a_measured_length_is_the_distance(p: complex, q: complex) -> None:
+    value, _ = run(lambda b: b.measure("x", P, Q), P=p, Q=q)
+    assert real(value) == abs(q - p)
+
+
+@given(place, place, place, place)
+def test_a_length_along_a_line_has_the_lines_sign(
+    p: complex, q: complex, r: complex, s: complex
+) -> None:
+    assume(apart(p, q))
+    value, _ = run(lambda b: b.measure_along("x", R, S, b.join(P, Q)), P=p, Q=q, R=r, S=s)
+    assert abs(real(value) - dot((q - p) / abs(q - p), s - r)) < TINY
+    back, _ = run(lambda b: b.measure_along("x", R, S, b.join(Q, P)), P=p, Q=q, R=r, S=s)
+    assert abs(real(back) + real(value)) < TINY
+
+
+def test_compute_multiplies_powers() -> None:
+    x, y = NumberName("x"), NumberName("y")
+    value, _ = run(lambda b: b.compute("z", (x, 2), (y, -1), factor=-0.5), x=3.0, y=4.0)
+    assert real(value) == -0.5 * 9 / 4
+    assert real(run(lambda b: b.compute("z"))[0]) == 1.0
+    value, _ = run(lambda b: b.compute("z", (x, 1), (x, -2)), x=np.array([2.0, -4.0]))
+    assert value.tolist() == [0.5, -0.25]
+
+
+# Batches and impossible positions -----------------------------------------------------------------
+
+
+def test_one_impossible_position_does_not_spoil_the_others() -> None:
+    def build(b: Builder) -> PointName:
+        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+
+    centres = np.array([5 + 0j, 50 + 0j, 3 + 4j])
+    value, margin = run(build, P=0j, Q=centres, r1=3.0, r2=4.0)
+    assert np.isfinite(value).tolist() == [True, False, True]
+    assert (margin > 0).tolist() == [True, False, True]
+    assert abs(value[0] - (1.8 + 2.4j)) < 1e-14
+    alone, _ = run(build, P=0j, Q=centres[2:], r1=3.0, r2=4.0)
+    assert value[2] == alone[0]
+
+
+def test_what_follows_from_an_impossible_point_is_not_a_number() -> None:
+    def build(b: Builder) -> NumberName:
+        x = b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+        y = b.meet_lines("Y", b.join(P, x), b.perpendicular(Q, b.join(P, Q)))
+        return b.measure("d", P, y)
+
+    value, _ = run(build, P=0j, Q=50 + 0j, r1=3.0, r2=4.0)
+    assert math.isnan(value)
+
+
+def test_margins_do_not_depend_on_the_hand() -> None:
+    def build(b: Builder) -> PointName:
+        return b.meet_circles("X", P, NumberName("r1"), Q, NumberName("r2"), Side.LEFT)
+
+    exact = run(build, P=0.3j, Q=5 + 0j, r1=3.3, r2=4.0)
+    by_hand = run(build, hand=Hand(ruler=1.0), P=0.3j, Q=5 + 0j, r1=3.3, r2=4.0)
+    assert exact == by_hand
+
+
+def test_every_kind_of_step_is_tested_here() -> None:
+    b = Builder()
+    b.given("P"), b.given("Q"), b.given("R"), b.known("x")
+    pq = b.join(P, Q)
+    x = NumberName("x")
+    b.meet_lines("1", pq, b.perpendicular(R, pq))
+    b.meet_lines("2", b.parallel(R, pq), b.at_angle(P, pq, x))
+    b.meet_line_circle("3", pq, R, x, Way.FORWARD)
+    b.meet_circles("4", P, x, Q, x, Side.LEFT)
+    b.touch("5", P, x, R, Side.LEFT)
+    b.similar("6", (P, Q), (P, Q, R))
+    b.lay_off("7", P, pq, x)
+    b.measure("8", P, Q)
+    b.measure_along("9", P, Q, pq)
+    b.compute("10", (x, 1))
+    kinds = {type(step) for step in b.program().steps}
+    assert kinds == set(STEP_TYPES)

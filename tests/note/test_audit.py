@@ -1,0 +1,300 @@
+"""What the sources print against what is exact: selectors, verdicts, the document."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from slotted import R, problem_of
+
+from planmethod.cli import cli
+from planmethod.note.audit import (
+    Audited,
+    Verdict,
+    audit,
+    count,
+    half_digit,
+    source_scales,
+)
+from planmethod.note.audit_table import EN, RU, Document
+from planmethod.note.quantities import Why
+from planmethod.problem import load
+from planmethod.problem.model import Problem, Published
+
+ROOT = Path(__file__).parents[2]
+PROBLEMS = sorted((ROOT / "problems").glob("*/*.toml"), key=str)
+
+
+def test_a_millimetre_of_a_rate_and_of_an_angle() -> None:
+    """One mm of pb3 over CB = 0.1414 m; one mm at D, 0.3 m from C."""
+    items = audit(
+        problem_of(
+            'w = { value = 4.9, what = "omega 2" }',
+            'e = { value = 11, what = "epsilon 3" }',
+            'f = { value = 44, unit = "град", what = "phi 3" }',
+            'given = { value = 10, what = "omega 1" }',
+        )
+    )
+    assert [item.mm for item in items] == [
+        pytest.approx(-0.1 * 0.2 * R / 0.02),
+        pytest.approx(0.2 * R / 0.1),
+        pytest.approx(-0.3 / 0.002 * 3.14159265 / 180),
+        None,
+    ]
+
+
+# Verdicts --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("value", "half"),
+    [(15.28, 0.005), (0.09, 0.005), (300.0, 0.5), (47.0, 0.5), (3.0, 0.05), (-435.0, 0.5)],
+)
+def test_half_of_the_last_printed_digit(value: float, half: float) -> None:
+    assert half_digit(value) == pytest.approx(half)
+
+
+@pytest.mark.parametrize(
+    ("value", "exact", "per_mm", "verdict"),
+    [
+        (2.2, 2.24, None, Verdict.AGREES),
+        (2.2, 2.25, None, Verdict.AGREES),  # a tie rounds either way
+        (2.2, 2.26, None, Verdict.DIFFERS),
+        (2.2, 2.26, 0.1, Verdict.DRAWN),
+        (2.2, 2.24, 0.001, Verdict.AGREES),  # right digits, whatever the plan
+        (-2.2, -2.26, 0.1, Verdict.DRAWN),
+        (-2.2, 2.2, 0.05, Verdict.DIFFERS),  # the sense is wrong
+        (9.0, 10.01, 1.0, Verdict.DIFFERS),
+        (9.0, 10.0, 1.0, Verdict.DRAWN),
+        (9.0, None, 1.0, Verdict.ABSENT),
+    ],
+)
+def test_verdicts(
+    value: float, exact: float | None, per_mm: float | None, verdict: Verdict
+) -> None:
+    item = Audited(Published("v", value), exact=exact, per_mm=per_mm)
+    assert item.verdict is verdict
+
+
+def test_differences() -> None:
+    item = Audited(Published("ω3", -15.0), exact=-16.0, per_mm=0.25)
+    assert (item.difference, item.percent, item.mm) == (1.0, 6.25, 4.0)
+    assert Audited(Published("v", 0.3), exact=0.1 + 0.2).difference == 0.0
+    assert Audited(Published("v", 0.3), exact=0.0).percent is None
+    absent = Audited(Published("v", 0.3), per_mm=1.0)
+    assert (absent.difference, absent.percent, absent.mm) == (None, None, None)
+
+
+def test_an_angle_may_be_printed_with_whole_turns() -> None:
+    (item,) = audit(problem_of('f = { value = -315, unit = "град", what = "phi 3" }'))
+    assert item.verdict is Verdict.AGREES
+    assert item.difference == pytest.approx(0.0, abs=1e-9)
+
+
+def test_positions_count_from_zero() -> None:
+    first, second, nowhere = audit(
+        problem_of(
+            'a = { value = 0.1, what = "x B", position = 0 }',
+            'b = { value = 0.0, what = "x B", position = 1 }',
+            'c = { value = 0.1, what = "x B" }',
+            phi="[0, 90]",
+        )
+    )
+    assert first.exact == pytest.approx(0.1)
+    assert second.exact == pytest.approx(0.0, abs=1e-12)
+    assert (nowhere.why, nowhere.verdict) == (Why.NO_POSITION, Verdict.ABSENT)
+
+
+def test_a_position_that_the_problem_does_not_have_is_said() -> None:
+    problem = problem_of('a = { value = 0.1, what = "x B" }')
+    late = replace(problem, published=(replace(problem.published[0], position=7),))
+    (item,) = audit(late)
+    assert item.why is Why.NO_POSITION
+    assert EN.whys[Why.NO_POSITION] in Document("en", 0.5).markdown([(late, [item])])
+
+
+def test_what_is_not_said_is_listed_with_its_note() -> None:
+    problem = problem_of('a = { value = 0.1, note = "вторая передаточная функция" }')
+    (item,) = audit(problem)
+    assert item.why is Why.NO_WHAT
+    text = Document("en", 0.5).markdown([(problem, [item])])
+    assert "not computed | вторая передаточная функция |" in text
+
+
+# Scales ----------------------------------------------------------------------------------------
+
+
+def test_scales_are_told_by_the_printed_values_where_the_file_has_none() -> None:
+    entries = (
+        'l = { value = 0.1, unit = "м", per_mm = 0.004 }',
+        'v = { value = 0.7, unit = "м/с", per_mm = 0.02, what = "v B3" }',
+        'b = { value = 25, unit = "мм", per_mm = 1, what = "length A B" }',
+        'q = { value = 35, unit = "мм", per_mm = 1, what = "segment velocity p B3" }',
+        'c = { value = 25, unit = "мм", per_mm = 1, what = "segment acceleration p B" }',
+    )
+    problem = problem_of(*entries, scales="")
+    scales = source_scales(problem)
+    assert (scales.mu_l, scales.mu_v, scales.mu_a) == (0.004, 0.02, None)
+    _, v, b, q, c = audit(problem)
+    assert v.read == pytest.approx(0.71)
+    assert b.exact == pytest.approx(25.0)
+    assert q.exact == pytest.approx(50 * R)
+    assert c.why is Why.NO_SCALE
+    given = source_scales(problem_of(*entries, scales="[scales]\nmu_l = 0.002\n"))
+    assert (given.mu_l, given.mu_v) == (0.002, 0.02)
+
+
+def test_the_ruler_is_that_asked_for() -> None:
+    entry = 'v = { value = 0.7, unit = "м/с", per_mm = 0.02, what = "v B3" }'
+    assert audit(problem_of(entry), ruler=5.0)[0].read == pytest.approx(0.7)
+
+
+def test_a_problem_without_printed_values() -> None:
+    assert audit(problem_of()) == []
+
+
+# The sources -----------------------------------------------------------------------------------
+
+
+@cache
+def audited(stem: str) -> dict[str, Audited]:
+    path = next(path for path in PROBLEMS if path.stem == stem)
+    return {item.published.name: item for item in audit(load(path))}
+
+
+@cache
+def audits() -> tuple[tuple[Problem, list[Audited]], ...]:
+    problems = [load(path) for path in PROBLEMS]
+    return tuple((problem, audit(problem)) for problem in problems)
+
+
+@pytest.mark.parametrize(
+    ("stem", "name", "reason"),
+    [
+        ("ex3", "pb3 (план скоростей)", "должно быть 44 мм"),
+        ("ex1", "bc (план ускорений)", "только касательная часть"),
+        ("six-link", "v_H", "неточного чертежа"),
+        ("six-link", "ε2", "неточного чертежа"),
+        ("six-link", "a_C", "неточного чертежа"),
+        ("six-link", "ε3", "неточного чертежа"),
+        ("six-link", "a_H = a_S5", "неточного чертежа"),
+        ("task12", "p'd' (план ускорений)", "82,08"),
+    ],
+)
+def test_errors_of_the_sources_differ(stem: str, name: str, reason: str) -> None:
+    item = audited(stem)[name]
+    assert item.verdict is Verdict.DIFFERS
+    assert reason in item.published.note
+
+
+@pytest.mark.parametrize(
+    ("stem", "name", "reason"),
+    [
+        ("ex3", "v_B3", "0,05·40 = 2,0"),
+        ("ex3", "aⁿ_ED", "в формуле стоит ω3"),
+        ("task12", "ε3 (таблица)", "на листе ЭВМ -40,6825"),
+        ("task12", "a_F (таблица)", "63,2/8 = 7,90"),
+        ("press", "a_A3", "меньше собственной касательной части"),
+    ],
+)
+def test_slips_smaller_than_drafting_are_told_in_the_remark(
+    stem: str, name: str, reason: str
+) -> None:
+    """The text is wrong, but the number is as near as a drawing gives: it cannot be blamed."""
+    item = audited(stem)[name]
+    assert item.verdict in (Verdict.AGREES, Verdict.DRAWN)
+    assert item.mm is not None
+    assert abs(item.mm) < 1.0
+    assert reason in item.published.note
+
+
+def test_size_of_the_six_links_errors() -> None:
+    """The drawing of the source was off where the mechanism is sensitive."""
+    expected = {"v_H": 38, "ε2": -20, "a_C": -10, "ε3": 11, "a_H = a_S5": -10}
+    for name, percent in expected.items():
+        found = audited("six-link")[name].percent
+        assert found is not None
+        assert round(found) == percent, name
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
+def test_what_differs_has_a_reason(path: Path) -> None:
+    for item in audited(path.stem).values():
+        if item.verdict in (Verdict.DIFFERS, Verdict.ABSENT):
+            assert item.published.note, item.published.name
+
+
+def test_all_values_with_a_selector_are_computed() -> None:
+    for problem, items in audits():
+        for item in items:
+            assert (item.exact is None) == (not item.published.what), (problem.name, item)
+
+
+# The document ----------------------------------------------------------------------------------
+
+
+def test_the_committed_table_is_up_to_date() -> None:
+    committed = (ROOT / "docs" / "published.md").read_text(encoding="utf-8")
+    assert Document("en", 0.5).markdown(audits()) == committed, "run: make tables"
+
+
+def test_the_counts_add_up() -> None:
+    for problem, items in audits():
+        assert sum(count(items).values()) == len(items) == len(problem.published)
+
+
+def test_every_row_has_every_cell() -> None:
+    for lang, says in (("en", EN), ("ru", RU)):
+        text = Document(lang, 0.5).markdown(audits())
+        for block in text.split("\n\n"):
+            rows = [line for line in block.splitlines() if line.startswith("| ")]
+            assert len({row.replace("\\|", "").count("|") for row in rows}) <= 1
+        assert f"| {' | '.join(says.columns)} |" in text
+        assert "| −0.00 |" not in text
+        assert "| −0,00 |" not in text
+
+
+def test_russian_numbers_and_words() -> None:
+    problem = problem_of('v = { value = 0.8, unit = "м/с", per_mm = 0.02, what = "v B3" }')
+    text = Document("ru", 0.5).markdown([(problem, audit(problem))])
+    assert "| v | м/с | 0,8 | 0,70711 | 0,71000 | 0,093 | 13,14 | 4,64 | **расходится** |" in text
+    assert "расходится 1" in text
+
+
+def test_signs_of_markdown_in_names_and_notes_are_only_signs() -> None:
+    problem = problem_of('"a|b*c" = { value = 1, what = "v B", note = "<b> | x |" }')
+    text = Document("en", 0.5).markdown([(problem, audit(problem))])
+    assert r"| a\|b\*c |" in text
+    assert r"\<b\> \| x \| |" in text
+
+
+def test_the_command_writes_the_document(tmp_path: Path) -> None:
+    target = tmp_path / "published.md"
+    arguments = ["audit", "--lang", "en", "-o", str(target), *map(str, PROBLEMS)]
+    result = CliRunner().invoke(cli, arguments)
+    assert result.exit_code == 0, result.output
+    assert target.read_text(encoding="utf-8") == Document("en", 0.5).markdown(audits())
+
+
+def test_the_command_prints_by_default_in_russian() -> None:
+    path = next(path for path in PROBLEMS if path.stem == "ex1")
+    result = CliRunner().invoke(cli, ["audit", str(path), "--ruler", "1"])
+    assert result.exit_code == 0
+    assert result.stdout.startswith(f"# {RU.title}")
+    assert "ценой деления 1 мм" in result.stdout
+
+
+def test_nothing_is_written_when_a_problem_is_faulty(tmp_path: Path) -> None:
+    faulty, target = tmp_path / "faulty.toml", tmp_path / "published.md"
+    faulty.write_text('title = "x"\n', encoding="utf-8")
+    result = CliRunner().invoke(cli, ["audit", str(PROBLEMS[0]), str(faulty), "-o", str(target)])
+    assert result.exit_code == 3
+    assert not target.exists()
+
+
+def test_the_command_does_not_write_over_a_problem_file() -> None:
+    result = CliRunner().invoke(cli, ["audit", str(PROBLEMS[0]), "-o", str(PROBLEMS[1])])
+    assert result.exit_code == 2

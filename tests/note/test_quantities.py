@@ -1,0 +1,119 @@
+"""Every kind of selector against numbers worked out by hand."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import sqrt
+
+import pytest
+from slotted import R, problem_of
+
+from planmethod.note.quantities import Quantities, UnansweredError, Why
+from planmethod.plans.solution import Solution
+from planmethod.problem.selector import QUANTITIES, parse_selector
+
+
+@cache
+def kulisa() -> Quantities:
+    return Quantities(Solution(problem_of(), ruler=0.5))
+
+
+EXACT = {
+    "x D": 0.3 * R,
+    "y D": 0.3 * R - 0.1,
+    "x B3": 0.1,
+    "v B": 1.0,
+    "v B3": R,
+    "v D B3": 5 * (0.3 - 0.2 * R),
+    "vx D": -1.5 * R,
+    "vy D": 1.5 * R,
+    "vs B3 B": R,
+    "omega 1": 10.0,
+    "omega 2": 5.0,
+    "omega 3": 5.0,
+    "phi 3": 45.0,
+    "a B": sqrt(104),
+    "ax B": -10.0,
+    "ay B": 2.0,
+    "an B A": 10.0,
+    "at B A": 2.0,
+    "ak B3 B": 10 * R,
+    "ak B B3": 10 * R,
+    "an B3 C": 5 * R,
+    "at B3 C": 2 * R,
+    "ar B3 B": 3 * R,
+    "epsilon 3": 10.0,
+    "an D C": 7.5,
+    "at D C": 3.0,
+    "a D": sqrt(7.5**2 + 3**2),
+    "a D B3": (0.3 - 0.2 * R) * sqrt(25**2 + 10**2),
+    "length A B": 50.0,
+    "length C B3": 100 * R,
+    "segment velocity p B3": 50 * R,
+    "segment velocity B B3": 50 * R,
+    "segment acceleration p B": 10 * sqrt(104),
+    "vx D / omega 1": -0.15 * R,
+    "omega 3 / omega 1": 0.5,
+}
+
+
+@pytest.mark.parametrize(("what", "value"), EXACT.items())
+def test_exact_values_of_selectors(what: str, value: float) -> None:
+    assert kulisa().exact(parse_selector(what)) == pytest.approx(value, rel=1e-12, abs=1e-12)
+
+
+def test_every_quantity_is_tested() -> None:
+    assert {parse_selector(what).kind for what in EXACT} == set(QUANTITIES)
+
+
+def test_the_hand_reads_along_its_own_chain() -> None:
+    """pb3 = 35.36 mm is read 35.5, CB = 70.71 mm is read 70.5; the rest follows from these."""
+    omega = 35.5 * 0.02 / (70.5 * 0.002)
+    expected = {
+        "v B3": 0.71,
+        "length C B3": 70.5,
+        "segment velocity p B3": 35.5,
+        "omega 3": omega,
+        "omega 3 / omega 1": omega / 10,
+        "an B3 C": omega**2 * 0.141,
+        "an D C": omega**2 * 0.3,
+        "vs B3 B": 0.71,
+        "x D": 0.212,
+        "an B A": 10.0,
+    }
+    for what, value in expected.items():
+        assert kulisa().read(parse_selector(what)) == pytest.approx(value, rel=1e-12), what
+
+
+def test_the_hand_reads_what_its_results_say() -> None:
+    hand = kulisa().solution.by_hand_results
+    (sliding,) = hand.relatives
+    expected = {
+        "a D": hand.points["D"][1][0],
+        "epsilon 3": hand.links["3"][1][0],
+        "at B3 C": abs(hand.links["3"][1][0]) * 0.141,
+        "ak B3 B": sliding[1][0],
+        "ar B3 B": sliding[2][0],
+    }
+    for what, value in expected.items():
+        assert kulisa().read(parse_selector(what)) == pytest.approx(value, rel=1e-12), what
+
+
+def test_an_angle_is_not_read_with_a_ruler() -> None:
+    assert kulisa().read(parse_selector("phi 3")) is None
+
+
+@pytest.mark.parametrize(
+    ("what", "why"),
+    [
+        ("ak D C", Why.NO_SLIDING),
+        ("an B D", Why.NO_LINK),
+        ("v Q", Why.NO_POINT),
+        ("omega 9", Why.NO_LINK),
+        ("v D / v A", Why.ZERO_DIVISOR),
+    ],
+)
+def test_what_the_solution_does_not_have(what: str, why: Why) -> None:
+    with pytest.raises(UnansweredError) as caught:
+        kulisa().exact(parse_selector(what))
+    assert caught.value.why is why

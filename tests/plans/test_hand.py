@@ -1,0 +1,251 @@
+"""The draughtsman with a ruler: every read segment, and the chain that follows from it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from generator import random_problem
+from worked import SIX, problem_of
+
+from planmethod.construct.steps import Name, NumberName
+from planmethod.plans.model import PlanKind
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+
+
+@cache
+def drawn(name: str, ruler: float) -> Solution:
+    return Solution(problem_of(name), ruler=ruler)
+
+
+@cache
+def read(name: str, ruler: float, kind: PlanKind) -> dict[str, float]:
+    return {s.name: float(s.read[0]) for s in drawn(name, ruler).segments(kind)}
+
+
+def rule(length: float, step: float = 1.0) -> float:
+    """Round a length as a person reads: to the nearest mark, from half a step on upwards."""
+    return math.copysign(math.floor(abs(length) / step + 0.5) * step, length)
+
+
+def meet(p: complex, u: complex, q: complex, v: complex) -> complex:
+    """Where the line from p along u meets the line from q along v."""
+    return p + u * (((q - p).conjugate() * v).imag / (u.conjugate() * v).imag)
+
+
+V, A = PlanKind.VELOCITY, PlanKind.ACCELERATION
+
+
+def test_the_first_example_with_a_ruler_of_1_mm() -> None:
+    """The chain of the textbook: segments to the millimetre, what follows computed from them.
+
+    l_AB = 0.03, l_BC = 0.1, phi = 60°, omega = -100; mu_v = 0.05, mu_a = 5.
+    """
+    b = cmath.rect(0.03, math.radians(60))
+    c = b.real + math.sqrt(0.1**2 - b.imag**2)
+    bc = (c - b) / abs(c - b)
+    # Velocity plan: pb = 100·0.03/0.05 = 60 mm, then c on the horizontal and across BC.
+    pb = 60.0 * (-1j) * b / abs(b)
+    pc = meet(0j, 1 + 0j, pb, 1j * bc)
+    assert (rule(abs(pb)), rule(abs(pc)), rule(abs(pc - pb))) == (60, 60, 31)
+    omega2 = 31 * 0.05 / 0.1
+    # d divides bc as on the link: bd/bc = 0.03/0.1, with the read 31 mm: bd = 9.3 mm.
+    pd = pb - 9.3 * (pc - pb) / abs(pc - pb)
+    # Acceleration plan: pi-b = 100²·0.03/5 = 60 mm; the normal one from the read omega2.
+    ab = -60.0 * b / abs(b)
+    normal = omega2**2 * 0.1 / 5
+    n = ab - normal * bc
+    ac = meet(0j, 1 + 0j, n, 1j * bc)
+    tangential = rule(abs(ac - n))
+    wanted_v = {"p-b": 60.0, "p-c": 60.0, "b-c": 31.0, "p-d": rule(abs(pd))}
+    assert read("linkages/ex1", 1.0, V) == wanted_v
+    got = read("linkages/ex1", 1.0, A)
+    assert got["π-b"] == 60.0
+    assert got["b-n_CB"] == rule(normal)
+    assert got["n_CB-c"] == tangential
+    assert got["π-c"] == rule(abs(ac))
+    results = drawn("linkages/ex1", 1.0).by_hand_results
+    assert results.links["2"][0][0] == pytest.approx(15.5, rel=1e-14)
+    assert results.links["2"][1][0] == pytest.approx(tangential * 5 / 0.1, rel=1e-14)
+    assert results.points["C"][0][0] == pytest.approx(60 * 0.05)
+    assert results.points["C"][1][0] == pytest.approx(rule(abs(ac)) * 5)
+    assert results.points["D"][0][0] == pytest.approx(rule(abs(pd)) * 0.05)
+    # With d' of the acceleration plan from the read b'c' likewise.
+    d = ab - 0.3 * rule(abs(ac - ab)) * (ac - ab) / abs(ac - ab)
+    assert got["π-d"] == rule(abs(d))
+
+
+def test_the_normal_component_follows_from_the_read_omega() -> None:
+    """Not from the exact one: 15.5² and 15.5334² differ in the third digit."""
+    solution = drawn("linkages/ex1", 1.0)
+
+    def length(values: Mapping[Name, Any]) -> float:
+        return float(np.ravel(values[NumberName("|a:n_CB|")])[0])
+
+    assert length(solution.by_hand.value) == pytest.approx(15.5**2 * 0.1 / 5, rel=1e-14)
+    exact = 15.5334111923549**2 * 0.1 / 5
+    assert length(solution.paper.value) == pytest.approx(exact, rel=1e-12)
+
+
+@pytest.mark.parametrize("step", [1.0, 0.5])
+def test_the_third_example(step: float) -> None:
+    """Slotted link: BC is read on the drawing, omega3 from pb3, Coriolis from omega3 and b-b3.
+
+    mu_l = 0.002, mu_v = 0.05, mu_a = 1.
+    """
+
+    def mark(length: float) -> float:
+        return rule(length, step)
+
+    b, c = cmath.rect(32.0, math.radians(20)), -55j
+    read_cb = mark(abs(b - c))
+    u = (b - c) / abs(b - c)
+    # Velocity: pb = 50·0.064/0.05 = 64 mm.
+    pb = 64.0 * 1j * b / abs(b)
+    pb3 = meet(pb, u, 0j, 1j * u)
+    across, along = mark((pb3 * (1j * u).conjugate()).real), mark((pb3 - pb).real / u.real)
+    omega3 = across * 0.05 / (read_cb * 0.002)
+    sliding = along * 0.05  # v_B3B along CD
+    # d beyond b3: pd = read pb3 · 110 / read CB
+    pd = pb3 / abs(pb3) * mark(abs(pb3)) * 110 / read_cb
+    d = c + 110 * u
+    e = d.real + math.sqrt(90.0**2 - d.imag**2)
+    w = (e - d) / 90.0
+    pe = meet(0j, 1 + 0j, pd, 1j * w)
+    omega4 = mark(((pe - pd) * (1j * w).conjugate()).real) * 0.05 / 0.18
+    got = read("linkages/ex3", step, V)
+    assert got["p-b"] == 64.0
+    assert got["p-b3"] == mark(abs(pb3)) == abs(across)
+    assert got["b-b3"] == abs(along)
+    assert got["p-d"] == mark(abs(pd))
+    assert got["d-e"] == mark(abs(pe - pd))
+    assert got["p-e"] == mark(abs(pe))
+    # Acceleration: pi-b = 50²·0.064 = 160 mm.
+    ab = -160.0 * b / abs(b)
+    k = ab + 2 * omega3 * sliding * 1j * u
+    n = -(omega3**2) * read_cb * 0.002 * u
+    ab3 = meet(k, u, n, 1j * u)
+    epsilon3 = mark(((ab3 - n) * (1j * u).conjugate()).real) / (read_cb * 0.002)
+    ad = ab3 / abs(ab3) * mark(abs(ab3)) * 110 / read_cb
+    n4 = ad - omega4**2 * 0.18 * w
+    ae = meet(0j, 1 + 0j, n4, 1j * w)
+    epsilon4 = mark(((ae - n4) * (1j * w).conjugate()).real) / 0.18
+    got = read("linkages/ex3", step, A)
+    assert got["π-b"] == 160.0
+    assert got["b-k_B3B"] == mark(abs(k - ab))
+    assert got["π-n_B3C"] == mark(abs(n))
+    assert got["k_B3B-b3"] == mark(abs(ab3 - k))
+    assert got["n_B3C-b3"] == mark(abs(ab3 - n))
+    assert got["π-b3"] == mark(abs(ab3))
+    assert got["π-d"] == mark(abs(ad))
+    assert got["d-n_ED"] == mark(abs(n4 - ad))
+    assert got["n_ED-e"] == mark(abs(ae - n4))
+    assert got["π-e"] == mark(abs(ae))
+    hand = drawn("linkages/ex3", step).by_hand_results
+    links = {name: (float(o[0]), float(e[0])) for name, (o, e) in hand.links.items()}
+    assert links["3"] == pytest.approx((omega3, epsilon3), rel=1e-12)
+    assert links["2"] == links["3"]
+    assert links["4"] == pytest.approx((omega4, epsilon4), rel=1e-12)
+    assert links["5"] == (0.0, 0.0)
+    sliding_v, coriolis, relative = (float(x[0]) for x in hand.relatives[0])
+    assert sliding_v == pytest.approx(abs(sliding))
+    assert coriolis == pytest.approx(mark(abs(k - ab)))
+    assert relative == pytest.approx(mark(abs(ab3 - k)))
+
+
+def test_what_the_textbook_prints_for_the_third_example() -> None:
+    """Its BC of 72 mm, its 46 mm of b-b3 and 160 of a_B come out with a ruler of 1 mm."""
+    got = read("linkages/ex3", 1.0, PlanKind.POSITION)
+    assert got["B-C"] == 72.0
+    assert read("linkages/ex3", 1.0, V)["b-b3"] == 46.0
+    assert read("linkages/ex3", 1.0, A)["π-b"] == 160.0
+
+
+@pytest.mark.parametrize("ruler", [0.1, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("name", SIX)
+def test_read_segments_are_marks_of_the_ruler(name: str, ruler: float) -> None:
+    step = Fraction(str(ruler))
+    for kind in PlanKind:
+        for segment in drawn(name, ruler).segments(kind):
+            marks = segment.read[0] / ruler
+            assert abs(marks - round(marks)) < 1e-9, segment.name
+            assert segment.read[0] == pytest.approx(float(round(marks) * step), abs=1e-12)
+            assert segment.read[0] >= 0
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_directly_laid_off_segments_are_read_to_half_a_mark(name: str) -> None:
+    for kind in (PlanKind.POSITION,):
+        for segment in drawn(name, 0.5).segments(kind):
+            assert abs(segment.read[0] - segment.exact[0]) <= 0.25 + 1e-9
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_results_of_the_hand_are_read_segments_times_the_scale(name: str) -> None:
+    solution = drawn(name, 0.5)
+    for kind, column in ((V, 0), (A, 1)):
+        mu, plan = solution.scales[kind].per_mm, solution.construction.plan(kind)
+        lengths = read(name, 0.5, kind)
+        pole = "p" if kind is V else "π"
+        for point, pair in solution.by_hand_results.points.items():
+            value = float(pair[column][0])
+            segment = f"{pole}-{point[0].lower()}{point[1:]}"
+            if segment in lengths:
+                assert value == pytest.approx(lengths[segment] * mu, rel=1e-14)
+            else:
+                marks = value / mu / 0.5
+                assert abs(marks - round(marks)) < 1e-9
+        assert plan.pole is not None
+
+
+@pytest.mark.parametrize("seed", range(0, 200, 4))
+def test_a_fine_ruler_reads_the_exact_plan(seed: int) -> None:
+    """The chain of a ruler of a nanometre comes to the exact values: rounding is all it adds."""
+    problem = loads(random_problem(seed)[0], name=f"random-{seed}")
+    fine = Solution(problem, ruler=1e-6)
+    hand = fine.by_hand_results
+    margin = float(fine.margin[0])
+    v = max(float(abs(p.velocity[0])) for p in fine.points.values())
+    a = max([v * v, *(float(abs(p.acceleration[0])) for p in fine.points.values())])
+    for name, (speed, acceleration) in hand.points.items():
+        assert abs(speed[0] - abs(fine.points[name].velocity[0])) <= 1e-5 * v / min(margin, 1.0)
+        got = abs(fine.points[name].acceleration[0])
+        assert abs(acceleration[0] - got) <= 1e-5 * a / min(margin, 1.0)
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_signs_of_the_hand_are_those_of_the_exact_plan(name: str) -> None:
+    solution = drawn(name, 0.5)
+    for link, (omega, epsilon) in solution.by_hand_results.links.items():
+        exact = solution.links[link]
+        assert np.sign(omega[0]) == np.sign(exact.omega[0])
+        assert np.sign(epsilon[0]) == np.sign(exact.epsilon[0])
+
+
+def test_a_ruler_does_not_change_the_exact_plan() -> None:
+    fine, coarse = drawn("linkages/ex3", 0.1), drawn("linkages/ex3", 5.0)
+    for kind in PlanKind:
+        for one, two in zip(fine.segments(kind), coarse.segments(kind), strict=True):
+            assert (one.name, *one.exact) == (two.name, *two.exact)
+
+
+def test_several_positions_are_read_one_by_one() -> None:
+    positions = [20.0, 45.0, 200.0]
+    problem = problem_of("linkages/ex3")
+    batch = Solution(problem, positions=positions)
+    for i, phi in enumerate(positions):
+        one = Solution(problem, positions=[phi])
+        for kind in PlanKind:
+            for many, single in zip(batch.segments(kind), one.segments(kind), strict=True):
+                assert (many.exact[i], many.read[i]) == (single.exact[0], single.read[0])
+        for link in batch.links:
+            many_link, alone = batch.by_hand_results.links[link], one.by_hand_results.links[link]
+            assert many_link[0][i] == alone[0][0]
+            assert many_link[1][i] == alone[1][0]
