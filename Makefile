@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint format tables clean
+.PHONY: demo test lint format tables gallery clean
 
 $(VENV)/.ready: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -29,6 +29,11 @@ format: $(VENV)/.ready
 # Files in byte order, as the test of the document has them.
 tables: $(VENV)/.ready
 	$(BIN)/planmethod audit --lang en -o docs/published.md $(sort $(wildcard problems/*/*.toml))
+
+# The pictures of the documentation; the resolutions keep each below 150 kB.
+gallery: $(VENV)/.ready
+	$(BIN)/planmethod sheet --format png --dpi 40 -o docs/gallery problems/linkages/ex3.toml problems/levers/task12.toml
+	$(BIN)/planmethod sheet --format png --dpi 56 -o docs/gallery problems/linkages/ex1.toml
 
 clean:
 	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png

@@ -18,6 +18,7 @@ from planmethod.construct.steps import (
     Perpendicular,
     PointName,
     Step,
+    Touch,
 )
 from planmethod.mechanism.model import FRAME
 from planmethod.note.letters import pole_letter, shown_letters
@@ -80,7 +81,7 @@ class Names:
             if slide.host != FRAME and slide.towards is None and slide.label == slide.through:
                 known = self._slots.get(slide.label, slide.host)
                 self._slots[slide.label] = slide.host if known == slide.host else ""
-        self._feet: dict[PointName, str] = {}
+        self._auxiliary: dict[PointName, str] = {}
         self._roles = dict(self._number_roles())
 
     def _lengths(self) -> Iterator[tuple[str, str]]:
@@ -98,19 +99,18 @@ class Names:
         if name in self.letters:
             return self.letters[name][0]
         if "~" in name:
-            return self._foot(name)
-        if name.startswith("T_"):
-            return "T" if "T" not in self.solution.points else "T′"
+            return self._own(name, name.partition("~")[0] + "′")
+        if isinstance(self.step.get(name), Touch):
+            return self._own(name, "T")
         return self.guides.get(name, str(name))
 
-    def _foot(self, name: PointName) -> str:
-        """Return the name of a foot of an offset: its point's with as many primes as it takes."""
-        if name not in self._feet:
-            text = name.partition("~")[0] + "′"
-            while text in self._feet.values() or text in self.solution.points:
+    def _own(self, name: PointName, text: str) -> str:
+        """Return the name of an auxiliary point, with as many primes as keep it apart."""
+        if name not in self._auxiliary:
+            while text in self._auxiliary.values() or text in self.solution.points:
                 text += "′"
-            self._feet[name] = text
-        return self._feet[name]
+            self._auxiliary[name] = text
+        return self._auxiliary[name]
 
     def others(self, name: PointName) -> list[str]:
         """Return the further letters of a plan point: of points that move alike."""

@@ -11,10 +11,10 @@ from planmethod.note.given import given_lines
 from planmethod.note.naming import Names
 from planmethod.note.narrate import Narrator
 from planmethod.note.plaintext import NO_BREAK, given, heading, plain_text, wrap
-from planmethod.note.sections import Section, sections
 from planmethod.note.structure_text import local_letters
 from planmethod.note.tables import position_line, position_tables, scale_texts
 from planmethod.note.wording import Wording, wording
+from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Solution
 
@@ -79,7 +79,7 @@ class _Writer:
             PlanKind.ACCELERATION: words.plan_acceleration,
         }
         kind: PlanKind | None = None
-        for section in sections(self.names.construction, self.solution.structure.groups):
+        for section in self.names.construction.sections:
             if section.frame and not problem.bodies[FRAME].points:
                 continue  # guides alone: each is drawn where it is used
             if section.kind is not kind:
@@ -145,14 +145,14 @@ class _Writer:
             self._item(self._known_turning(section))
         if section.kind is PlanKind.ACCELERATION:
             self._item(self._constant_speed(section))
-            self._item(self.narrator.without_coriolis(made))
+            self._item(self.narrator.motion.without_coriolis(made))
         measured = False
         for step in section.steps:
             told = self.narrator.tell(step)
             self._item(told, more=measured and bool(told))
             measured = isinstance(step, MeasureAlong)
         if section.kind is not PlanKind.POSITION:
-            read = self.narrator.readings(section.kind, made)
+            read = self.narrator.motion.readings(section.kind, made)
             if read:
                 closed = [*(f"{line};" for line in read[:-1]), f"{read[-1]}."]
                 self._item([words.read_off, *closed])

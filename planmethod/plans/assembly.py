@@ -136,6 +136,18 @@ def _score(rule: Rule, trace: Trace) -> npt.NDArray[np.float64]:
             assert_never(rule.where)
 
 
+def _said(rule: Rule) -> str:
+    """Return a rule in the words of the file: ``C right of B``, ``C left of AD``."""
+    match rule.where:
+        case Where.NEAR:
+            return f"{rule.point} near [{rule.at.real:g}, {rule.at.imag:g}]"
+        case Where.ABOVE | Where.BELOW:
+            words = rule.where.value
+        case _:
+            words = f"{rule.where.value.removesuffix(' of')} of"
+    return f"{rule.point} {words} {''.join(rule.refs)}"
+
+
 def _judge(
     problem: Problem,
     rule: Rule,
@@ -152,7 +164,7 @@ def _judge(
     size = max(abs(point) for point in _places(problem, both, first))
     name = "phi" if problem.drive.is_crank else "s"
     where = f"{name} = {positions[first]:g}"
-    said = f"{rule.point} {rule.where.value} {' '.join(rule.refs)}".strip()
+    said = _said(rule)
     if abs(plus - minus) <= TIE * size:
         raise ProblemError(
             problem.name,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from planmethod.construct.program import Program
-from planmethod.construct.steps import PointName
+from planmethod.construct.steps import PointName, Step
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import Structure
@@ -17,6 +17,19 @@ from planmethod.plans.model import Plan, PlanKind
 from planmethod.plans.motion import Motion
 from planmethod.plans.position import place_driver, place_frame, place_group
 from planmethod.problem.model import Problem
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """Steps of one structural group on one plan (раздел построения).
+
+    ``group`` is None for the driver; the frame has a section of its own on the position plan only.
+    """
+
+    kind: PlanKind
+    group: AssurGroup | None
+    steps: tuple[Step, ...]
+    frame: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,41 +46,68 @@ class Construction:
         Names of angular velocities and accelerations and of relative motions.
     plans : tuple of Plan
         Velocity and acceleration plan.
+    sections : tuple of Section
+        The program cut where one group ends and the next begins.
     """
 
     program: Program
     draft: Draft
     kinematics: Kinematics
     plans: tuple[Plan, Plan]
+    sections: tuple[Section, ...]
 
     def plan(self, kind: PlanKind) -> Plan:
         """Return the velocity or the acceleration plan."""
         return next(plan for plan in self.plans if plan.kind is kind)
 
 
+@dataclass(slots=True)
+class _Cutter:
+    """Cut the growing list of steps into sections."""
+
+    steps: list[Step]
+    start: int = 0
+    sections: list[Section] = field(default_factory=list)
+
+    def cut(self, kind: PlanKind, group: AssurGroup | None = None, *, frame: bool = False) -> None:
+        steps = tuple(self.steps[self.start :])
+        self.sections.append(Section(kind, group, steps, frame))
+        self.start = len(self.steps)
+
+
 def draw_positions(problem: Problem, groups: Iterable[AssurGroup], choice: Choice) -> Draft:
     """Plan the position plan of the driver and the given groups."""
     draft = Draft(problem, choice)
+    _positions(draft, groups, _Cutter(draft.b.steps))
+    return draft
+
+
+def _positions(draft: Draft, groups: Iterable[AssurGroup], cutter: _Cutter) -> None:
     place_frame(draft)
+    cutter.cut(PlanKind.POSITION, frame=True)
     place_driver(draft)
+    cutter.cut(PlanKind.POSITION)
     for group in groups:
         place_group(draft, group)
-    return draft
+        cutter.cut(PlanKind.POSITION, group)
 
 
 def build(problem: Problem, structure: Structure, choice: Choice) -> Construction:
     """Plan all three plans, group by group in the order of kinematic analysis."""
-    draft = draw_positions(problem, structure.groups, choice)
+    draft = Draft(problem, choice)
+    cutter = _Cutter(draft.b.steps)
+    _positions(draft, structure.groups, cutter)
     velocity = Motion.start(PlanKind.VELOCITY, draft)
     acceleration = Motion.start(PlanKind.ACCELERATION, draft)
     kin = Kinematics(draft, velocity, acceleration)
     for motion in (velocity, acceleration):
         drive_motion(kin, motion)
+        cutter.cut(motion.kind)
         for group in structure.groups:
             group_motion(kin, motion, group)
-    program = draft.b.program()
+            cutter.cut(motion.kind, group)
     plans = (_plan(velocity), _plan(acceleration))
-    return Construction(program, draft, kin, plans)
+    return Construction(draft.b.program(), draft, kin, plans, tuple(cutter.sections))
 
 
 def _plan(motion: Motion) -> Plan:

@@ -12,7 +12,7 @@ from planmethod.plans.leads import (
     read_sliding,
     read_turning,
     revolute_ray,
-    track_name,
+    track_note,
     turn_about,
 )
 from planmethod.plans.model import Known, PlanKind, Vector, VectorKind
@@ -49,7 +49,7 @@ def drive_motion(kin: Kinematics, motion: Motion) -> None:
         along = b.parallel(motion.pole, kin.draft.direction(slide))
         head = b.lay_off(out, motion.pole, along, length)
         symbol = f"{SYMBOL[motion.kind]}_{{{slide.pin}}}"
-        note = f"∥ {track_name(slide)}"
+        note = track_note(slide, kin.draft.problem)
         motion.add(Vector(symbol, VectorKind.ABSOLUTE, motion.pole, head, Known.BOTH, note))
         motion.put(drive.link, slide.pin, head)
     carry_rest(kin, motion, (drive.link,))

@@ -18,7 +18,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
 from planmethod.plans.motion import SYMBOL, Motion, Ray, mark
-from planmethod.problem.model import Slide
+from planmethod.problem.model import Problem, Slide
 
 
 @dataclass(slots=True)
@@ -143,16 +143,26 @@ def _normal(
     return b.lay_off(n, start, inward, length)
 
 
-def track_name(slide: Slide) -> str:
-    """Return what a direction note calls a slide line: ``x-x``, or ``CB`` from C to the pin B.
+def track_note(slide: Slide, problem: Problem, *, turned: bool = False) -> str:
+    """Return the direction note of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
 
-    With an offset the pin is not on the line, and the line's own letters name it.
+    ``turned`` asks for the direction across the line. A line on a moving link is named by its
+    point and the pin when the pin is on it, else by the link's own axis where it runs along or
+    across that, else by the link's letters of the line.
     """
-    if slide.through is not None and slide.host != FRAME and not slide.offset:
-        return mark(slide.through, slide.pin)
-    if slide.through is not None and slide.towards is not None:
-        return mark(slide.through, slide.towards)
-    return slide.label
+    along, across = ("⊥", "∥") if turned else ("∥", "⊥")
+    axis = problem.bodies[slide.host].axis
+    if slide.host == FRAME or slide.through is None:
+        return f"{along} {slide.label}"
+    if slide.towards is not None and slide.offset:
+        return f"{along} {mark(slide.through, slide.towards)}"
+    if not slide.offset:
+        return f"{along} {mark(slide.through, slide.pin)}"
+    if axis is not None and slide.angle % 180 == 0:
+        return f"{along} {mark(*axis)}"
+    if axis is not None and slide.angle % 180 == 90:
+        return f"{across} {mark(*axis)}"
+    return f"{along} {mark(slide.through)}–{mark(slide.through)}"
 
 
 def prismatic_ray(
@@ -169,8 +179,8 @@ def prismatic_ray(
     if (to, place) in motion.alias:
         base = motion.moving[to][0]  # the whole link moves so: its first letter tells it
     both = f"{motion.label(of, place)}{base}"
-    track = track_name(slide)
-    note = f"∥ {track}"
+    problem = kin.draft.problem
+    note = track_note(slide, problem)
     symbol = SYMBOL[motion.kind]
     terms: list[Vector] = [motion.absolute(base, start)]
     if motion.kind is PlanKind.VELOCITY:
@@ -193,7 +203,12 @@ def prismatic_ray(
         relative.a_turned = end
         motion.letters.setdefault(end, [f"k_{{{both}}}"])
         turned = Vector(
-            f"a^{{k}}_{{{both}}}", VectorKind.CORIOLIS, start, end, Known.BOTH, f"⊥ {track}"
+            f"a^{{k}}_{{{both}}}",
+            VectorKind.CORIOLIS,
+            start,
+            end,
+            Known.BOTH,
+            track_note(slide, problem, turned=True),
         )
         terms.append(motion.add(turned))
     line = b.parallel(end, guide)

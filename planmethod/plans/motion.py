@@ -16,6 +16,9 @@ from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, Vect
 
 PREFIX = {PlanKind.VELOCITY: "v:", PlanKind.ACCELERATION: "a:"}
 SYMBOL = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
+UNKNOWN_KINDS = (VectorKind.RELATIVE, VectorKind.SLIDING)
+"""Components that end in a middle joint: from the pole they are its absolute vector as well."""
+
 SCALE = {PlanKind.VELOCITY: "mu_v", PlanKind.ACCELERATION: "mu_a"}
 
 
@@ -106,11 +109,14 @@ class Motion:
     # Vectors ---------------------------------------------------------------------------------
 
     def add(self, vector: Vector) -> Vector:
-        """Draw a vector once."""
-        if vector.tail != vector.head and not any(
-            (v.tail, v.head) == (vector.tail, vector.head) for v in self.vectors
-        ):
-            self.vectors.append(vector)
+        """Draw a vector once; a segment from the pole is the absolute vector of its end."""
+        ends = (vector.tail, vector.head)
+        drawn = next((k for k, v in enumerate(self.vectors) if (v.tail, v.head) == ends), None)
+        if drawn is None:
+            if vector.tail != vector.head:
+                self.vectors.append(vector)
+        elif vector.kind is VectorKind.ABSOLUTE and self.vectors[drawn].kind in UNKNOWN_KINDS:
+            self.vectors[drawn] = vector
         return vector
 
     def absolute(self, name: str, at: PointName, known: Known = Known.BOTH) -> Vector:

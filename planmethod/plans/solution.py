@@ -12,7 +12,7 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Arithmetic, Float64, Hand
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import Name, PointName
+from planmethod.construct.steps import LayOff, Name, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.assembly import choose_closings, drive_data
@@ -250,10 +250,23 @@ class Solution:
             vector(r.a_turned, r.a_head),
         )
 
+    @cached_property
+    def laid_off(self) -> set[tuple[PointName, PointName]]:
+        """Return the segments whose length was computed and laid off: nobody reads them again."""
+        steps = self.construction.program.steps
+        return {(step.origin, step.out) for step in steps if isinstance(step, LayOff)}
+
+    def read_mm(self, tail: PointName, head: PointName) -> Reals:
+        """Return a segment of the hand's own plan, mm: read with the ruler, or as laid off."""
+        ends = self.complexes(self.by_hand, head) - self.complexes(self.by_hand, tail)
+        drawn = np.asarray(np.abs(ends), dtype=float)
+        if (tail, head) in self.laid_off:
+            return drawn
+        return np.asarray(self.hand.ruled(drawn), dtype=float)
+
     def _read_length(self, kind: PlanKind, tail: PointName, head: PointName) -> Reals:
-        """Return a segment as the hand reads it, times its scale."""
-        drawn = abs(self.complexes(self.by_hand, head) - self.complexes(self.by_hand, tail))
-        return np.asarray(self.hand.ruled(drawn) * self.scales[kind].per_mm, dtype=float)
+        """Return a segment as the hand knows it, times its scale."""
+        return np.asarray(self.read_mm(tail, head) * self.scales[kind].per_mm, dtype=float)
 
     @cached_property
     def by_hand_results(self) -> HandResults:
@@ -302,11 +315,9 @@ class Solution:
             ]
         result = []
         for name, tail, head in pairs:
-            exact, drawn = (
-                np.asarray(abs(self.complexes(t, head) - self.complexes(t, tail)), dtype=float)
-                for t in (self.paper, self.by_hand)
-            )
-            result.append(Segment(name, exact, np.asarray(self.hand.ruled(drawn), dtype=float)))
+            ends = self.complexes(self.paper, head) - self.complexes(self.paper, tail)
+            exact = np.asarray(np.abs(ends), dtype=float)
+            result.append(Segment(name, exact, self.read_mm(tail, head)))
         return result
 
 

@@ -222,7 +222,7 @@ def test_each_verb_makes_its_step_and_returns_its_name() -> None:
         b.compute("i", (one, 2), (two, -1), factor=2.0),
     ]
     assert made == list("abcdefghi")
-    steps = {step.out: step for step in b.program().steps}
+    steps = {str(step.out): step for step in b.program().steps}
     assert [type(steps[name]).__name__ for name in made] == [
         "LayOff", "MeetLines", "MeetLineCircle", "MeetCircles", "Touch",
         "Similar", "Measure", "MeasureAlong", "Compute",

@@ -1,0 +1,188 @@
+from __future__ import annotations
+
+import re
+from typing import get_args
+
+import pytest
+from told import LANGUAGES, assert_readable, drawn, flat, told, worked
+from worked import SIX
+
+from planmethod.construct.steps import PointName, Step, makes
+from planmethod.note.naming import Names
+from planmethod.note.protocol import protocol
+from planmethod.note.sections import sections
+from planmethod.note.wording import UnknownLanguageError, wording
+from planmethod.plans.model import PlanKind
+
+SEEDS = range(60)
+"""Random mechanisms: enough for every dyad, driver and kind of step."""
+
+SENTENCES = {
+    ("linkages/ex1", "ru"): (
+        "Из точки A под углом φ₁ = 60° к оси x откладываем AB = l_AB/μ_l = 0,03/0,001 = 30 мм",
+        "Из точки B радиусом BC = l_BC/μ_l = 0,1/0,001 = 100 мм делаем засечку; из точек "
+        "пересечения дуги и направляющей x-x берём правую: это точка C.",
+        "v_B = ω₁·l_AB = 100·0,03 = 3 м/с; (pb) = v_B/μ_v = 3/0,05 = 60 мм.",
+        "Из полюса p перпендикулярно AB откладываем отрезок pb = 60 мм в сторону ω₁ (по часовой "
+        "стрелке); получаем точку b.",
+        "Из точки b проводим прямую, перпендикулярную BC: таково направление v_CB.",
+        "Из полюса p проводим прямую, параллельную x-x: таково направление v_CC0.",
+        "Измеряем отрезок bc = 31 мм",
+        "ω₂ = μ_v·(bc)/l_BC = 0,05·31/0,1 = 15,5 с⁻¹",
+        "против часовой стрелки. Вектор (bc), перенесённый в точку C, поворачивает звено 2",
+        "точка d лежит на продолжении отрезка cb за точку b",
+        "(bd) = (bc)·BD/BC = 31·30/100 = 9,3 мм.",
+        "ω₁ постоянна",
+        "aⁿ_CB = ω₂²·l_BC = 15,5²·0,1 = 24,03 м/с²",
+        "от C к B, откладываем отрезок b–n_CB",
+        "aᵏ_CC0 = 0: направляющая x-x неподвижна",
+        "Звено 3 движется поступательно: ω₃ = 0",
+    ),
+    ("linkages/ex1", "en"): (
+        "From point b we draw a line perpendicular to BC: this is the direction of v_CB.",
+        "ω₂ = μ_v·(bc)/l_BC = 0.05·31/0.1 = 15.5 s⁻¹",
+        "counter-clockwise. The vector (bc), carried over to point C, turns link 2 about point B",
+        "aᵏ_CC0 = 0: the guide x-x is fixed",
+        "point d lies on the segment cb produced beyond b",
+    ),
+    ("linkages/ex2", "ru"): (
+        "берём ту, что слева от прямой AC, если смотреть от A к C: это точка B.",
+        "строим засечками треугольник pbd, подобный треугольнику CBD",
+    ),
+    ("linkages/ex3", "ru"): (
+        "Группа 2–3 (ВПВ): II класс, 2-й порядок, 3-й вид",
+        "Измеряем на плане положений отрезок BC = 72,5 мм (точно 72,48 мм).",
+        "ω₃ = μ_v·(pb₃)/(BC·μ_l) = 0,05·45/(72,5·0,002) = 15,52 с⁻¹",
+        "Звено 2 поворачивается вместе со звеном 3: ω₂ = ω₃.",
+        "aᵏ_B3B = 2·ω₃·v_B3B = 2·15,517·2,275 = 70,6 м/с²",
+        "в ту сторону, куда смотрит v_B3B, если повернуть этот вектор на 90° по ω₃ (против "
+        "часовой стрелки)",
+        "v_E = v_EE0 = μ_v·(pe) = 0,05·78,5 = 3,925 м/с",
+    ),
+    ("levers/six-link", "ru"): (
+        "Группа 4–5 (ПВП): II класс, 2-й порядок, 4-й вид",
+        "Звено 4 поворачивается вместе со звеном 2: ω₄ = ω₂.",
+        "μ_v = 30 мм/(м/с)",
+        "(pb) = v_B·μ_v = 2·30 = 60 мм.",
+        "Выбираем полюс p′; в нём лежат неподвижные точки: a′, d′.",
+        "в сторону ε₁ (против часовой стрелки)",
+        "треугольник bch₂, подобный треугольнику BCH",
+    ),
+    ("levers/task12", "ru"): (
+        "Группа 4–5 (ВПП): II класс, 2-й порядок, 5-й вид",
+        "v_B3B = (bb₃)/μ_v = 111/100 = 1,11 м/с",
+        "получаем точку e (она же s₅).",
+        "Из точки C по прямой DC, на её продолжении за точку C, откладываем CS3",
+    ),
+}
+
+
+@pytest.mark.parametrize(("name", "lang"), SENTENCES)
+def test_says_what_a_student_writes(name: str, lang: str) -> None:
+    text = told(name, lang)
+    for sentence in SENTENCES[name, lang]:
+        assert sentence in text
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", SIX)
+def test_worked_mechanisms_are_readable(name: str, lang: str) -> None:
+    assert_readable(protocol(worked(name), lang=lang))
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_any_mechanism_is_readable(seed: int, lang: str) -> None:
+    assert_readable(protocol(drawn(seed), lang=lang))
+
+
+def test_the_random_mechanisms_have_every_dyad_and_step() -> None:
+    programs = [drawn(seed) for seed in SEEDS] + [worked(name) for name in SIX]
+    signatures = {group.signature for s in programs for group in s.structure.groups}
+    assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP"}
+    kinds = {type(step) for s in programs for step in s.construction.program.steps}
+    assert kinds == set(get_args(Step))
+    assert any(not s.problem.drive.is_crank for s in programs)
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_every_point_of_the_plans_is_told(name: str) -> None:
+    text = told(name, "ru")
+    solution = worked(name)
+    for plan in solution.construction.plans:
+        heads = {equation.left.symbol.partition("_")[2] for equation in plan.equations}
+        assert heads
+    for group in solution.structure.groups:
+        for link in group.links:
+            assert f"ω{chr(0x2080 + int(link))}" in text
+
+
+OFFSET = re.compile(
+    r"Из точки (?P<tail>\S+) (?:перпендикулярно|под углом \S+ к) (?P<base>\S+) откладываем [^;]*"
+    r"\((?P<side>влево|вправо), если смотреть по ходу (?P=base)\); получаем точку (?P<head>\S+)\."
+)
+
+
+def test_offsets_lie_on_the_side_that_is_told() -> None:
+    checked = 0
+    for seed in SEEDS:
+        solution = drawn(seed)
+        names = Names(solution, wording("ru"))
+        steps = solution.construction.program.steps
+        place = {
+            names.point(PointName(step.out)): complex(
+                solution.complexes(solution.paper, step.out)[0]
+            )
+            for step in steps
+            if makes(step) is PointName and step.out not in names.letters
+        }
+        bases = {a + b: place[b] - place[a] for a in place for b in place if a != b}
+        for found in OFFSET.finditer(flat(protocol(solution))):
+            if found["base"] in bases:
+                offset = place[found["head"]] - place[found["tail"]]
+                left = (bases[found["base"]].conjugate() * offset).imag > 0
+                assert left == (found["side"] == "влево"), (seed, found[0])
+                checked += 1
+    assert checked > 30
+
+
+def test_the_equation_stands_over_its_underlines() -> None:
+    lines = protocol(worked("linkages/ex3")).splitlines()
+    at = next(i for i, line in enumerate(lines) if line.strip().startswith("a_B3 = a_B +"))
+    assert lines[at + 1].split() == ["═══", "══════", "──────"]
+    for symbol, rule in (("a_B ", "═══"), ("aᵏ_B3B", "══════"), ("aʳ_B3B", "──────")):
+        assert lines[at].index(symbol) in [m.start() for m in re.finditer(rule, lines[at + 1])]
+
+
+def test_steps_are_numbered_without_a_gap() -> None:
+    numbers = re.findall(r"^ {0,3}(\d+)\) ", protocol(worked("levers/six-link")), re.MULTILINE)
+    assert [int(n) for n in numbers] == list(range(1, len(numbers) + 1))
+
+
+def test_sections_are_the_whole_program_in_order() -> None:
+    solution = worked("levers/task12")
+    found = sections(solution.construction, solution.structure.groups)
+    steps = tuple(step for section in found for step in section.steps)
+    assert steps == solution.construction.program.steps
+    assert [s.kind for s in found] == [
+        *[PlanKind.POSITION] * 4,
+        *[PlanKind.VELOCITY] * 3,
+        *[PlanKind.ACCELERATION] * 3,
+    ]
+
+
+def test_each_of_many_positions_has_its_own_numbers() -> None:
+    from planmethod.plans.solution import Solution
+
+    solution = Solution(worked("linkages/ex1").problem, positions=[10.0, 60.0, 200.0])
+    alone = Solution(worked("linkages/ex1").problem, positions=[60.0])
+    text = flat(protocol(solution, position=1))
+    assert "Положение 2 из 3: φ₁ = 60°" in text
+    assert text.partition("Формула")[2] == flat(protocol(alone)).partition("Формула")[2]
+    with pytest.raises(IndexError, match="position 3 of 3"):
+        protocol(solution, position=3)
+
+
+def test_an_unknown_language_is_refused() -> None:
+    with pytest.raises(UnknownLanguageError):
+        protocol(worked("linkages/ex1"), lang="la")

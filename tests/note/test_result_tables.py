@@ -1,0 +1,117 @@
+from __future__ import annotations
+
+import csv
+import io
+
+import numpy as np
+import pytest
+from told import LANGUAGES, assert_readable, drawn, worked
+from worked import SIX
+
+from planmethod.note.plaintext import WIDTH, columns_text, pad, plain_text, table, width
+from planmethod.note.tables import csv_rows, result_tables
+from planmethod.note.wording import UnknownLanguageError
+from planmethod.plans.solution import Solution
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", SIX)
+def test_tables_of_one_position_fit_the_terminal(name: str, lang: str) -> None:
+    assert_readable(result_tables(worked(name), lang))
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("seed", range(40))
+def test_tables_of_any_mechanism_fit_the_terminal(seed: int, lang: str) -> None:
+    assert_readable(result_tables(drawn(seed), lang))
+
+
+def test_says_values_senses_and_readings() -> None:
+    lines = result_tables(worked("linkages/ex3"), "ru").splitlines()
+    rows = [line.split() for line in lines]
+    assert "Формула строения: I(0,1) → II(2,3) → II(4,5)" in lines
+    assert "Масштабы: μ_l = 0,002 м/мм; μ_v = 0,05 (м/с)/мм; μ_a = 1 (м/с²)/мм" in lines
+    assert ["E", "0,2471", "0", "3,916", "3,925", "87,07", "87,00"] in rows
+    turning = "4 −30,06 −9,068 −9,028 по часовой стрелке 84,50 86,11 против часовой стрелки"
+    assert turning.split() in rows
+    assert ["B:", "3", "по", "2", "2,282", "2,275", "70,63", "70,50", "77,45", "77,50"] in rows
+    assert ["v_B3B", "bb₃", "45,64", "45,5", "2,275"] in rows
+
+
+def test_english_tables_are_english() -> None:
+    text = result_tables(worked("linkages/ex3"), "en")
+    assert "3.916" in text and "counter-clockwise" in text and "μ_v = 0.05 (m/s)/mm" in text
+
+
+def many(count: int) -> Solution:
+    positions = [360.0 * k / count for k in range(count)]
+    return Solution(worked("linkages/ex3").problem, positions=positions)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_many_positions_are_rows(lang: str) -> None:
+    text = result_tables(many(12), lang)
+    assert_readable(text)
+    rows = [line.split() for line in text.splitlines()]
+    assert sum(row[:2] == ["1", "0"] for row in rows) >= 5
+    assert sum(row[:2] == ["12", "330"] for row in rows) >= 5
+
+
+def test_few_positions_have_tables_of_their_own() -> None:
+    text = result_tables(many(3), "ru")
+    assert [f"Положение {k} из 3" in text for k in (1, 2, 3)] == [True] * 3
+
+
+def test_unknown_language() -> None:
+    with pytest.raises(UnknownLanguageError):
+        result_tables(worked("linkages/ex1"), "xx")
+
+
+def test_csv_round_trips_to_the_last_bit() -> None:
+    solution = many(5)
+    header, rows = csv_rows(solution)
+    text = io.StringIO()
+    csv.writer(text).writerows([header, *rows])
+    again = list(csv.DictReader(io.StringIO(text.getvalue())))
+    assert len(again) == 5
+    for i, row in enumerate(again):
+        assert row["position"] == str(i + 1)
+        assert float(row["phi_deg"]) == solution.positions[i]
+        assert float(row["margin"]) == solution.margin[i]
+        e = solution.points["E"]
+        assert complex(float(row["E.x"]), float(row["E.y"])) == complex(e.place[i])
+        assert float(row["E.v"]) == abs(complex(e.velocity[i]))
+        assert float(row["E.ax"]) == complex(e.acceleration[i]).real + 0.0
+        assert float(row["3.omega"]) == solution.links["3"].omega[i]
+        assert float(row["velocity.b-b3.exact"]) > 0
+        assert float(row["velocity.b-b3.read"]) % 0.5 == 0
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_csv_columns_are_unique_and_finite(seed: int) -> None:
+    header, rows = csv_rows(drawn(seed))
+    assert len(set(header)) == len(header)
+    assert all(len(row) == len(header) for row in rows)
+    assert np.isfinite(np.asarray(rows, dtype=float)).all()
+    assert header[1] == ("phi_deg" if drawn(seed).problem.drive.is_crank else "s")
+
+
+def test_rich_text_becomes_plain() -> None:
+    assert plain_text("ω_{2}^{2}·l_{BC}") == "ω₂²·l_BC"
+    assert plain_text("a^{n}_{CB}, a^{τ}_{CB}, b′_{3}") == "aⁿ_CB, aᵗ_CB, b′₃"
+    assert plain_text("с^{-1}") == "с⁻¹"
+
+
+def test_wide_and_combining_characters_are_counted() -> None:
+    assert width("ω̇ж") == 2
+    assert width("表") == 2
+    assert pad("表", 4) == "表  "
+    lines = table(["a", "b"], [["表", "1"], ["xyz", "22"]])
+    assert {width(line) for line in lines} == {7}
+
+
+def test_wide_tables_are_cut_and_keep_their_leading_columns() -> None:
+    columns = [["№", "1"], *([f"column{k}", "0.123456789"] for k in range(20))]
+    lines = columns_text(columns, 1)
+    assert all(width(line) <= WIDTH for line in lines)
+    assert sum(line.startswith("№") for line in lines) > 1

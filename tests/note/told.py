@@ -1,0 +1,49 @@
+"""Solutions and texts that the tests of the note share."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from generator import random_problem
+from worked import problem_of
+
+from planmethod.note.plaintext import WIDTH, width
+from planmethod.note.protocol import protocol
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+
+LANGUAGES = ("ru", "en")
+
+INTERNAL = re.compile(
+    r"line\d|~|\bNone\b|\bnan\b|\binf\b|[va]:\S|mu_|omega_|epsilon_|angle_|\||[_^]\{|\{|\}|\\"
+)
+"""What a reader must never see: names of the program, markup, numbers that are none."""
+
+
+@cache
+def worked(name: str) -> Solution:
+    return Solution(problem_of(name))
+
+
+@cache
+def drawn(seed: int) -> Solution:
+    return Solution(loads(random_problem(seed)[0], name=f"random-{seed}"))
+
+
+@cache
+def told(name: str, lang: str) -> str:
+    """Return a protocol in one line, spaces made single."""
+    return flat(protocol(worked(name), lang=lang))
+
+
+def flat(text: str) -> str:
+    return re.sub(r"\s+", " ", text)
+
+
+def assert_readable(text: str) -> None:
+    found = INTERNAL.search(text)
+    assert found is None, text[max(0, found.start() - 60) : found.end() + 30]
+    wide = [line for line in text.splitlines() if width(line) > WIDTH]
+    assert not wide
+    assert not [line for line in text.splitlines() if line != line.rstrip()]

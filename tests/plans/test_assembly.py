@@ -1,0 +1,488 @@
+"""Which closing is meant, and what is said when there is none."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from worked import problem_of
+
+from planmethod.errors import AssemblyError, ExitCode, ProblemError, StructureError
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+from planmethod.problem.model import Problem, Rule, Where
+
+FOUR_BAR = """
+title = "Четырёхзвенник"
+[frame]
+A = [0.0, 0.0]
+D = [0.4, 0.0]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = {bc}
+[links.3]
+points = ["D", "C"]
+DC = {dc}
+[driver]
+link = "1"
+phi = {phi}
+omega = 10
+[assembly]
+{rule}
+"""
+
+SLIDER_CRANK = """
+title = "Кривошипно-ползунный механизм"
+[frame]
+A = [0.0, 0.0]
+guides.x-x = {{ through = [0.0, {above}], angle = 0 }}
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.3
+[links.3]
+points = ["C"]
+slides = {{ on = "x-x" }}
+[driver]
+link = "1"
+phi = {phi}
+omega = 10
+[assembly]
+{rule}
+"""
+
+SLOTTED = """
+title = "Кулиса"
+[frame]
+A = [0.0, 0.0]
+C = [0.0, -{down}]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "E"]
+slides = {{ on = "3", along = "CD", offset = {offset} }}
+E = {{ from = "B", at = 0.05 }}
+[links.3]
+points = ["C", "D"]
+CD = 0.5
+[driver]
+link = "1"
+phi = {phi}
+omega = 10
+[assembly]
+{rule}
+"""
+
+
+def four_bar(rule: str, *, bc: float = 0.3, dc: float = 0.3, phi: object = 60) -> Problem:
+    return loads(FOUR_BAR.format(rule=rule, bc=bc, dc=dc, phi=phi), name="four-bar")
+
+
+def slider_crank(rule: str, *, above: float = 0.0, phi: object = 60) -> Problem:
+    return loads(SLIDER_CRANK.format(rule=rule, above=above, phi=phi), name="slider-crank")
+
+
+def slotted(rule: str = "", *, down: float = 0.3, offset: float = 0.0, phi: object = 20) -> Problem:
+    text = SLOTTED.format(rule=rule, down=down, offset=offset, phi=phi)
+    return loads(text, name="slotted")
+
+
+def place(problem: Problem, point: str) -> complex:
+    return complex(Solution(problem).points[point].place[0])
+
+
+def refused(problem: Problem, positions: list[float] | None = None) -> str:
+    """Return the message of a mechanism that cannot be assembled."""
+    with pytest.raises(AssemblyError) as error:
+        _ = Solution(problem, positions=positions).si
+    assert error.value.exit_code == ExitCode.ASSEMBLY == 4
+    return str(error.value)
+
+
+def faulty(problem: Problem) -> list[str]:
+    """Return the faults of a problem whose rules do not do."""
+    with pytest.raises(ProblemError) as error:
+        Solution(problem)
+    assert error.value.exit_code == ExitCode.PROBLEM == 3
+    return [str(fault) for fault in error.value.faults]
+
+
+# Rules --------------------------------------------------------------------------------------------
+
+UPPER, LOWER = 0.2826 + 0.2761j, 0.1674 - 0.1895j
+
+
+@pytest.mark.parametrize(
+    ("rule", "wanted"),
+    [
+        ("above D", UPPER),
+        ("below D", LOWER),
+        ("left of AD", UPPER),
+        ("right of AD", LOWER),
+        ("left of BD", UPPER),
+        ("right of BD", LOWER),
+        ("right of DB", UPPER),
+        ("above A", UPPER),
+        ("left of D", LOWER),  # both are: the further one
+        ("right of A", UPPER),  # both are: the further one
+    ],
+)
+def test_a_rule_in_words_chooses_a_closing(rule: str, wanted: complex) -> None:
+    assert place(four_bar(f'C = "{rule}"'), "C") == pytest.approx(wanted, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("near", "wanted"),
+    [("[0.3, 0.2]", UPPER), ("[0.3, -0.2]", LOWER), ("[50, -60]", LOWER), ("[0.28, 0.28]", UPPER)],
+)
+def test_the_nearer_closing_is_taken(near: str, wanted: complex) -> None:
+    assert place(four_bar(f"C = {{ near = {near} }}"), "C") == pytest.approx(wanted, abs=1e-4)
+
+
+def test_a_closing_without_a_rule_is_asked_for_with_both_places() -> None:
+    (fault,) = faulty(four_bar(""))
+    assert fault == (
+        "assembly.C: links 2, 3 close in two ways, with C at (0.2826, 0.2761) or at "
+        '(0.1674, -0.1895) m, and no rule says which. Add C = "right of ..." (or left of, above, '
+        "below, or { near = [x, y] }) to [assembly]"
+    )
+    (fault,) = faulty(slider_crank(""))
+    assert fault.startswith(
+        "assembly.C: links 2, 3 close in two ways, with C at (0.3372, 0) or at (-0.2372, 0) m,"
+    )
+
+
+def test_missing_rules_of_all_groups_are_told_at_once() -> None:
+    problem = replace(problem_of("levers/six-link"), assembly=())
+    (fault,) = faulty(problem)
+    assert fault.startswith("assembly.C: links 2, 3 close in two ways")
+    assert len(faulty(replace(problem_of("linkages/ex3"), assembly=()))) == 1
+    rules = (Rule("A", Where.ABOVE, ("B",)), Rule("B", Where.LEFT, ("C",)))
+    faults = faulty(replace(problem_of("linkages/ex1"), assembly=rules))
+    assert [fault.partition(":")[0] for fault in faults] == [
+        "assembly.C",
+        "assembly.A",
+        "assembly.B",
+    ]
+
+
+def test_a_rule_that_does_not_tell() -> None:
+    """The slider's two places are at one height."""
+    (fault,) = faulty(slider_crank('C = "above B"'))
+    assert fault == (
+        "assembly.C: 'C above B' does not tell the two closings apart at phi = 60: both give "
+        "-0.0866025 m. Compare with another point or with a directed line"
+    )
+    # As far from the one as from the other: between them.
+    (fault,) = faulty(slider_crank("C = { near = [0.05, 7.0] }", phi=60))
+    assert fault.startswith(
+        "assembly.C: 'C near [0.05, 7]' does not tell the two closings apart at phi = 60:"
+    )
+
+
+def test_a_rule_about_a_line_is_told_as_it_was_written() -> None:
+    message = refused(far())
+    assert message.startswith("'C left of FG' holds for neither closing at phi = 60:")
+
+
+def far() -> Problem:
+    """Four-bar with a rule about a line of the frame far to the left of the mechanism."""
+    text = FOUR_BAR.format(rule='C = "left of FG"', bc=0.3, dc=0.3, phi=60)
+    text = text.replace("D = [0.4, 0.0]", "D = [0.4, 0.0]\nF = [-9.0, -1.0]\nG = [-9.0, 1.0]")
+    return loads(text, name="far")
+
+
+def test_a_rule_that_holds_for_neither_closing() -> None:
+    message = refused(four_bar('C = "right of D"'))
+    assert message == (
+        "'C right of D' holds for neither closing at phi = 60: they miss it by 0.117404 m and "
+        "0.232596 m. Check the lengths or the rule assembly.C."
+    )
+
+
+@pytest.mark.parametrize(("point", "other"), [("A", "B"), ("B", "A"), ("D", "B")])
+def test_points_of_the_frame_and_the_driver_have_one_place(point: str, other: str) -> None:
+    rules = (Rule("C", Where.ABOVE, ("D",)), Rule(point, Where.ABOVE, (other,)))
+    (fault,) = faulty(replace(four_bar('C = "above D"'), assembly=rules))
+    assert fault == (
+        f"assembly.{point}: {point} belongs to the frame or to the driving link: it has one place. "
+        "Name a point that a group places, such as the inner joint of two links"
+    )
+
+
+def test_a_rule_of_the_first_position_holds_for_all() -> None:
+    """At phi = 250 the upper closing is to the left of the lower one; the side stays."""
+    several = Solution(four_bar('C = "right of A"', phi=[60, 170, 250]))
+    assert (several.points["C"].place.imag > 0).all()
+    asked = Solution(four_bar('C = "right of A"'), positions=[250.0])
+    assert asked.points["C"].place[0] == several.points["C"].place[2]
+
+
+def test_the_first_position_that_closes_decides() -> None:
+    """With a rocker of 0.12 m only a part of the turn is possible; 180 is not."""
+    problem = four_bar('C = "above D"', bc=0.25, dc=0.12, phi=[180, 20])
+    draft = Solution(problem, positions=[20.0])
+    assert draft.points["C"].place[0].imag > 0
+
+
+# Slotted links --------------------------------------------------------------------------------------
+
+
+def test_a_slotted_link_points_at_its_slider_when_no_rule_says_else() -> None:
+    solution = Solution(slotted())
+    b, c, d = (complex(solution.points[p].place[0]) for p in "BCD")
+    assert ((d - c) / (b - c)).imag == pytest.approx(0.0, abs=1e-12)
+    assert ((d - c) / (b - c)).real > 0
+    for phi in (0.0, 90.0, 180.0, 270.0):
+        turned = Solution(slotted(), positions=[phi])
+        b, c, d = (complex(turned.points[p].place[0]) for p in "BCD")
+        assert ((d - c) / (b - c)).real > 0
+
+
+def test_a_rule_turns_a_slotted_link_away() -> None:
+    solution = Solution(slotted('D = "below C"'))
+    b, c, d = (complex(solution.points[p].place[0]) for p in "BCD")
+    assert ((d - c) / (b - c)).real < 0
+    away = Solution(problem_of("levers/task12"))
+    b, c, d = (complex(away.points[p].place[0]) for p in "BCD")
+    assert ((d - c) / (b - c)).real < 0
+
+
+def test_a_rule_may_be_about_a_point_of_the_slider() -> None:
+    up, down = slotted('E = "above B"'), slotted('E = "below B"')
+    assert place(up, "D").imag > -0.3 > place(down, "D").imag
+
+
+@pytest.mark.parametrize("offset", [0.05, -0.05])
+def test_an_offset_pin_is_on_its_side_of_the_line(offset: float) -> None:
+    for rule in ('D = "above C"', 'D = "below C"'):
+        solution = Solution(slotted(rule, offset=offset))
+        b, c, d = (complex(solution.points[p].place[0]) for p in "BCD")
+        u = (d - c) / abs(d - c)
+        assert (u.conjugate() * (b - c)).imag == pytest.approx(offset, abs=1e-14)
+        assert (d.imag > c.imag) == ("above" in rule)
+
+
+# Impossible positions -----------------------------------------------------------------------------
+
+
+def test_arcs_that_do_not_meet() -> None:
+    message = refused(four_bar('C = "above A"', dc=0.05))
+    assert message == (
+        "Cannot place C at position 1 (phi = 60 deg): arcs from B (0.3 m) and D (0.05 m) do not "
+        "meet, |BD| = 0.3606 m. Check l_BC, l_DC."
+    )
+
+
+def test_the_first_impossible_position_is_named_and_the_others_counted() -> None:
+    problem = four_bar('C = "above D"', bc=0.25, dc=0.12)
+    positions = [60.0, 170.0, 180.0, 190.0]
+    message = refused(problem, positions)
+    assert re.match(
+        r"Cannot place C at position 2 \(phi = 170 deg\): arcs from B \(0\.25 m\) and D "
+        r"\(0\.12 m\) do not meet, \|BD\| = 0\.49\d\d m\. Check l_BC, l_DC\.",
+        message,
+    )
+    assert message.endswith(" The same holds at 2 more of 4 positions.")
+    assert "more of" not in refused(problem, positions[:2])
+
+
+def test_an_arc_that_does_not_reach_the_guide() -> None:
+    message = refused(slider_crank('C = "right of B"', above=0.5))
+    assert message == (
+        "Cannot place C at position 1 (phi = 60 deg): the arc from B (0.3 m) does not reach the "
+        "guide of C. Check l_BC and the place of the guide."
+    )
+
+
+def test_a_slotted_link_that_stands_off_too_far() -> None:
+    problem = slotted('D = "above C"', offset=0.25, phi=90)
+    message = refused(problem, [270.0])
+    assert message.startswith("Cannot turn the slotted link about C at position 1 (phi = 270 deg):")
+    assert "0.25 m" in message
+    assert "0.2 m away" in message
+
+
+def test_parallel_guides() -> None:
+    """A dyad PRP between two guides of the frame would be no mechanism; one turns with the crank."""
+    text = """
+        title = "Тангенсный механизм"
+        [frame]
+        A = [0.0, 0.0]
+        guides.x-x = { through = [0.0, 0.2], angle = 0 }
+        [links.1]
+        points = ["A", "B"]
+        AB = 0.1
+        [links.2]
+        points = ["C"]
+        slides = { on = "1", along = "AB" }
+        [links.3]
+        points = ["C"]
+        slides = { on = "x-x" }
+        [driver]
+        link = "1"
+        phi = 60
+        omega = 10
+    """
+    problem = loads(text, name="tangent")
+    assert place(problem, "C") == pytest.approx(0.2 / np.tan(np.pi / 3) + 0.2j)
+    message = refused(problem, [180.0])
+    assert message == ("Cannot place C at position 1 (phi = 180 deg): its two guides are parallel.")
+
+
+def test_a_dead_position_is_told_with_its_reason() -> None:
+    """BC = 4, DC = 1: at phi = 0, |BD| = 3, the links 2 and 3 lie on one line."""
+    exact = FOUR_BAR.replace("0.4", "4.0").replace("AB = 0.1", "AB = 1.0")
+    problem = loads(exact.format(rule='C = "above D"', bc=4.0, dc=1.0, phi=60), name="dead")
+    message = refused(problem, [60.0, 0.0])
+    assert message == (
+        "Cannot close the velocity plan at position 2 (phi = 0 deg): the rays that meet in c are "
+        "parallel, the mechanism stands in a dead position. Ask another position: there the "
+        "velocities are not determined by the driver."
+    )
+
+
+def test_the_margin_falls_towards_a_dead_position() -> None:
+    exact = FOUR_BAR.replace("0.4", "4.0").replace("AB = 0.1", "AB = 1.0")
+    problem = loads(exact.format(rule='C = "above D"', bc=4.0, dc=1.0, phi=60), name="dead")
+    margin = Solution(problem, positions=[60.0, 30.0, 10.0, 1.0, 0.1]).margin
+    assert (np.diff(margin) < 0).all()
+    assert 0 < margin[-1] < 1e-4
+
+
+def test_a_driving_slider_names_its_position_in_metres() -> None:
+    text = """
+        title = "Ведущий ползун"
+        [frame]
+        A = [0.0, 0.0]
+        guides.x-x = { through = "A", angle = 0 }
+        [links.1]
+        points = ["C"]
+        slides = { on = "x-x" }
+        [links.2]
+        points = ["C", "B"]
+        CB = 0.3
+        [links.3]
+        points = ["A", "B"]
+        AB = 0.1
+        [driver]
+        link = "1"
+        s = 0.35
+        v = 1.0
+        [assembly]
+        B = "above A"
+    """
+    problem = loads(text, name="slider")
+    assert place(problem, "B").imag > 0
+    message = refused(problem, [0.35, 0.45])
+    assert message.startswith("Cannot place B at position 2 (s = 0.45 m): arcs from ")
+
+
+# Structure ----------------------------------------------------------------------------------------
+
+THIRD_CLASS = """
+title = "Группа III класса"
+[frame]
+A = [0.0, 0.0]
+D = [0.8, 0.5]
+E = [0.9, -0.3]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "P"]
+BP = 0.3
+[links.3]
+points = ["P", "Q", "R"]
+PQ = 0.2
+PR = 0.2
+QR = 0.2
+R.side = "right of PQ"
+[links.4]
+points = ["D", "Q"]
+DQ = 0.4
+[links.5]
+points = ["E", "R"]
+ER = 0.4
+[driver]
+link = "1"
+phi = 60
+omega = 10
+[assembly]
+P = "right of B"
+"""
+
+
+def test_a_group_of_the_third_class_is_named_and_not_solved() -> None:
+    with pytest.raises(AssemblyError) as error:
+        Solution(loads(THIRD_CLASS, name="third"))
+    assert error.value.exit_code == 4
+    assert str(error.value) == (
+        "Group of class 3, order 3 (links 2, 3, 4, 5) cannot be built by arcs and lines alone: "
+        "only dyads (class II) are. Choose another driving link, so that the mechanism falls into "
+        "dyads."
+    )
+
+
+def test_the_same_links_with_another_driver_fall_into_dyads() -> None:
+    """Driven at link 4, the chain is two dyads (links 1 and 2 close last)."""
+    text = (
+        THIRD_CLASS.replace('link = "1"', 'link = "4"')
+        .replace("phi = 60", "phi = 250")
+        .replace("BP = 0.3", "BP = 0.5")
+    )
+    text = text.replace('P = "right of B"', 'R = "below Q"\nB = "above A"')
+    solution = Solution(loads(text, name="third"))
+    assert [g.signature for g in solution.structure.groups] == ["RRR", "RRR"]
+    assert solution.structure.class_number == 2
+
+
+def test_two_degrees_of_freedom_are_too_many() -> None:
+    text = """
+        title = "Пятизвенник"
+        [frame]
+        A = [0.0, 0.0]
+        E = [0.5, 0.0]
+        [links.1]
+        points = ["A", "B"]
+        AB = 0.1
+        [links.2]
+        points = ["B", "C"]
+        BC = 0.3
+        [links.3]
+        points = ["C", "D"]
+        CD = 0.3
+        [links.4]
+        points = ["D", "E"]
+        DE = 0.2
+        [driver]
+        link = "1"
+        phi = 60
+        omega = 10
+        [assembly]
+        C = "above A"
+    """
+    with pytest.raises(
+        StructureError, match=r"^Mobility W = .* = 2, but 1 driver is given"
+    ) as error:
+        Solution(loads(text, name="five-bar"))
+    assert error.value.exit_code == 3
+
+
+def test_a_structure_that_does_not_move() -> None:
+    text = FOUR_BAR.format(rule='C = "above D"', bc=0.3, dc=0.3, phi=60).replace(
+        "[driver]", '[links.4]\npoints = ["A", "C"]\nAC = 0.39\n[driver]'
+    )
+    with pytest.raises(
+        StructureError, match=r"^Mobility W = .* = 0, but 1 driver is given"
+    ) as error:
+        Solution(loads(text, name="truss"))
+    assert error.value.exit_code == 3

@@ -1,0 +1,236 @@
+"""What the documents say is so: commands run, examples load, links lead somewhere."""
+
+from __future__ import annotations
+
+import ast
+import re
+import shlex
+import shutil
+import tomllib
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+from worked import PROBLEMS, ROOT
+
+from planmethod.cli import cli
+from planmethod.errors import ExitCode
+from planmethod.plans.selfcheck import verify
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+
+READMES = ("README.md", "README.ru.md")
+ADRS = sorted((ROOT / "docs" / "adr").glob("[0-9]*.md"))
+DOCUMENTS = sorted(
+    [
+        *ROOT.glob("*.md"),
+        *(ROOT / "docs").rglob("*.md"),
+        ROOT / "out" / "README.md",
+    ]
+)
+PICTURES = sorted((ROOT / "docs" / "gallery").glob("*"))
+LARGEST = 150 * 1024
+"""Bytes of a picture of the documentation."""
+
+
+def text_of(name: str) -> str:
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def blocks(name: str, language: str) -> list[str]:
+    """Return the fenced blocks of a language."""
+    return re.findall(rf"(?ms)^```{language}\n(.*?)^```$", text_of(name))
+
+
+def command_lines(name: str) -> list[list[str]]:
+    """Return the words of every line of the shell blocks."""
+    lines = "\n".join(blocks(name, "sh")).splitlines()
+    return [words for line in lines if (words := shlex.split(line, comments=True))]
+
+
+def planmethod_lines(name: str) -> list[list[str]]:
+    return [words[1:] for words in command_lines(name) if words[0] == "planmethod"]
+
+
+def first_cells(name: str, pattern: str) -> list[str]:
+    """Return what a pattern finds in the first cells of table rows."""
+    return re.findall(rf"(?m)^\| {pattern} \|", text_of(name))
+
+
+@pytest.fixture
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder that has the problems of the repository, and nothing else."""
+    shutil.copytree(PROBLEMS, tmp_path / "problems")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+# Commands ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", READMES)
+def test_the_tour_works_from_the_first_command_to_the_last(name: str, desk: Path) -> None:
+    for words in planmethod_lines(name):
+        run = CliRunner().invoke(cli, words)
+        assert run.exit_code == ExitCode.DONE, (words, run.output)
+    made = {path.name for path in (desk / "out").rglob("*") if path.is_file()}
+    assert {"my.svg", "my.pdf", "my-protocol.txt", "my-structure.svg", "ex3.csv"} <= made
+    assert {f"task12-variants-{letter}.pdf" for letter in "АБВГДЕ"} <= made
+
+
+@pytest.mark.parametrize("name", [*READMES, "CONTRIBUTING.md"])
+def test_every_command_line_parses(name: str) -> None:
+    assert planmethod_lines(name)
+    for command, *rest in planmethod_lines(name):
+        cli.commands[command].make_context(command, rest)
+
+
+@pytest.mark.parametrize("name", READMES)
+def test_every_command_is_listed_and_shown(name: str) -> None:
+    assert sorted(first_cells(name, "`([a-z]+)`")) == sorted(cli.commands)
+    assert {words[0] for words in planmethod_lines(name)} == set(cli.commands)
+
+
+@pytest.mark.parametrize("name", READMES)
+def test_exit_codes_are_listed(name: str) -> None:
+    assert first_cells(name, r"(\d)") == [str(int(code)) for code in ExitCode]
+
+
+@pytest.mark.parametrize("name", [*READMES, "CONTRIBUTING.md"])
+def test_options_that_the_text_speaks_of_exist(name: str) -> None:
+    known = {
+        option
+        for command in cli.commands.values()
+        for param in command.params
+        if isinstance(param, click.Option)
+        for option in param.opts
+    }
+    spans = re.findall(r"`(--[a-z-]+)", text_of(name))
+    assert set(spans) - {"--help"} <= known
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.stem)
+def test_make_knows_the_targets(document: Path) -> None:
+    targets = set(re.findall(r"(?m)^([a-z]+):", text_of("Makefile")))
+    assert set(re.findall(r"(?m)(?:`|^)make ([a-z]+)", document.read_text("utf-8"))) <= targets
+
+
+# Examples ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", READMES)
+def test_python_examples_run(name: str, desk: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, object] = {}
+    for block in blocks(name, "python"):
+        exec(compile(block, name, "exec"), names)
+    pdf = names["pdf"]
+    assert isinstance(pdf, bytes)
+    assert pdf.startswith(b"%PDF-")
+    assert "275°: 16.021" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", READMES)
+def test_the_problem_file_of_the_readme_is_solved(name: str) -> None:
+    (text,) = blocks(name, "toml")
+    solution = Solution(loads(text, name="readme"))
+    verify(solution)
+    assert len(solution.positions) == 12
+    slower = Solution(loads(text, name="readme", variant="Б"))
+    assert slower.links["1"].omega[0] == pytest.approx(0.75 * solution.links["1"].omega[0])
+
+
+def code_of(block: str) -> str:
+    """Return the statements of an example but for what it prints, which is in its language."""
+    kept = [s for s in ast.parse(block).body if "print(" not in ast.unparse(s)]
+    return "\n".join(map(ast.unparse, kept))
+
+
+def test_both_readmes_show_the_same() -> None:
+    one, other = READMES
+    assert command_lines(one) == command_lines(other)
+    (mine,), (theirs,) = blocks(one, "toml"), blocks(other, "toml")
+    assert tomllib.loads(mine) == tomllib.loads(theirs)
+    for mine, theirs in zip(blocks(one, "python"), blocks(other, "python"), strict=True):
+        assert code_of(mine) == code_of(theirs)
+    counts = {len(re.findall(r"(?m)^##+ ", text_of(name))) for name in READMES}
+    assert len(counts) == 1
+
+
+# Links and names ---------------------------------------------------------------------------------
+
+
+def anchors(document: Path) -> set[str]:
+    """Return the anchors of a document's headings, as GitHub makes them."""
+    titles = re.findall(r"(?m)^#+ (.*)$", document.read_text(encoding="utf-8"))
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.stem)
+def test_links_lead_to_files(document: Path) -> None:
+    text = re.sub(r"(?ms)^```.*?^```$|`[^`\n]*`", "", document.read_text(encoding="utf-8"))
+    for link in re.findall(r"\]\(([^)\s]+)\)", text):
+        if re.match(r"https?://", link):
+            continue
+        path, _, anchor = link.partition("#")
+        target = document.parent / path if path else document
+        assert target.exists(), link
+        assert target.resolve().is_relative_to(ROOT), link
+        assert not anchor or anchor in anchors(target), link
+
+
+@pytest.mark.parametrize("document", [ROOT / "CONTRIBUTING.md", *ADRS], ids=lambda path: path.stem)
+def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
+    text = document.read_text(encoding="utf-8")
+    folders = ("planmethod", "tests", "docs", "problems")
+    packages = ("construct", "mechanism", "problem", "plans", "note", "render")
+    for span in re.findall(r"`([\w.-]+/[\w./-]*)`", text):
+        top = span.split("/")[0]
+        if top in folders:
+            assert (ROOT / span).exists(), span
+        elif top in packages:
+            assert (ROOT / "planmethod" / span).exists(), span
+
+
+def test_the_house_is_as_the_linter_holds_it() -> None:
+    (contract,) = tomllib.loads(text_of("pyproject.toml"))["tool"]["importlinter"]["contracts"]
+    rows = first_cells("CONTRIBUTING.md", r"`(planmethod/[\w./]+)`")
+    said = [row.rstrip("/").removesuffix(".py").replace("/", ".") for row in rows]
+    assert said == contract["layers"]
+
+
+# Records -----------------------------------------------------------------------------------------
+
+
+def test_decisions_are_numbered_and_listed() -> None:
+    assert [path.name[:5] for path in ADRS] == [f"{n:04d}-" for n in range(1, len(ADRS) + 1)]
+    listed = re.findall(r"\((\d{4}-[\w-]+\.md)\) \| (.+) \|", text_of("docs/adr/README.md"))
+    titles = [path.read_text("utf-8").splitlines()[0].split(". ", 1)[1] for path in ADRS]
+    assert listed == [(path.name, title) for path, title in zip(ADRS, titles, strict=True)]
+
+
+@pytest.mark.parametrize("path", ADRS, ids=lambda path: path.stem)
+def test_a_decision_has_its_parts(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith(f"# {path.name[:4]}. ")
+    assert re.search(r"(?m)^Date: \d{4}-\d\d-\d\d\. Status: \w+", text)
+    assert re.findall(r"(?m)^## (.*)$", text) == ["Context", "Decision", "Consequences"]
+
+
+def test_the_changelog_has_its_form() -> None:
+    text = text_of("CHANGELOG.md")
+    sections = ("Added", "Changed", "Deprecated", "Removed", "Fixed", "Security")
+    assert re.findall(r"(?m)^## (.*)$", text)[0] == "[Unreleased]"
+    assert set(re.findall(r"(?m)^### (.*)$", text)) <= set(sections)
+
+
+def test_pictures_are_small_and_made_by_make() -> None:
+    assert PICTURES
+    recipe = text_of("Makefile").partition("\ngallery:")[2].partition("\n\n")[0]
+    assert "planmethod sheet" in recipe
+    drawn = re.findall(r"problems/\w+/([\w-]+)\.toml", recipe)
+    assert sorted(drawn) == [path.stem for path in PICTURES]
+    for path in PICTURES:
+        data = path.read_bytes()
+        assert data.startswith(b"\x89PNG")
+        assert len(data) < LARGEST, path.name

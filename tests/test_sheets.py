@@ -1,0 +1,214 @@
+"""Whole sheets: nothing that a norm controller would mark, paper as asked, the same bytes again."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from generator import random_problem
+from worked import PROBLEMS, ROOT, every_file, path_of, problem_of
+
+from planmethod.errors import ExitCode, LayoutError
+from planmethod.problem import load, loads, variant_names
+from planmethod.render.backends import render
+from planmethod.render.drawing import Drawing, Text
+from planmethod.render.frame import FORMATS
+from planmethod.render.lint import lint
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}
+
+ALL_ROUND = [30.0 * k for k in range(12)]
+
+MANY = {
+    "linkages/ex1": ALL_ROUND,
+    "linkages/ex2": ALL_ROUND,
+    "linkages/ex3": ALL_ROUND,
+    "levers/six-link": [150.0 + 10.0 * k for k in range(12)],  # it does not go all round
+    "levers/task12": ALL_ROUND,
+    "press/press": ALL_ROUND,
+}
+
+
+def marks(sheets: list[Drawing]) -> list[str]:
+    """Return what the lint has to say of each sheet, by the frame of its format."""
+    found = []
+    for drawing in sheets:
+        (fmt,) = (f for f in FORMATS.values() if (f.width, f.height) == size(drawing))
+        found += [f"{f.code} {f.message}" for f in lint(drawing.items, fmt.inner)]
+    return found
+
+
+def size(drawing: Drawing) -> tuple[float, float]:
+    return drawing.width, drawing.height
+
+
+def texts(drawing: Drawing) -> str:
+    return "\n".join(item.text for item in drawing.items if isinstance(item, Text))
+
+
+# Lint ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_lint_has_nothing_to_say(name: str) -> None:
+    for variant in [None, *variant_names(FILES[name])]:
+        sheets = kinematics_sheets(load(FILES[name], variant=variant))
+        assert len(sheets) == 1
+        assert marks(sheets) == []
+
+
+@pytest.mark.parametrize("paper", ["A4", "A3", "A2", "A1"])
+@pytest.mark.parametrize("name", FILES)
+def test_an_asked_paper_is_taken_or_refused(name: str, paper: str) -> None:
+    problem = load(FILES[name])
+    try:
+        sheets = kinematics_sheets(problem, paper=paper)
+    except LayoutError as error:
+        assert error.exit_code == ExitCode.USAGE == 2
+        assert f"the views do not fit {paper}" in str(error)
+        assert paper in ("A4", "A3")  # what is asked here fits the larger ones
+        return
+    assert [size(sheet) for sheet in sheets] == [(FORMATS[paper].width, FORMATS[paper].height)]
+    assert marks(sheets) == []
+
+
+@pytest.mark.parametrize("name", MANY)
+def test_many_positions_on_a_sheet(name: str) -> None:
+    """The smallest format that holds them, or a message that says what to do."""
+    try:
+        sheets = kinematics_sheets(problem_of(name), positions=MANY[name])
+    except LayoutError as error:
+        assert "coarser scales in [scales]" in str(error)
+        assert problem_of(name).scales.mu_v is not None  # a scale of the file is to blame
+        return
+    assert marks(sheets) == []
+    for sheet in sheets:
+        shown = texts(sheet)
+        assert "Планы скоростей" in shown
+        assert "Планы ускорений" in shown
+
+
+lies_on_a_line = pytest.mark.xfail(strict=True, reason="PM-D02: k_B3B on a thin stroke, A1")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=lies_on_a_line) if n == "levers/task12" else n for n in MANY],
+)
+def test_many_positions_fit_when_the_scales_are_free(name: str) -> None:
+    text = path_of(name).read_text("utf-8")
+    text = re.sub(r"(?m)^\[scales\]\n(?:[^\[\n].*\n|\n)*", "", text)
+    problem = loads(text, name=path_of(name).stem)
+    assert problem.scales.mu_v is None
+    assert marks(kinematics_sheets(problem, positions=MANY[name])) == []
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_sheets_of_random_mechanisms(seed: int) -> None:
+    problem = loads(random_problem(seed)[0], name=f"random-{seed}")
+    assert marks(kinematics_sheets(problem)) == []
+
+
+def test_the_lint_of_these_tests_does_find() -> None:
+    """A letter put upon another one and one outside the frame are told."""
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex1"))
+    letter = next(item for item in sheet.items if isinstance(item, Text) and item.text == "B")
+    spoiled = Drawing(sheet.width, sheet.height, sheet.title, [*sheet.items])
+    spoiled.add(Text(letter.at, "Q", letter.height), Text(2 + 100j, "Q", 5.0))
+    codes = {mark.split()[0] for mark in marks([spoiled])}
+    assert {"PM-D01", "PM-D04"} <= codes
+
+
+# What is on the sheet -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_sheet_has_its_parts(name: str) -> None:
+    problem = load(FILES[name])
+    (sheet,) = kinematics_sheets(problem)
+    shown = re.sub(r"\s+", " ", texts(sheet))
+    for part in ("План скоростей", "План ускорений", "Дано:", "Определить:", "Результаты"):
+        assert part in shown
+    assert shown.count("μ") >= 3
+
+
+def test_more_than_a_dozen_of_positions_go_on_further_sheets() -> None:
+    text = path_of("linkages/ex2").read_text("utf-8")
+    problem = loads(text, name="ex2")
+    sheets = kinematics_sheets(problem, positions=[15.0 * k for k in range(24)])
+    assert len(sheets) == 2
+    assert size(sheets[0]) == size(sheets[1])
+    assert marks(sheets) == []
+
+
+def test_fields_asked_outrank_the_files() -> None:
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), fields={"author": "Кузнецова"})
+    assert "Кузнецова" in texts(sheet)
+
+
+# Files --------------------------------------------------------------------------------------------
+
+DRAW = """
+import hashlib, sys
+from planmethod import draw, load
+from planmethod.render.backends import render
+(sheet,) = draw(load(sys.argv[1]))
+for fmt in ("svg", "pdf"):
+    print(hashlib.sha256(render(sheet, fmt)).hexdigest())
+"""
+
+
+@pytest.mark.parametrize("name", ["linkages/ex3", "levers/six-link", "press/press"])
+def test_the_same_bytes_in_another_process(name: str) -> None:
+    """The order of sets differs from process to process, the files do not."""
+    made = [
+        subprocess.run(
+            [sys.executable, "-c", DRAW, str(path_of(name))],
+            capture_output=True,
+            encoding="utf-8",
+            check=True,
+            cwd=ROOT,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in ("1", "4242")
+    ]
+    assert made[0] == made[1]
+    assert len(made[0].split()) == 2
+
+
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs pdftotext")
+@pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "levers/task12"])
+def test_the_pdf_can_be_searched_in_russian(name: str, tmp_path: Path) -> None:
+    (sheet,) = kinematics_sheets(problem_of(name))
+    path = tmp_path / "sheet.pdf"
+    path.write_bytes(render(sheet, "pdf"))
+    found = subprocess.run(
+        ["pdftotext", "-layout", "-enc", "UTF-8", str(path), "-"],
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    ).stdout
+    for text in ("План скоростей", "План ускорений", "Дано"):
+        assert text in found
+
+
+@pytest.mark.parametrize("paper", ["A3", "A2", "A1"])
+def test_the_page_is_the_format(paper: str) -> None:
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), paper=paper)
+    fmt = FORMATS[paper]
+    svg = render(sheet, "svg").decode("utf-8")
+    head = svg[svg.index("<svg") : svg.index(">", svg.index("<svg"))]
+    assert f'width="{fmt.width:g}mm"' in head
+    assert f'height="{fmt.height:g}mm"' in head
+    pdf = render(sheet, "pdf")
+    box = re.search(rb"/MediaBox \[ ?([\d. ]+?) ?\]", pdf)
+    assert box is not None
+    _, _, width, height = (float(number) for number in box[1].split())
+    assert width * 25.4 / 72 == pytest.approx(fmt.width, abs=0.01)
+    assert height * 25.4 / 72 == pytest.approx(fmt.height, abs=0.01)
