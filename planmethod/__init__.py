@@ -6,11 +6,11 @@ They are imported when they are first asked for, so that ``import planmethod`` c
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from planmethod.plans.solution import Solution as Solution
-    from planmethod.plans.solution import Solution as solve
     from planmethod.problem import Problem as Problem
     from planmethod.problem import load as load
     from planmethod.problem import loads as loads
@@ -24,8 +24,22 @@ _HOMES = {
     "draw": ("planmethod.render.sheets.kinematics", "kinematics_sheets"),
     "load": ("planmethod.problem", "load"),
     "loads": ("planmethod.problem", "loads"),
-    "solve": ("planmethod.plans.solution", "Solution"),
 }
+
+
+def solve(
+    problem: Problem, *, positions: Sequence[float] | None = None, ruler: float = 0.5
+) -> Solution:
+    """Solve a problem, in the file's positions or in others (degrees, m for a slider).
+
+    Raises
+    ------
+    PlanMethodError
+        When the mechanism cannot be analysed or assembled.
+    """
+    from planmethod.plans.solution import Solution
+
+    return Solution(problem, positions=positions, ruler=ruler)
 
 
 def __getattr__(name: str) -> Any:

@@ -132,7 +132,7 @@ def guarded(command: F) -> F:
 
 
 def problem_options(command: F) -> F:
-    """Add the options that choose what of a problem file is solved."""
+    """Add the options that choose the problems."""
     for option in (
         click.argument(
             "problems",
@@ -143,21 +143,29 @@ def problem_options(command: F) -> F:
         ),
         click.option("--variant", metavar="NAME", help="Variant of the problem file."),
         click.option("--all-variants", is_flag=True, help="Every variant of the problem file."),
-        click.option(
-            "--phi",
-            type=Positions(),
-            help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30.",
-        ),
-        click.option(
-            "--ruler",
-            type=click.FloatRange(min=0.0, min_open=True, max=50.0),
-            default=0.5,
-            show_default=True,
-            help="Ruler step with which the plans are read, mm.",
-        ),
     ):
         command = option(command)
     return command
+
+
+def ruler_option(command: F) -> F:
+    """Add the ruler of the hand."""
+    return click.option(
+        "--ruler",
+        type=click.FloatRange(min=0.0, min_open=True, max=50.0),
+        default=0.5,
+        show_default=True,
+        help="Ruler step with which the plans are read, mm.",
+    )(command)
+
+
+def reading_options(command: F) -> F:
+    """Add the options that say where and how the plans are read."""
+    return click.option(
+        "--phi",
+        type=Positions(),
+        help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30.",
+    )(ruler_option(command))
 
 
 def out_option(command: F) -> F:
@@ -239,6 +247,7 @@ def cli() -> None:
 
 @cli.command()
 @problem_options
+@reading_options
 @out_option
 @click.option(
     "--format", "formats", type=Formats(), default="svg,pdf", show_default=True, help="svg,pdf,png."
@@ -299,6 +308,7 @@ def _write(
 
 @cli.command()
 @problem_options
+@reading_options
 @click.option("--json", "as_json", is_flag=True, help="One object, full precision, SI.")
 @click.option(
     "--csv",
@@ -326,7 +336,7 @@ def solve(
     if csv_file is not None and csv_file.endswith(".toml"):
         raise click.UsageError(f"--csv would write over the problem file {csv_file}; put it last")
     records: list[dict[str, Any]] = []
-    tables: list[str] = []
+    tables: list[tuple[Problem, list[str], list[list[Any]]]] = []
 
     def compute(problem: Problem) -> None:
         solution = _solve(problem, phi, ruler)
@@ -335,7 +345,10 @@ def solve(
 
             records.append(record(solution))
         elif csv_file is not None:
-            tables.append(_csv(solution))
+            from planmethod.note.tables import csv_rows
+
+            header, rows = csv_rows(solution)
+            tables.append((problem, list(header), [list(row) for row in rows]))
         else:
             from planmethod.note.tables import result_tables
 
@@ -350,20 +363,26 @@ def solve(
             whole: Any = records[0] if len(records) == 1 else records
             click.echo(json.dumps(whole, ensure_ascii=False, allow_nan=False))
         if tables:
-            _put("".join(tables), csv_file)
+            _put(_csv(tables), csv_file)
 
 
-def _csv(solution: Solution) -> str:
+def _csv(tables: list[tuple[Problem, list[str], list[list[Any]]]]) -> str:
+    """Return solutions as CSV; of several each row tells its problem and variant.
+
+    A solution with other columns than the one before it begins with a header of its own.
+    """
     import csv
     import io
 
-    from planmethod.note.tables import csv_rows
-
-    header, rows = csv_rows(solution)
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
+    several, before = len(tables) > 1, None
+    for problem, header, rows in tables:
+        if header != before:
+            writer.writerow(["problem", "variant", *header] if several else header)
+        before = header
+        told = [problem.name, problem.variant or ""] if several else []
+        writer.writerows([*told, *row] for row in rows)
     return text.getvalue()
 
 
@@ -394,8 +413,6 @@ def structure(
     problems: tuple[Path, ...],
     variant: str | None,
     all_variants: bool,
-    phi: tuple[float, ...] | None,
-    ruler: float,
     out: Path,
     as_json: bool,
     formats: tuple[str, ...],
@@ -433,6 +450,7 @@ def structure(
 
 @cli.command()
 @problem_options
+@reading_options
 @click.option(
     "-o",
     "--out",
@@ -467,18 +485,8 @@ def protocol(
 
 
 @cli.command()
-@click.argument(
-    "problems", nargs=-1, required=True, metavar="PROBLEM...", type=click.Path(path_type=Path)
-)
-@click.option("--variant", metavar="NAME", help="Variant of the problem file.")
-@click.option("--all-variants", is_flag=True, help="Every variant of the problem file.")
-@click.option(
-    "--ruler",
-    type=click.FloatRange(min=0.0, min_open=True, max=50.0),
-    default=0.5,
-    show_default=True,
-    help="Ruler step with which the plans are read, mm.",
-)
+@problem_options
+@ruler_option
 @click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)
 @click.option(
     "-o",

@@ -70,7 +70,7 @@ def test_an_asked_paper_is_taken_or_refused(name: str, paper: str) -> None:
     try:
         sheets = kinematics_sheets(problem, paper=paper)
     except LayoutError as error:
-        assert error.exit_code == ExitCode.USAGE == 2
+        assert error.exit_code is ExitCode.USAGE
         assert f"the views do not fit {paper}" in str(error)
         assert paper in ("A4", "A3")  # what is asked here fits the larger ones
         return

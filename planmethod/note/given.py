@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import UNITS_RU, russian, trimmed
 from planmethod.plans.solution import Solution
@@ -41,14 +43,20 @@ def given(problem: Problem, positions: Sequence[float] | None = None) -> list[st
     for point, place in problem.bodies[FRAME].points.items():
         if place != 0:
             lines += _coordinates(point, place)
+    carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
     for guide, (through, base, angle) in problem.guides.items():
         if through is None:
             lines += _guide(guide, base, angle)
+        elif guide in carried:
+            lines.append(f"{guide} через {point_name(through)}")
+    pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for slide in problem.slides.values():
         if slide.offset:
-            lines.append(f"e_{{{slide.pin}}} = {number(slide.offset)} м")
+            name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
+            lines.append(f"e_{{{name}}} = {number(slide.offset)} м")
     if drive.is_crank:
-        lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {UNITS_RU['1/s']}")
+        constant = "" if drive.acceleration else " = const"
+        lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {UNITS_RU['1/s']}{constant}")
         if drive.acceleration:
             lines.append(f"ε_{{{drive.link}}} = {number(drive.acceleration)} {UNITS_RU['1/s²']}")
     else:
@@ -135,3 +143,14 @@ def given_lines(problem: Problem, lang: str) -> list[str]:
     for russian_text, english in _ENGLISH:
         lines = [line.replace(russian_text, english) for line in lines]
     return lines
+
+
+def solution_peak(solution: Solution, symbol: str) -> float:
+    """Return the largest value of v, a (points), ω or ε (links) in all positions of a solution."""
+    if symbol in "va":
+        field = "velocity" if symbol == "v" else "acceleration"
+        values = [np.abs(getattr(motion, field)) for motion in solution.points.values()]
+    else:
+        field = "omega" if symbol == "ω" else "epsilon"
+        values = [np.abs(getattr(motion, field)) for motion in solution.links.values()]
+    return float(np.max(values))

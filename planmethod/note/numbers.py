@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 MINUS = "−"
 
@@ -10,8 +11,8 @@ UNITS_RU = {
     "m": "м",
     "m/s": "м/с",
     "m/s²": "м/с^{2}",
-    "1/s": "с^{-1}",
-    "1/s²": "с^{-2}",
+    "1/s": "с^{−1}",
+    "1/s²": "с^{−2}",
     "mm": "мм",
     "deg": "°",
 }
@@ -53,3 +54,21 @@ def russian(text: str) -> str:
         return mantissa
     exponent = str(int(power)).replace("-", MINUS)
     return f"{mantissa}·10^{{{exponent}}}"
+
+
+def is_nothing(value: float, peak: float) -> bool:
+    """Tell whether a value is nothing beside the largest of its kind: no plan could show it."""
+    return abs(value) <= 1e-5 * abs(peak)
+
+
+def alike(values: Sequence[float], digits: int = 4) -> list[str]:
+    """Return the numbers of one column with a common number of decimals.
+
+    The largest has so many significant digits; zeros are a plain 0.
+    """
+    largest = max((abs(value) for value in values), default=0.0)
+    model = significant(largest, digits)
+    if "e" in model or len(values) == 1:
+        return [significant(value, digits) for value in values]
+    decimals = len(model.partition(".")[2])
+    return [f"{value:.{decimals}f}" if value else "0" for value in values]

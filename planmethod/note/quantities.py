@@ -94,8 +94,14 @@ class Reading:
         return float(self.ruled(length)) * self.per_mm[kind]
 
     def between(self, kind: PlanKind, tail: PointName, head: PointName) -> float:
-        """Return the quantity that a segment of a plan stands for."""
-        return self.measure(kind, abs(self.point(head) - self.point(tail)))
+        """Return the quantity that a segment of a plan stands for.
+
+        A segment that was laid off has the length it was computed to: nobody reads it again.
+        """
+        length = abs(self.point(head) - self.point(tail))
+        if (tail, head) in self.solution.laid_off:
+            return length * self.per_mm[kind]
+        return self.measure(kind, length)
 
 
 class Quantities:

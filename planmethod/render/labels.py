@@ -30,7 +30,8 @@ LEADER_FROM = 8.0
 """A label further than this from its point gets a leader line (линия-выноска), mm."""
 
 _CLEAR = 0.7  # white between a label and a line, mm
-_APART = 0.9  # white between two labels, mm
+_APART = 0.9  # white between two labels one above the other, mm
+_BESIDES = 2.0  # white between two labels side by side: nearer they would read as one
 _RINGS = (0.0, 1.2, 3.0, 5.5, 9.0)  # beyond the gap, mm
 _ANGLES = 16
 _FAR_RINGS = (13.0, 18.0, 25.0, 34.0, 46.0, 62.0, 84.0, 112.0, 150.0)
@@ -332,7 +333,7 @@ class _Field:
             return costs
         others = np.asarray(self.placed)
         a, b = boxes[:, None, :], others[None, :, :]
-        wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0]) + _APART
+        wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0]) + _BESIDES
         tall = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + _APART
         over = (wide > 0) & (tall > 0)
         costs += np.where(over, _FORBIDDEN + wide * tall, 0.0).sum(axis=1)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from planmethod.construct.steps import PointName, Similar
 from planmethod.note.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, VectorKind
+from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
@@ -30,14 +33,20 @@ def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, Point
     return list(lines.values())
 
 
+@lru_cache(maxsize=256)
 def plan_picture(
     solution: Solution, kind: PlanKind, index: int, *, letter_height: float = 5.0
 ) -> Picture:
-    """Return a plan in one position as a picture, its own pole at the origin, mm."""
+    """Return a plan in one position as a picture, its own pole at the origin, mm.
+
+    Kept, since a sheet is tried with fewer positions when it does not fit with more.
+    """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
     ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
-    at = {name: complex(solution.complexes(solution.paper, name)[index]) for name in ends}
+    # A plan near a dead position has a scale of its own: the same figure, smaller.
+    share = solution.scales[kind].per_mm / own_scale(solution, kind, index).per_mm
+    at = {name: complex(solution.complexes(solution.paper, name)[index]) * share for name in ends}
     factor = min(1.0, letter_height / 5.0 + 0.2)
     items: list[Item] = []
     for tail, head in similar_lines(solution, plan):

@@ -5,10 +5,14 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.note.given import point_name
+from planmethod.note.given import point_name, solution_peak
+from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Slide
@@ -17,6 +21,7 @@ from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.extent import lettered
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.symbols import (
+    SIZES,
     angle_of,
     fixed_pivot,
     guide_plates,
@@ -54,6 +59,7 @@ class Scheme:
     arrows: list[Item] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
     segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
+    axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
 
     @property
     def factor(self) -> float:
@@ -128,10 +134,12 @@ class Scheme:
     def _slot(self, link: str, slide: Slide, along: list[tuple[complex, complex]]) -> None:
         """Draw the line that a link carries, as far as the stone on it and a little beyond."""
         u = self.line_direction(slide)
-        start, pin = self.base(slide), self.foot(slide)
-        reach = ((pin - start) * u.conjugate()).real
+        start = self.base(slide)
+        reach = ((self.foot(slide) - start) * u.conjugate()).real
         beyond = (7.0 + OVERHANG) * self.factor
-        marks = [0.0, reach + math.copysign(beyond, reach if reach else 1.0)]
+        # A link has one length: as far as the stone goes in any position of the sheet.
+        ways = self._reaches(slide)
+        marks = [0.0, *(way + math.copysign(beyond, way if way else 1.0) for way in ways)]
         if slide.angle in (0.0, 180.0) and len(along) > 1:
             on_axis = [((p - start) * u.conjugate()).real for _, p in along]
             marks += [min(on_axis), max(on_axis)]
@@ -148,6 +156,15 @@ class Scheme:
             if abs(place - start) > 1.0 and self.pen is Pen.MAIN:
                 self.corners += rigid_corner(start, place, start + u * reach, factor=self.factor)
                 break
+
+    def _reaches(self, slide: Slide) -> tuple[float, float]:
+        """Return the least and the greatest place of a stone along its line in all positions."""
+        s = self.solution
+        turns = np.array([cis(float(a)) for a in s.links[slide.host].phi_deg]) * cis(slide.angle)
+        pins = s.complexes(s.paper, PointName(slide.pin))
+        bases = s.complexes(s.paper, PointName(slide.through or f"{slide.label}:0"))
+        along = ((pins - bases) * turns.conjugate()).real
+        return float(along.min()), float(along.max())
 
     def foot(self, slide: Slide) -> complex:
         """Return the foot of the pin on the slide line: the pin itself when there is no offset."""
@@ -185,7 +202,11 @@ class Scheme:
             self.bodies += slider(pin, angle=angle, factor=self.factor, pen=self.pen)
             return
         foot = self.foot(slide)
-        self.bodies += stone(foot, angle=angle, factor=self.factor, pen=self.pen, pin=False)
+        slides = self.solution.problem.slides.values()
+        inside = any(s.host == FRAME and s.pin == slide.pin for s in slides)
+        self.bodies += stone(
+            foot, angle=angle, factor=self.factor, pen=self.pen, pin=False, inside=inside
+        )
         if abs(foot - pin) > 0.2:
             self.bar(slide.slider, foot, pin)
 
@@ -204,14 +225,35 @@ class Scheme:
         self.guides.append(
             Stroke((start + u * low + offset, start + u * high + offset), Pen.AXIS, tag="guide")
         )
-        self.bodies += guide_plates(pin, angle=angle, factor=self.factor, pen=self.pen)
-        ends = slide.label.split("-")
-        if len(ends) == 2:
-            for text, s, sign in ((ends[0], low, -1.0), (ends[1], high, 1.0)):
-                place = start + u * s + offset
-                self.labels.append(
-                    Label(typeset(text, self.letter_height), place, prefer=u * sign, gap=1.0)
-                )
+        length, width = SIZES.slider_length + 8.0, SIZES.slider_width + 1.6
+        self.bodies += guide_plates(
+            pin, angle=angle, length=length, width=width, factor=self.factor, pen=self.pen
+        )
+        self.axis_ends.append((slide.label, start + u * low + offset, start + u * high + offset))
+
+    def letter_axes(self) -> None:
+        """Letter the ends of the guides' axes, but for an end that lies on a link."""
+        for label, low, high in self.axis_ends:
+            names = label.split("-")
+            if len(names) != 2:
+                continue
+            ends = [(names[0], low, low - high), (names[1], high, high - low)]
+            free = [self._clearance(place) for _, place, _ in ends]
+            for (text, place, away), room in zip(ends, free, strict=True):
+                if room > 4.0 or room == max(free):
+                    self.labels.append(
+                        Label(typeset(text, self.letter_height), place, prefer=away, gap=1.0)
+                    )
+
+    def _clearance(self, place: complex) -> float:
+        """Return how far a place is from the nearest link, mm."""
+        room = math.inf
+        for parts in self.segments.values():
+            for start, end in parts:
+                along = end - start
+                part = ((place - start) * along.conjugate()).real / abs(along) ** 2
+                room = min(room, abs(place - start - along * min(1.0, max(0.0, part))))
+        return room
 
     def _way(self, slide: Slide) -> list[complex]:
         """Return the places of a slider's pin in every position of the sheet, mm."""
@@ -267,11 +309,14 @@ class Scheme:
 
     def _free_direction(self, place: complex) -> complex:
         """Return where a pivot's support disturbs the links least; down if it can be."""
-        lines = self._directions(place)
-        return max(
-            (-1j, 1j, -1 + 0j, 1 + 0j),
-            key=lambda d: round(min([*(abs(cmath.phase(u / d)) for u in lines), 1.2]), 3),
-        )
+        feet = (0.5 * SIZES.support_height, SIZES.support_height + 2.0)
+
+        def room(way: complex) -> float:
+            lines = min([*(abs(cmath.phase(u / way)) for u in self._directions(place)), 1.2])
+            clear = min(self._clearance(place + way * foot * self.factor) for foot in feet)
+            return round(lines / 1.2, 3) + round(min(1.0, clear / (6.0 * self.factor)), 3)
+
+        return max((-1j, 1j, -1 + 0j, 1 + 0j), key=room)
 
     def _away(self, point: str) -> complex:
         lines = self._directions(self.at(point))
@@ -307,7 +352,7 @@ class Scheme:
         if pivot is not None:
             centre = self.at(pivot)
             other = end if abs(end - centre) > abs(start - centre) else start
-            radius = max(8.0 * self.factor, min(16.0 * self.factor, 0.5 * abs(other - centre)))
+            radius = max(10.0 * self.factor, min(20.0 * self.factor, 0.6 * abs(other - centre)))
         else:
             centre, other, radius = start + 0.4 * (end - start), end, 8.0 * self.factor
         turn = angle_of(other - centre)
@@ -315,11 +360,10 @@ class Scheme:
             ("ω", float(motion.omega[self.index]), 0.0),
             ("ε", float(motion.epsilon[self.index]), 3.5 * self.factor),
         ):
-            if value == 0:
+            if is_nothing(value, solution_peak(self.solution, symbol)):
                 continue
             sense = 1 if value > 0 else -1
-            middle = turn if symbol == "ω" else (turn if pivot is not None else turn + 180)
-            sweep = 70.0
+            middle, sweep = turn, 70.0
             arrow = turn_arrow(
                 centre,
                 radius + shift,
@@ -353,7 +397,10 @@ class Scheme:
         centre, radius = self.at(drive.pivot), 6.0 * self.factor + 2
         support = angle_of(self._free_direction(centre)) % 360.0
         if support < phi:
-            return  # the arc would run through the support: the statement tells the angle
+            radius = (SIZES.support_height + SIZES.hatch_stroke + 4.0) * self.factor
+            pins = [self.at(p) for p in self.solution.problem.bodies[drive.link].points]
+            if max(abs(pin - centre) for pin in pins) < radius + 4.0:
+                return  # no room for an arc around the support: the statement tells the angle
         self.guides.append(Stroke((centre, centre + radius + 6), Pen.THIN, tag="phi"))
         self.guides += turn_arrow(
             centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, width=1.0, tag="phi"
@@ -389,6 +436,7 @@ def ghost(solution: Solution, index: int, letter_height: float) -> list[Item]:
     return scheme.lines
 
 
+@lru_cache(maxsize=64)
 def scheme_picture(
     solution: Solution, index: int, *, letter_height: float = 5.0, overlay: bool = False
 ) -> Picture:
@@ -399,6 +447,7 @@ def scheme_picture(
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
     scheme.draw_joints()
+    scheme.letter_axes()
     scheme.letter_links()
     scheme.draw_angle()
     ghosts: list[Item] = []

@@ -138,15 +138,18 @@ def stone(
     *,
     angle: float = 0.0,
     pin: bool = True,
+    inside: bool = False,
     factor: float = 1.0,
     pen: Pen = Pen.MAIN,
 ) -> list[Item]:
     """Return a slider on a moving guide, its guide's line through it and its pin (камень кулисы).
 
-    Smaller than a slider of the frame. ``angle`` is the direction of the guide, degrees. Links
-    that end at the pin are drawn after the stone, so give ``pin=False`` and a `revolute` last.
+    Smaller than a slider of the frame, and small enough to lie on one with ``inside``. ``angle`` is
+    the direction of the guide, degrees. Links that end at the pin are drawn after the stone, so
+    give ``pin=False`` and a `revolute` last.
     """
-    length, width = 0.85 * SIZES.slider_length, 0.75 * SIZES.slider_width
+    share = (0.5, 0.6) if inside else (0.85, 0.75)
+    length, width = share[0] * SIZES.slider_length, share[1] * SIZES.slider_width
     turn = cmath.exp(1j * radians(angle)) * length / 2 * factor
     items = slider(at, angle=angle, length=length, width=width, factor=factor, pen=pen)
     items.append(Stroke((at - turn, at + turn), pen))
@@ -307,7 +310,9 @@ def vector_arrow(
     size = length * shrink
     stop = head - along * (size - ARROW.notch / ARROW.length * size * 0.5)
     tip = arrowhead(head, along, length=size, width=wide * shrink, tag=tag)
-    return [Stroke((tail, stop), pen, tag=tag), *tip]
+    # A thick line would swallow a small head.
+    shaft = pen if shrink > 0.8 else Pen.THIN
+    return [Stroke((tail, stop), shaft, tag=tag), *tip]
 
 
 def turn_arrow(
@@ -357,7 +362,7 @@ def turn_arrow(
 def turn_sign(centre: complex, size: float, sense: int, *, tag: str = "") -> list[Item]:
     """Return the small sign of a sense of rotation for a table (знак направления вращения).
 
-    ``size`` is the diameter, mm; +1 counter-clockwise, -1 clockwise. Three quarters of a circle,
+    ``size`` is the diameter, mm; +1 counter-clockwise, -1 clockwise. Most of a circle,
     open on the right, with a head in the opening.
     """
     return turn_arrow(
@@ -365,9 +370,9 @@ def turn_sign(centre: complex, size: float, sense: int, *, tag: str = "") -> lis
         size / 2,
         sense,
         middle=180.0,
-        sweep=270.0,
-        length=0.5 * size,
-        width=0.32 * size,
+        sweep=290.0,
+        length=0.6 * size,
+        width=0.46 * size,
         tag=tag,
     )
 

@@ -263,7 +263,7 @@ def _set_at(column: TableColumn, size: float, lettering: Lettering) -> _Set:
     values = tuple(typeset(cell.text, size, lettering) for cell in column.cells)
     head, unit = typeset(column.head, size, lettering), typeset(column.unit, size, lettering)
     signed = any(cell.sense is not None for cell in column.cells)
-    sign = 1.1 * size if signed else 0.0
+    sign = 1.2 * size if signed else 0.0
     tail = sign + _SIGN_GAP if signed else 0.0
     room = max((value.width for value in values), default=0.0)
     lefts = tuple(-(value.width + tail) / 2 for value in values)

@@ -10,7 +10,6 @@ from worked import SIX
 from planmethod.construct.steps import PointName, Step, makes
 from planmethod.note.naming import Names
 from planmethod.note.protocol import protocol
-from planmethod.note.sections import sections
 from planmethod.note.wording import UnknownLanguageError, wording
 from planmethod.plans.model import PlanKind
 
@@ -161,7 +160,7 @@ def test_steps_are_numbered_without_a_gap() -> None:
 
 def test_sections_are_the_whole_program_in_order() -> None:
     solution = worked("levers/task12")
-    found = sections(solution.construction, solution.structure.groups)
+    found = solution.construction.sections
     steps = tuple(step for section in found for step in section.steps)
     assert steps == solution.construction.program.steps
     assert [s.kind for s in found] == [

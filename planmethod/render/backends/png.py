@@ -57,6 +57,7 @@ class PngCanvas:
     def _paint(self, path: Path, grey: float, transform: Any = None) -> None:
         pen = self._agg.new_gc()
         pen.set_linewidth(0.0)
+        pen.set_snap(False)  # snapped to pixels, thin strokes of letters would vanish
         self._agg.draw_path(pen, path, transform or self._to_pixels, (grey, grey, grey))
 
     def _ink_pen(self, pen: Pen, path: Path) -> None:

@@ -10,10 +10,18 @@ import numpy as np
 from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
 from planmethod.note.calculation import calculation
-from planmethod.note.given import asked_links, asked_points, given, number, wanted
-from planmethod.note.numbers import UNITS_RU, russian, significant
+from planmethod.note.given import (
+    asked_links,
+    asked_points,
+    given,
+    number,
+    solution_peak,
+    wanted,
+)
+from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
 from planmethod.plans.model import PlanKind
-from planmethod.plans.scaling import Views
+from planmethod.plans.scaling import AS_HIGH, Views, own_scale
+from planmethod.plans.selfcheck import verify
 from planmethod.plans.solution import Reals, Solution
 from planmethod.problem.model import Convention, Problem
 from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
@@ -26,8 +34,8 @@ from planmethod.render.scheme import scheme_picture
 from planmethod.render.tables import Cell, TableColumn, table_block
 from planmethod.render.typeset import typeset
 
-PER_SHEET = 12
-"""Most positions on one sheet; more go on further sheets."""
+PER_SHEET = (12, 6, 4, 2, 1)
+"""Positions on one sheet: as many as fit; the others go on further sheets."""
 
 PAPERS = ("A3", "A2", "A1", "A0")
 """Formats tried in turn when none is asked for."""
@@ -119,12 +127,11 @@ def _equations(solution: Solution, kind: PlanKind, size: Heights, width: float) 
     return Column(blocks, gap=4.0)
 
 
-def _calculation(solution: Solution, kind: PlanKind, index: int, size: Heights) -> Block:
+def _calculation(solution: Solution, kind: PlanKind, index: int, height: float) -> Block:
     """Return the formulas with the read segments."""
-    height = max(2.5, min(3.5, size.text))
     lines = calculation(solution, kind, index)
     title = "Расчёт скоростей" if kind is PlanKind.VELOCITY else "Расчёт ускорений"
-    return Column([heading(title, size.text), *(formula_block(x, height) for x in lines)], gap=2.2)
+    return Column([heading(title, height), *(formula_block(x, height) for x in lines)], gap=2.2)
 
 
 def _sense(value: float) -> int:
@@ -134,50 +141,67 @@ def _sense(value: float) -> int:
 def result_columns(solution: Solution, indices: Sequence[int]) -> list[TableColumn]:
     """Return the columns of the result table: v, ω, a, ε with values and senses."""
 
-    def values(numbers: Reals, *, sense: bool) -> tuple[Cell, ...]:
-        return tuple(
-            Cell(
-                russian(significant(abs(float(numbers[i])))),
-                _sense(float(numbers[i])) if sense else None,
-            )
-            for i in indices
+    def column(symbol: str, name: str, unit: str, numbers: Reals) -> TableColumn:
+        peak = solution_peak(solution, symbol)
+        shown = [float(numbers[i]) for i in indices]
+        shown = [0.0 if is_nothing(value, peak) else value for value in shown]
+        texts = alike([abs(value) for value in shown])
+        turns = symbol in "ωε"
+        cells = tuple(
+            Cell(russian(text), _sense(value) if turns else None)
+            for text, value in zip(texts, shown, strict=True)
         )
+        return TableColumn(f"{symbol}_{{{name}}}", cells, unit=UNITS_RU[unit])
 
     points, links = asked_points(solution), asked_links(solution)
-    columns = []
-    for name in points:
-        v = np.abs(solution.points[name].velocity)
-        columns.append(TableColumn(f"v_{{{name}}}", values(v, sense=False), unit=UNITS_RU["m/s"]))
-    for link in links:
-        omega = solution.links[link].omega
-        columns.append(
-            TableColumn(f"ω_{{{link}}}", values(omega, sense=True), unit=UNITS_RU["1/s"])
-        )
-    for name in points:
-        a = np.abs(solution.points[name].acceleration)
-        columns.append(TableColumn(f"a_{{{name}}}", values(a, sense=False), unit=UNITS_RU["m/s²"]))
-    for link in links:
-        epsilon = solution.links[link].epsilon
-        columns.append(
-            TableColumn(f"ε_{{{link}}}", values(epsilon, sense=True), unit=UNITS_RU["1/s²"])
-        )
+    motions = [solution.points[name] for name in points]
+    turnings = [solution.links[link] for link in links]
+    columns = [
+        column("v", name, "m/s", np.abs(motion.velocity))
+        for name, motion in zip(points, motions, strict=True)
+    ]
+    columns += [
+        column("ω", link, "1/s", turning.omega)
+        for link, turning in zip(links, turnings, strict=True)
+    ]
+    columns += [
+        column("a", name, "m/s²", np.abs(motion.acceleration))
+        for name, motion in zip(points, motions, strict=True)
+    ]
+    columns += [
+        column("ε", link, "1/s²", turning.epsilon)
+        for link, turning in zip(links, turnings, strict=True)
+    ]
     if len(solution.positions) > 1:
         drive = solution.problem.drive
         symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
-        asked = tuple(Cell(number(float(solution.positions[i]))) for i in indices)
+        asked = tuple(Cell(position_text(solution, i)) for i in indices)
         columns.insert(0, TableColumn(symbol, asked, unit=unit))
         columns.insert(0, TableColumn("№", tuple(Cell(str(i)) for i in indices), least=8.0))
     return columns
+
+
+def position_text(solution: Solution, index: int) -> str:
+    """Return a driver position as the sheet writes it: an angle within one turn, two decimals."""
+    value = float(solution.positions[index])
+    if not solution.problem.drive.is_crank:
+        return number(value)
+    return number(round(value % 360.0, 2) % 360.0)
 
 
 def _grid(solution: Solution, kind: PlanKind, indices: Sequence[int], size: Heights) -> Block:
     """Return the plans of many positions in rows, each with its number."""
     drive = solution.problem.drive
     cells: list[Block] = []
+    convention = solution.problem.scales.convention
     for i in indices:
-        value = number(float(solution.positions[i]))
-        said = f"φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"s = {value} м"
-        caption = Line(typeset(f"{i}: {said}", 3.5))
+        value = position_text(solution, i)
+        said = f"{i}: φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"{i}: s = {value} м"
+        own = own_scale(solution, kind, i)
+        caption: Block = Line(typeset(said, 3.5))
+        if own != solution.scales[kind]:
+            scale = Line(typeset(scale_inscription(own, convention), 3.5))
+            caption = Column([caption, scale], gap=2.0, align="centre")
         picture = plan_picture(solution, kind, i, letter_height=3.5)
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     per_row = {2: 2, 3: 3, 4: 4}.get(len(cells), 6 if len(cells) > 5 else 5)
@@ -188,17 +212,17 @@ def _grid(solution: Solution, kind: PlanKind, indices: Sequence[int], size: Heig
 
 
 def _blocks(
-    solution: Solution, indices: Sequence[int], paper: str, inside: float, *, full: bool
+    solution: Solution, indices: Sequence[int], paper: str, inside: float, *, formulas: float | None
 ) -> list[Block]:
-    """Return the blocks of a sheet in reading order; with ``full`` also the formulas."""
-    size = HEIGHTS.get(paper, HEIGHTS["A1"])
-    column = COLUMN_WIDTHS.get(paper, 180.0)
+    """Return the blocks of a sheet in reading order; ``formulas`` is their letter height, mm."""
+    size = HEIGHTS[AS_HIGH.get(paper, paper)]
+    column = COLUMN_WIDTHS[AS_HIGH.get(paper, paper)]
     result = table_block(
         result_columns(solution, indices),
         size.text if len(indices) == 1 else min(size.text, 3.5),
         max_width=max(185.0, 0.58 * inside),
         leading=2 if len(solution.positions) > 1 else 0,
-        title="Результаты",
+        title="Результаты (точные значения)",
     )
     statement = _statement(solution, size, column)
     v, a = PlanKind.VELOCITY, PlanKind.ACCELERATION
@@ -219,13 +243,15 @@ def _blocks(
             statement,
             plans[v],
             _equations(solution, v, size, column),
-            *([_calculation(solution, v, indices[0], size)] if full else []),
-            _equations(solution, a, size, column),
+            *([_calculation(solution, v, indices[0], formulas)] if formulas else []),
             plans[a],
-            *([_calculation(solution, a, indices[0], size)] if full else []),
+            _equations(solution, a, size, column),
+            *([_calculation(solution, a, indices[0], formulas)] if formulas else []),
             result,
         ]
-    scheme = scheme_picture(solution, indices[0], letter_height=size.letter, overlay=True)
+    # The bold position is the one furthest from a dead position.
+    bold = max(indices, key=lambda i: float(solution.margin[i]))
+    scheme = scheme_picture(solution, bold, letter_height=size.letter, overlay=True)
     return [
         _view(solution, PlanKind.POSITION, scheme, size, MANY_TITLES[PlanKind.POSITION]),
         statement,
@@ -240,9 +266,14 @@ def _blocks(
 def stamp_fields(
     problem: Problem, sheet: int, sheets: int, extra: Mapping[str, str]
 ) -> dict[str, str]:
-    """Return the texts of the title block: the defaults, the problem's, then the asked ones."""
-    fields = {"title": problem.title, "sheet": str(sheet), "sheets": str(sheets)}
-    fields.update(problem.stamp)
+    """Return the texts of the title block: the defaults, the problem's, then the asked ones.
+
+    The number of the sheet stays empty on a single one, as the standard has it; of several sheets
+    the computed numbers outrank the file's.
+    """
+    numbers = {"sheet": str(sheet), "sheets": str(sheets)}
+    fields = {"title": problem.title, "sheets": "1", **problem.stamp}
+    fields.update(numbers if sheets > 1 else {})
     fields.update(extra)
     return {key: value for key, value in fields.items() if value}
 
@@ -253,15 +284,36 @@ def _compose(
     fmt = paper_format(paper)
     items, inner, stamp = sheet_frame(fmt, fields)
     inside = inner[2] - inner[0]
-    packed = pack(_blocks(solution, indices, paper, inside, full=True), inner, stamp)
-    if packed is None:
-        packed = pack(_blocks(solution, indices, paper, inside, full=False), inner, stamp)
-    if packed is None:
+    # The formulas shrink before they are left out.
+    for formulas in (3.5, 2.5, None):
+        blocks = _blocks(solution, indices, paper, inside, formulas=formulas)
+        packed = pack(blocks, inner, stamp)
+        if packed is not None:
+            break
+    else:
         return None
     drawing = Drawing(fmt.width, fmt.height, fields.get("title", solution.problem.title))
     drawing.extend(items)
     drawing.extend(packed)
     return drawing
+
+
+def _pages(
+    solution: Solution, paper: str, per_sheet: int, extra: Mapping[str, str]
+) -> list[Drawing] | None:
+    """Return the sheets with so many positions on each, or None when one does not fit."""
+    count = len(solution.positions)
+    if per_sheet > 1 and per_sheet // 2 >= count:
+        return None
+    pages = [range(k, min(k + per_sheet, count)) for k in range(0, count, per_sheet)]
+    sheets = []
+    for page, indices in enumerate(pages, 1):
+        texts = stamp_fields(solution.problem, page, len(pages), extra)
+        sheet = _compose(solution, indices, paper, texts)
+        if sheet is None:
+            return None
+        sheets.append(sheet)
+    return sheets
 
 
 def kinematics_sheets(
@@ -289,23 +341,21 @@ def kinematics_sheets(
         When the blocks fit no format, or not the asked one.
     """
     asked = problem.drive.positions if positions is None else tuple(positions)
-    count = len(asked)
-    pages = [range(k, min(k + PER_SHEET, count)) for k in range(0, count, PER_SHEET)]
-    default = Views.for_problem(problem, count).paper
-    papers = (paper,) if paper else PAPERS[PAPERS.index(default) :]
+    default = Views.for_problem(problem, len(asked)).paper
+    papers = (paper_format(paper).name,) if paper else PAPERS[PAPERS.index(default) :]
     for name in papers:
-        views = Views.for_paper(paper_format(name).name, count)
+        views = Views.for_paper(name, len(asked))
         solution = Solution(problem, positions=asked, ruler=ruler, views=views)
-        sheets = []
-        for page, indices in enumerate(pages, 1):
-            texts = stamp_fields(problem, page, len(pages), fields or {})
-            sheet = _compose(solution, indices, paper_format(name).name, texts)
-            if sheet is None:
-                break
-            sheets.append(sheet)
-        else:
-            return sheets
-    raise LayoutError(
-        f"{problem.name}: the views do not fit {papers[-1]} with the scales of the file. "
-        "Take coarser scales in [scales], or leave them out."
+        verify(solution)
+        for per_sheet in PER_SHEET if len(asked) > 1 else (1,):
+            sheets = _pages(solution, name, per_sheet, fields or {})
+            if sheets is not None:
+                return sheets
+    scales = problem.scales
+    given = any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
+    advice = (
+        "Take coarser scales in [scales], or leave them out"
+        if given
+        else (f"Take a larger format: one of {', '.join(PAPERS)}")
     )
+    raise LayoutError(f"{problem.name}: the views do not fit {papers[-1]}. {advice}.")
