@@ -64,11 +64,13 @@ def is_nothing(value: float, peak: float) -> bool:
 def alike(values: Sequence[float], digits: int = 4) -> list[str]:
     """Return the numbers of one column with a common number of decimals.
 
-    The largest has so many significant digits; zeros are a plain 0.
+    The largest has so many significant digits; zeros are a plain 0. Where that would leave small
+    values without digits of their own, each number keeps its own decimals.
     """
-    largest = max((abs(value) for value in values), default=0.0)
+    sizes = sorted(abs(value) for value in values if value)
+    largest = sizes[-1] if sizes else 0.0
     model = significant(largest, digits)
-    if "e" in model or len(values) == 1:
+    if "e" in model or len(sizes) < 2 or largest > 30 * sizes[len(sizes) // 2]:
         return [significant(value, digits) for value in values]
     decimals = len(model.partition(".")[2])
     return [f"{value:.{decimals}f}" if value else "0" for value in values]

@@ -52,10 +52,17 @@ class Views:
 
     @classmethod
     def for_problem(cls, problem: Problem, positions: int) -> Views:
-        """Return the boxes of the smallest format that suits a mechanism."""
+        """Return the boxes of the format that a sheet is tried on first.
+
+        With the scales of the file a three-link mechanism may do with A3; chosen scales take A2, so
+        that plans are large enough to measure and their formulas stand beside them.
+        """
         if positions > 1:
             return cls.for_paper("A1", positions)
-        return cls.for_paper("A3" if len(problem.mechanism.links) <= 3 else "A2", 1)
+        scales = problem.scales
+        given = None not in (scales.mu_l, scales.mu_v, scales.mu_a)
+        small = given and len(problem.mechanism.links) <= 3
+        return cls.for_paper("A3" if small else "A2", 1)
 
 
 AS_HIGH = {"A4x3": "A3", "A4x4": "A3", "A3x3": "A2", "A2x3": "A1", "A1x3": "A0"}
