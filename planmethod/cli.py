@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import gc
+import io
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -29,88 +30,72 @@ MANY = 6
 """Problems from which a command shows how far it is."""
 
 
-class Positions(click.ParamType[tuple[float, ...]]):
-    """Driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
-
-    name = "positions"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, ...]:
-        """Return the positions as numbers."""
-        if isinstance(value, tuple):
-            return value
-        result: list[float] = []
-        for part in str(value).split(","):
-            try:
-                numbers = [float(number) for number in part.split(":")]
-            except ValueError:
-                self.fail(f"{part!r} is not a number nor from:to:step", param, ctx)
-            result += self._expanded(numbers, part, param, ctx)
-            if len(result) > MOST_POSITIONS:
-                self.fail(f"more than {MOST_POSITIONS} positions", param, ctx)
-        return tuple(result)
-
-    def _expanded(
-        self,
-        numbers: list[float],
-        part: str,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> list[float]:
-        if not all(abs(number) < 1e9 for number in numbers):
-            self.fail(f"{part!r} is out of range: below 1e9 is expected", param, ctx)
-        if len(numbers) == 1:
-            return numbers
-        if len(numbers) != 3 or numbers[2] == 0:
-            self.fail(f"{part!r} is not from:to:step with a step that is not 0", param, ctx)
-        start, stop, step = numbers
-        count = (stop - start) / step
-        if count <= 0 or count > MOST_POSITIONS:
-            self.fail(f"{part!r} gives {max(0, round(count))} positions", param, ctx)
-        whole = (
-            round(count) if abs(count - round(count)) < 1e-9 * max(1.0, count) else int(count) + 1
-        )
-        return [start + step * k for k in range(whole)]
+def read_positions(
+    ctx: click.Context, param: click.Parameter, value: str | None
+) -> tuple[float, ...] | None:
+    """Return driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
+    if value is None:
+        return None
+    result: list[float] = []
+    for part in value.split(","):
+        try:
+            numbers = [float(number) for number in part.split(":")]
+        except ValueError:
+            raise click.BadParameter(f"{part!r} is not a number nor from:to:step") from None
+        result += _expanded(numbers, part)
+        if len(result) > MOST_POSITIONS:
+            raise click.BadParameter(f"more than {MOST_POSITIONS} positions")
+    return tuple(result)
 
 
-class Formats(click.ParamType[tuple[str, ...]]):
-    """Output formats separated by commas."""
-
-    name = "formats"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, ...]:
-        """Return the formats, each known."""
-        if isinstance(value, tuple):
-            return value
-        from planmethod.render.backends import BACKENDS
-
-        names = tuple(dict.fromkeys(n.strip().lower() for n in str(value).split(",") if n.strip()))
-        for name in names:
-            if name not in BACKENDS:
-                self.fail(f"{name!r} is not one of {', '.join(BACKENDS)}", param, ctx)
-        if not names:
-            self.fail(f"no format given; choose from {', '.join(BACKENDS)}", param, ctx)
-        return names
+def _expanded(numbers: list[float], part: str) -> list[float]:
+    """Return the positions of one part of ``--phi``."""
+    if not all(abs(number) < 1e9 for number in numbers):
+        raise click.BadParameter(f"{part!r} is out of range: below 1e9 is expected")
+    if len(numbers) == 1:
+        return numbers
+    if len(numbers) != 3 or numbers[2] == 0:
+        raise click.BadParameter(f"{part!r} is not from:to:step with a step that is not 0")
+    start, stop, step = numbers
+    count = (stop - start) / step
+    if count <= 0 or count > MOST_POSITIONS:
+        raise click.BadParameter(f"{part!r} gives {max(0, round(count))} positions")
+    near = round(count)
+    whole = near if abs(count - near) < 1e-9 * max(1.0, count) else int(count) + 1
+    return [start + step * k for k in range(whole)]
 
 
-class Field(click.ParamType[tuple[str, str]]):
-    """Field of the title block: ``author=Иванов``."""
+def read_ruler(ctx: click.Context, param: click.Parameter, value: float) -> float:
+    """Return the ruler step, which is a number."""
+    if value != value:  # NaN passes every range
+        raise click.BadParameter("nan is not a step of a ruler")
+    return value
 
-    name = "key=text"
 
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, str]:
-        """Return key and text."""
-        if isinstance(value, tuple):
-            return value[0], value[1]
-        key, sign, text = str(value).partition("=")
+def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
+    """Return the output formats of a list with commas, each known."""
+    from planmethod.render.backends import BACKENDS
+
+    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
+    for name in names:
+        if name not in BACKENDS:
+            raise click.BadParameter(f"{name!r} is not one of {', '.join(BACKENDS)}")
+    if not names:
+        raise click.BadParameter(f"no format given; choose from {', '.join(BACKENDS)}")
+    return names
+
+
+def read_fields(
+    ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
+) -> dict[str, str]:
+    """Return the fields of the title block given as ``author=Иванов``."""
+    fields = {}
+    for field in value:
+        key, sign, text = field.partition("=")
         if not sign or not key.strip():
-            self.fail(f"{value!r} is not key=text, such as author=Иванов", param, ctx)
-        return key.strip(), text.strip()
+            raise click.BadParameter(f"{field!r} is not key=text, such as author=Иванов")
+        fields[key.strip()] = text.strip()
+    return fields
 
 
 def _fail(error: PlanMethodError) -> None:
@@ -139,7 +124,7 @@ def problem_options(command: F) -> F:
             nargs=-1,
             required=True,
             metavar="PROBLEM...",
-            type=click.Path(path_type=Path),
+            type=click.Path(path_type=Path, readable=False),
         ),
         click.option("--variant", metavar="NAME", help="Variant of the problem file."),
         click.option("--all-variants", is_flag=True, help="Every variant of the problem file."),
@@ -153,6 +138,7 @@ def ruler_option(command: F) -> F:
     return click.option(
         "--ruler",
         type=click.FloatRange(min=0.0, min_open=True, max=50.0),
+        callback=read_ruler,
         default=0.5,
         show_default=True,
         help="Ruler step with which the plans are read, mm.",
@@ -163,7 +149,8 @@ def reading_options(command: F) -> F:
     """Add the options that say where and how the plans are read."""
     return click.option(
         "--phi",
-        type=Positions(),
+        callback=read_positions,
+        metavar="POSITIONS",
         help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30.",
     )(ruler_option(command))
 
@@ -231,11 +218,13 @@ def _stem(problem: Problem) -> str:
 
 
 def _solve(problem: Problem, phi: tuple[float, ...] | None, ruler: float) -> Solution:
-    from planmethod.plans.selfcheck import verify
+    from planmethod.plans.selfcheck import verify, warnings
     from planmethod.plans.solution import Solution
 
     solution = Solution(problem, positions=phi, ruler=ruler)
     verify(solution)
+    for said in warnings(solution):
+        click.echo(f"Warning: {problem.name}: {said}", err=True)
     return solution
 
 
@@ -250,10 +239,21 @@ def cli() -> None:
 @reading_options
 @out_option
 @click.option(
-    "--format", "formats", type=Formats(), default="svg,pdf", show_default=True, help="svg,pdf,png."
+    "--format",
+    "formats",
+    callback=read_formats,
+    default="svg,pdf",
+    show_default=True,
+    help="svg,pdf,png.",
 )
 @click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
-@click.option("--stamp", "stamp", type=Field(), multiple=True, help="Field of the title block.")
+@click.option(
+    "--stamp",
+    callback=read_fields,
+    multiple=True,
+    metavar="KEY=TEXT",
+    help="Field of the title block.",
+)
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @guarded
 def sheet(
@@ -265,17 +265,15 @@ def sheet(
     out: Path,
     formats: tuple[str, ...],
     paper: str | None,
-    stamp: tuple[tuple[str, str], ...],
+    stamp: dict[str, str],
     dpi: int,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
     def draw(problem: Problem) -> None:
-        drawings = kinematics_sheets(
-            problem, paper=paper, positions=phi, ruler=ruler, fields=dict(stamp)
-        )
-        _write(drawings, out, _stem(problem), formats, dpi, dict(stamp).get("author"))
+        drawings = kinematics_sheets(problem, paper=paper, positions=phi, ruler=ruler, fields=stamp)
+        _write(drawings, out, _stem(problem), formats, dpi, stamp.get("author"))
 
     _each(problems, variant, all_variants, draw)
 
@@ -303,6 +301,7 @@ def _write(
     }
     for path, data in files.items():
         write(path, data)
+    for path in files:
         click.echo(str(path))
 
 
@@ -333,7 +332,7 @@ def solve(
     """Compute positions, velocities, accelerations and the plans' segments."""
     if as_json and csv_file is not None:
         raise click.UsageError("give --json or --csv, not both")
-    if csv_file is not None and csv_file.endswith(".toml"):
+    if csv_file is not None and csv_file.lower().endswith(".toml"):
         raise click.UsageError(f"--csv would write over the problem file {csv_file}; put it last")
     records: list[dict[str, Any]] = []
     tables: list[tuple[Problem, list[str], list[list[Any]]]] = []
@@ -361,7 +360,7 @@ def solve(
             import json
 
             whole: Any = records[0] if len(records) == 1 else records
-            click.echo(json.dumps(whole, ensure_ascii=False, allow_nan=False))
+            click.echo(json.dumps(whole, ensure_ascii=_is_narrow(), allow_nan=False))
         if tables:
             _put(_csv(tables), csv_file)
 
@@ -372,7 +371,6 @@ def _csv(tables: list[tuple[Problem, list[str], list[list[Any]]]]) -> str:
     A solution with other columns than the one before it begins with a header of its own.
     """
     import csv
-    import io
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -402,11 +400,22 @@ def _put(text: str, file: str | None) -> None:
 @out_option
 @click.option("--json", "as_json", is_flag=True, help="The analysis as one object.")
 @click.option(
-    "--format", "formats", type=Formats(), default="svg", show_default=True, help="svg,pdf,png."
+    "--format",
+    "formats",
+    callback=read_formats,
+    default="svg",
+    show_default=True,
+    help="svg,pdf,png.",
 )
 @click.option("--no-drawing", is_flag=True, help="Text only.")
 @click.option("--paper", metavar="FORMAT", help="A3, A2...; chosen to fit when absent.")
-@click.option("--stamp", "stamp", type=Field(), multiple=True, help="Field of the title block.")
+@click.option(
+    "--stamp",
+    callback=read_fields,
+    multiple=True,
+    metavar="KEY=TEXT",
+    help="Field of the title block.",
+)
 @click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)
 @guarded
 def structure(
@@ -418,7 +427,7 @@ def structure(
     formats: tuple[str, ...],
     no_drawing: bool,
     paper: str | None,
-    stamp: tuple[tuple[str, str], ...],
+    stamp: dict[str, str],
     lang: str,
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
@@ -432,9 +441,8 @@ def structure(
             from planmethod.note.record import structure_record
 
             head = {"schema": 1, "problem": problem.name}
-            click.echo(
-                json.dumps({**head, "structure": structure_record(found)}, ensure_ascii=False)
-            )
+            whole = {**head, "structure": structure_record(found)}
+            click.echo(json.dumps(whole, ensure_ascii=_is_narrow()))
             return
         from planmethod.note.structure_text import structure_text
 
@@ -442,7 +450,7 @@ def structure(
         if not no_drawing:
             from planmethod.render.sheets.structure import structure_sheet
 
-            drawing = structure_sheet(problem, found, paper=paper, fields=dict(stamp))
+            drawing = structure_sheet(problem, found, paper=paper, fields=stamp)
             _write([drawing], out, f"{_stem(problem)}-structure", formats, 100, None)
 
     _each(problems, variant, all_variants, show)
@@ -508,7 +516,7 @@ def audit(
     from planmethod.note.audit import audit as examine
     from planmethod.note.audit_table import Document
 
-    if file is not None and file.endswith(".toml"):
+    if file is not None and file.lower().endswith(".toml"):
         raise click.UsageError(f"-o would write over the problem file {file}; name another one")
     audits: list[tuple[Problem, Any]] = []
 
@@ -552,14 +560,25 @@ def new(family: str | None, file: Path | None, show: bool, force: bool) -> None:
     click.echo(str(path))
 
 
+def _is_narrow() -> bool:
+    """Tell whether the terminal's encoding has only some of the letters."""
+    return not (sys.stdout.encoding or "").lower().startswith("utf")
+
+
 def main() -> None:
     """Run the command line; no traceback reaches a user."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
     # A command lives a fraction of a second and makes few cycles: looking for them is a twentieth.
     gc.set_threshold(100_000)
     try:
         cli()
     except BrokenPipeError:
         sys.exit(ExitCode.DONE)
+    except OSError as error:
+        click.echo(f"Error: cannot write the output: {error.strerror or error}.", err=True)
+        sys.exit(ExitCode.USAGE)
     except Exception as error:  # the last net
         click.echo(
             f"Error: planmethod failed inside ({type(error).__name__}: {error}). Please report the "

@@ -621,3 +621,59 @@ def test_several_positions_on_every_format(paper: str) -> None:
     done = process("sheet", EX1, "--paper", paper, "--phi", "0,30", "--format", "svg")
     assert "failed inside" not in done.stderr
     assert done.returncode in (0, 2)
+
+
+def test_a_sheet_of_too_many_positions_is_refused_at_once() -> None:
+    result = run("sheet", EX1, "--phi", "0:360:1")
+    assert result.exit_code == 2
+    assert "at most 120 positions, 360 are asked" in result.stderr
+    assert "solve --csv" in result.stderr
+
+
+def test_a_ruler_that_is_not_a_number() -> None:
+    result = run("solve", EX1, "--ruler", "nan")
+    assert result.exit_code == 2
+    assert "nan is not a step of a ruler" in result.stderr
+
+
+def in_encoding(encoding: str, *args: str) -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run(
+        [sys.executable, str(ROOT / "cli.py"), *args],
+        capture_output=True,
+        check=False,
+        env={**os.environ, "PYTHONIOENCODING": encoding, "PYTHONPATH": str(ROOT)},
+    )
+
+
+@pytest.mark.parametrize("encoding", ["cp1251", "cp866", "ascii"])
+def test_consoles_with_few_letters(encoding: str) -> None:
+    for command in (["solve", EX1], ["protocol", EX1], ["structure", EX1, "--no-drawing"]):
+        result = in_encoding(encoding, *command)
+        assert result.returncode == 0, result.stderr
+
+
+def test_json_keeps_its_letters_on_a_narrow_console() -> None:
+    result = in_encoding("ascii", "solve", EX1, "--json")
+    plans = json.loads(result.stdout)["positions"][0]["plans"]
+    assert "π-c" in plans["acceleration"]["segments"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+def test_a_full_device_is_told() -> None:
+    with Path("/dev/full").open("w") as full:
+        result = subprocess.run(
+            [sys.executable, str(ROOT / "cli.py"), "solve", EX1],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert result.returncode == 2
+    assert result.stderr.startswith("Error: cannot write the output: No space left")
+
+
+def test_variants_in_one_csv_tell_themselves_apart() -> None:
+    result = run("solve", VARIANTS, "--all-variants", "--csv")
+    rows = list(csv.DictReader(result.stdout.splitlines()))
+    assert [row["variant"] for row in rows] == ["А", "Б", "В", "Г", "Д", "Е"]
+    assert {row["problem"] for row in rows} == {"task12-variants"}

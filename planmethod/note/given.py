@@ -9,7 +9,7 @@ import numpy as np
 from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import UNITS_RU, russian, trimmed
 from planmethod.plans.solution import Solution
-from planmethod.problem.model import Body, Problem
+from planmethod.problem.model import Body, Problem, Slide
 
 
 def number(value: float) -> str:
@@ -51,6 +51,7 @@ def given(problem: Problem, positions: Sequence[float] | None = None) -> list[st
             lines.append(f"{guide} через {point_name(through)}")
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for slide in problem.slides.values():
+        lines += _carried(problem, slide)
         if slide.offset:
             name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
             lines.append(f"e_{{{name}}} = {number(slide.offset)} м")
@@ -77,7 +78,27 @@ def _distances(body: Body, named: set[str]) -> list[str]:
             if point not in ends and f"{end}{point}" not in named and f"{point}{end}" not in named:
                 metres = abs(body.points[point] - body.points[end])
                 lines.append(f"l_{{{end}{point}}} = {number(metres)} м")
+        if off_axis and body.axis is not None:
+            side = "слева" if body.points[point].imag > 0 else "справа"
+            lines.append(f"{point_name(point)} {side} от {_line(*body.axis)}")
     return lines
+
+
+def _line(start: str, end: str) -> str:
+    return f"{point_name(start)}{point_name(end)}"
+
+
+def _carried(problem: Problem, slide: Slide) -> list[str]:
+    """Return how the line of a moving link lies on it, where two letters do not tell it."""
+    axis = problem.bodies[slide.host].axis
+    if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
+        return []
+    if slide.offset:
+        return [f"∠(направляющая звена {slide.host}, {_line(*axis)}) = {number(slide.angle)}°"]
+    line = _line(slide.through, slide.pin)
+    if slide.angle % 180 == 90:
+        return [f"{line} ⊥ {_line(*axis)}"]
+    return [f"∠({line}, {_line(*axis)}) = {number(slide.angle)}°"] if slide.angle % 180 else []
 
 
 def _coordinates(name: str, place: complex) -> list[str]:

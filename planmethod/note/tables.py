@@ -258,7 +258,7 @@ def csv_rows(solution: Solution) -> tuple[list[str], list[list[float | int]]]:
         for letter, vector in (("v", point.velocity), ("a", point.acceleration)):
             add(f"{name}.{letter}x", vector.real)
             add(f"{name}.{letter}y", vector.imag)
-            add(f"{name}.{letter}", np.asarray(np.abs(vector), dtype=float))
+            add(f"{name}.{letter}", np.array([abs(complex(value)) for value in vector]))
     for name, link in solution.links.items():
         add(f"{name}.phi_deg", link.phi_deg)
         add(f"{name}.omega", link.omega)

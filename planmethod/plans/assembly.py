@@ -79,7 +79,18 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
             continue
         both = [_try(problem, done, {**choice, group.links: sign}, positions) for sign in (1, -1)]
         if mine:
-            choice[group.links] = _judge(problem, mine[0], both, positions)
+            signs = [_judge(problem, rule, both, positions) for rule in mine]
+            choice[group.links] = signs[0]
+            faults += [
+                Fault(
+                    f"assembly.{rule.point}",
+                    f"'{_said(rule)}' and '{_said(mine[0])}' ask for different closings of links "
+                    f"{', '.join(group.links)}",
+                    "Keep the one that is meant",
+                )
+                for rule, sign in zip(mine, signs, strict=True)
+                if sign != signs[0]
+            ]
         elif group.signature == "RPR":
             choice[group.links] = 1
         else:
@@ -91,7 +102,7 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
                 Fault(
                     f"assembly.{rule.point}",
                     f"{rule.point} belongs to the frame or to the driving link: it has one place",
-                    "Name a point that a group places, such as the inner joint of two links",
+                    "Delete the rule, or name a point that a group places",
                 )
             )
     if faults:
@@ -159,10 +170,19 @@ def _judge(
     if not able.size:
         draft, program, trace = both[0]
         raise AssemblyError(explain(problem, draft, program, trace, positions, unit_scales=True))
-    first = int(able[0])
-    plus, minus = float(scores[0][first]), float(scores[1][first])
-    size = max(abs(point) for point in _places(problem, both, first))
     name = "phi" if problem.drive.is_crank else "s"
+    size = max(abs(point) for point in _places(problem, both, int(able[0])))
+    apart = abs(_at(both[0][2], rule.point, positions) - _at(both[1][2], rule.point, positions))
+    # A dead position tells the closings of nothing: the next one that is asked does.
+    distinct = able[apart[able] > TIE * size]
+    if not distinct.size:
+        raise AssemblyError(
+            f"{problem.name}: at {name} = {positions[able[0]]:g} both closings put {rule.point} at "
+            "one place: the mechanism stands in a dead position, from which it may go on either "
+            "way. Ask another position."
+        )
+    first = int(distinct[0])
+    plus, minus = float(scores[0][first]), float(scores[1][first])
     where = f"{name} = {positions[first]:g}"
     said = _said(rule)
     if abs(plus - minus) <= TIE * size:
@@ -184,6 +204,11 @@ def _judge(
             f"{-minus:.6g} m. Check the lengths or the rule assembly.{rule.point}."
         )
     return sign
+
+
+def _at(trace: Trace, point: str, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
+    place = np.asarray(trace.value[PointName(point)], dtype=complex)
+    return np.asarray(np.broadcast_to(place, positions.shape), dtype=complex)
 
 
 def _places(

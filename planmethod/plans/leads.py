@@ -156,13 +156,14 @@ def track_note(slide: Slide, problem: Problem, *, turned: bool = False) -> str:
         return f"{along} {slide.label}"
     if slide.towards is not None and slide.offset:
         return f"{along} {mark(slide.through, slide.towards)}"
-    if not slide.offset:
+    if not slide.offset or axis is None:
         return f"{along} {mark(slide.through, slide.pin)}"
     if axis is not None and slide.angle % 180 == 0:
         return f"{along} {mark(*axis)}"
     if axis is not None and slide.angle % 180 == 90:
         return f"{across} {mark(*axis)}"
-    return f"{along} {mark(slide.through)}–{mark(slide.through)}"
+    angle = slide.angle + (90.0 if turned else 0.0)
+    return f"∠ {(angle + 90.0) % 180.0 - 90.0:.4g}° {mark(*axis)}"
 
 
 def prismatic_ray(

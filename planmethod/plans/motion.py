@@ -23,8 +23,13 @@ SCALE = {PlanKind.VELOCITY: "mu_v", PlanKind.ACCELERATION: "mu_a"}
 
 
 def letter(point: str) -> str:
-    """Return the plan's letter of a mechanism point in rich text: B3 gives ``b_{3}``."""
+    """Return the plan's letter of a mechanism point in rich text: B3 gives ``b_{3}``.
+
+    A point P (or Π) would have the pole's letter: it keeps its own as an index, ``p_{P}``.
+    """
     head, tail = point[:1].lower(), point[1:]
+    if head in "pπ" and not tail:
+        return f"{head}_{{{point}}}"
     return f"{head}_{{{tail}}}" if tail else head
 
 

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from planmethod.construct.steps import PointName
-from planmethod.errors import PlanMethodError
+from planmethod.construct.steps import MeetCircles, MeetLineCircle, PointName, Touch
+from planmethod.errors import AssemblyError, PlanMethodError
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.solution import Complexes, Reals, Solution
+
+DOUBTFUL = 1e-6
+"""Estimated relative error of accelerations from which a warning is given."""
+
+SPOILT = 1e-2
+"""Estimated relative error of accelerations from which a result is refused."""
 
 LIMIT = 1e-7
 """Largest closing error, as a share of the largest value of its kind in the position."""
@@ -15,6 +21,53 @@ LIMIT = 1e-7
 
 class SelfCheckError(PlanMethodError):
     """The plans of a solution contradict each other: a mistake of ours (exit code 5)."""
+
+
+def doubt(solution: Solution) -> Reals:
+    """Return an estimate of the relative error of the accelerations, ndarray of shape (n,).
+
+    Two lines that meet at a small angle magnify rounding: the sine of the least angle of all steps
+    spoils places once, velocities twice, accelerations three times. Arcs meet at an angle whose
+    sine is the root of their margin.
+    """
+    sines = [np.ones(solution.positions.shape)]
+    arcs = {
+        step.out
+        for step in solution.construction.program.steps
+        if isinstance(step, MeetCircles | MeetLineCircle | Touch)
+    }
+    for name, margin in solution.si.margin.items():
+        value = np.maximum(np.asarray(margin, dtype=float), 0.0)
+        sine = np.sqrt(value) if name in arcs else value
+        sines.append(np.broadcast_to(sine, solution.positions.shape))
+    least = np.maximum(np.min(sines, axis=0), 1e-100)
+    return np.asarray(np.finfo(float).eps / least**3, dtype=float)
+
+
+def warnings(solution: Solution) -> list[str]:
+    """Return what a user should know of the accuracy, a sentence for each doubtful position."""
+    estimate = doubt(solution)
+    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
+    return [
+        f"position {i + 1} ({name} = {solution.positions[i]:.10g} {unit}) is next to a dead "
+        f"position (margin {solution.margin[i]:.1e}): the accelerations are good to about "
+        f"{estimate[i]:.0e} of their value."
+        for i in np.flatnonzero(estimate > DOUBTFUL)
+    ]
+
+
+def _refuse_spoilt(solution: Solution) -> None:
+    spoilt = np.flatnonzero(doubt(solution) > SPOILT)
+    if not spoilt.size:
+        return
+    i = int(spoilt[0])
+    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
+    more = f" So do {spoilt.size - 1} other positions." if spoilt.size > 1 else ""
+    raise AssemblyError(
+        f"{solution.problem.name}: position {i + 1} ({name} = {solution.positions[i]:.10g} {unit}) "
+        f"stands so near a dead position (margin {solution.margin[i]:.1e}) that rounding spoils "
+        f"the accelerations.{more} Ask a position further away."
+    )
 
 
 def verify(solution: Solution) -> None:
@@ -27,7 +80,10 @@ def verify(solution: Solution) -> None:
     ------
     SelfCheckError
         With the link, the position and the size of the contradiction.
+    AssemblyError
+        When a position is so near a dead one that its accelerations mean nothing.
     """
+    _refuse_spoilt(solution)
     kin = solution.construction.kinematics
     for link, body in solution.problem.bodies.items():
         names = list(body.points)

@@ -48,6 +48,7 @@ def join(
     if complete:
         _check_reach(faults, links, revolutes, prismatics, driver)
     _check_coincident(faults, members, prismatics)
+    _check_letters(faults, members)
     return Mechanism(tuple(links), revolutes, prismatics, driver)
 
 
@@ -145,4 +146,18 @@ def _check_coincident(
                 f"the point of link {slide.host} under the pin {slide.pin} is called {name}, "
                 "and another point has this name",
                 f"Rename the point {name}.",
+            )
+
+
+def _check_letters(faults: Faults, points: Iterable[str]) -> None:
+    """Refuse points that differ in case only: on the plans both have the same small letter."""
+    seen: dict[str, str] = {}
+    for point in points:
+        twin = seen.setdefault(point.casefold(), point)
+        if twin != point:
+            faults.add(
+                "links",
+                f"the points {twin} and {point} differ in case only: on the plans both are "
+                f"{point.lower()}",
+                f"Rename the point {point}.",
             )

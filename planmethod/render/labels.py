@@ -300,10 +300,8 @@ class _Field:
         """Place one label at its cheapest candidate; look further away when all are taken."""
         best, cost = self._cheapest(candidates, static)
         if cost >= _CROSSING:
-            wider = [_rings(candidates.label, _FAR_RINGS, _FAR_ANGLES)]
-            if cost >= _FORBIDDEN:
-                wider.append(self._everywhere(candidates.label))
-            for further in wider:
+            for places in (self._far, self._everywhere):
+                further = places(candidates.label)
                 found, its_cost = self._cheapest(further, self.static_costs([further])[0])
                 if its_cost < cost:
                     candidates, best, cost = further, found, its_cost
@@ -349,6 +347,10 @@ class _Field:
             # A leader through a label is bad, a label on a label worse.
             costs[k] += _FORBIDDEN / 2 * float(np.any(_inside(segment, spaced) >= 0))
         return costs
+
+    def _far(self, label: Label) -> _Candidates:
+        """Places further away, with a leader line."""
+        return _rings(label, _FAR_RINGS, _FAR_ANGLES)
 
     def _everywhere(self, label: Label) -> _Candidates:
         """Places all over the bounds: the last resort of a crowded drawing."""

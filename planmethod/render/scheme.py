@@ -438,11 +438,11 @@ def ghost(solution: Solution, index: int, letter_height: float) -> list[Item]:
 
 @lru_cache(maxsize=64)
 def scheme_picture(
-    solution: Solution, index: int, *, letter_height: float = 5.0, overlay: bool = False
+    solution: Solution, index: int, *, letter_height: float = 5.0, overlay: tuple[int, ...] = ()
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
-    With ``overlay`` the other positions are there in pale lines, the driver's pin numbered.
+    The positions of ``overlay`` are there in pale lines, the driver's pin numbered.
     """
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
@@ -451,11 +451,10 @@ def scheme_picture(
     scheme.letter_links()
     scheme.draw_angle()
     ghosts: list[Item] = []
-    if overlay:
-        for other in range(len(solution.positions)):
-            if other != index:
-                ghosts += ghost(solution, other, letter_height)
-        scheme.labels += _numbers(solution, letter_height)
+    for other in overlay:
+        if other != index:
+            ghosts += ghost(solution, other, letter_height)
+    scheme.labels += _numbers(solution, letter_height, overlay)
     items = [
         *ghosts,
         *scheme.guides,
@@ -468,7 +467,7 @@ def scheme_picture(
     return lettered(items, scheme.labels)
 
 
-def _numbers(solution: Solution, letter_height: float) -> list[Label]:
+def _numbers(solution: Solution, letter_height: float, overlay: tuple[int, ...]) -> list[Label]:
     """Return the numbers of the positions at the driver's pin."""
     drive = solution.problem.drive
     if drive.pivot is None:
@@ -486,4 +485,5 @@ def _numbers(solution: Solution, letter_height: float) -> list[Label]:
             name=f"position {number}",
         )
         for number, place in enumerate(places)
+        if number in overlay
     ]

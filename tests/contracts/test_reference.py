@@ -239,12 +239,3 @@ def test_variants_say_their_name() -> None:
     records = json.loads(run.stdout)
     asked = {r["variant"]: r["positions"][0]["phi_deg"] for r in records}
     assert asked == {"А": 60.0, "Б": 120.0, "В": 240.0, "Г": 300.0, "Д": 150.0, "Е": 30.0}
-
-
-@pytest.mark.xfail(strict=True, reason="the record has no sigma yet: drafting errors come later")
-@pytest.mark.parametrize("name", SIX)
-def test_every_segment_has_its_drafting_error(name: str) -> None:
-    for plan in position(name)["plans"].values():
-        for values in plan["segments"].values():
-            assert set(values) == {"exact", "read", "sigma"}
-            assert values["sigma"] >= 0

@@ -214,7 +214,7 @@ def test_points_of_the_frame_and_the_driver_have_one_place(point: str, other: st
     (fault,) = faulty(replace(four_bar('C = "above D"'), assembly=rules))
     assert fault == (
         f"assembly.{point}: {point} belongs to the frame or to the driving link: it has one place. "
-        "Name a point that a group places, such as the inner joint of two links"
+        "Delete the rule, or name a point that a group places"
     )
 
 

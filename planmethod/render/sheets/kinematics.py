@@ -37,6 +37,9 @@ from planmethod.render.typeset import typeset
 PER_SHEET = (12, 6, 4, 2, 1)
 """Positions on one sheet: as many as fit; the others go on further sheets."""
 
+MOST_POSITIONS = 120
+"""Most positions drawn in one call: ten sheets of a dozen plans."""
+
 PAPERS = ("A3", "A2", "A1", "A0")
 """Formats tried in turn when none is asked for."""
 
@@ -251,7 +254,7 @@ def _blocks(
         ]
     # The bold position is the one furthest from a dead position.
     bold = max(indices, key=lambda i: float(solution.margin[i]))
-    scheme = scheme_picture(solution, bold, letter_height=size.letter, overlay=True)
+    scheme = scheme_picture(solution, bold, letter_height=size.letter, overlay=tuple(indices))
     return [
         _view(solution, PlanKind.POSITION, scheme, size, MANY_TITLES[PlanKind.POSITION]),
         statement,
@@ -341,6 +344,11 @@ def kinematics_sheets(
         When the blocks fit no format, or not the asked one.
     """
     asked = problem.drive.positions if positions is None else tuple(positions)
+    if len(asked) > MOST_POSITIONS:
+        raise LayoutError(
+            f"{problem.name}: sheets are drawn for at most {MOST_POSITIONS} positions, "
+            f"{len(asked)} are asked. Ask fewer (--phi 0:360:30); for tables take solve --csv."
+        )
     default = Views.for_problem(problem, len(asked)).paper
     papers = (paper_format(paper).name,) if paper else PAPERS[PAPERS.index(default) :]
     for name in papers:

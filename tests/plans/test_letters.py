@@ -1,0 +1,25 @@
+"""Letters of the plans: what a point is called there."""
+
+from __future__ import annotations
+
+from worked import path_of
+
+from planmethod.note.record import record
+from planmethod.plans.motion import letter, mark
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+
+
+def test_points_have_small_letters_and_their_indices() -> None:
+    assert letter("B") == "b"
+    assert letter("S2") == "s_{2}"
+    assert mark("O3", "A") == "O_{3}A"
+
+
+def test_a_point_p_does_not_take_the_letter_of_the_pole() -> None:
+    text = path_of("linkages/ex1").read_text("utf-8")
+    text = text.partition("[published")[0].replace('"D"', '"P"').replace("\nD =", "\nP =")
+    solution = Solution(loads(text, name="p"))
+    (position,) = record(solution)["positions"]
+    segments = position["plans"]["velocity"]["segments"]
+    assert set(segments) == {"p-b", "b-c", "p-c", "p-pP"}
