@@ -32,8 +32,8 @@ tables: $(VENV)/.ready
 
 # The pictures of the documentation; the resolutions keep each below 150 kB.
 gallery: $(VENV)/.ready
-	$(BIN)/planmethod sheet --format png --dpi 40 -o docs/gallery problems/linkages/ex3.toml problems/levers/task12.toml
-	$(BIN)/planmethod sheet --format png --dpi 56 -o docs/gallery problems/linkages/ex1.toml
+	$(BIN)/planmethod sheet --format png --dpi 70 -o docs/gallery problems/linkages/ex3.toml problems/levers/task12.toml
+	$(BIN)/planmethod sheet --format png --dpi 90 -o docs/gallery problems/linkages/ex1.toml
 
 clean:
 	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png

@@ -12,9 +12,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
-from matplotlib.image import imsave
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from planmethod.errors import OutputError
 from planmethod.render.backends.canvas import Options
@@ -104,10 +105,18 @@ class PngCanvas:
 
     def close(self) -> bytes:
         """Return the file."""
+        properties = PngInfo()
+        for key, text in (
+            ("Title", self._title),
+            ("Author", self._author),
+            ("Software", "planmethod"),
+        ):
+            properties.add_text(key, text)
+        # The drawing is black on white: one channel of four says it all.
+        grey = np.ascontiguousarray(np.asarray(self._agg.buffer_rgba())[..., 0])
         file = BytesIO()
-        properties = {"Title": self._title, "Author": self._author, "Software": "planmethod"}
-        pixels = np.asarray(self._agg.buffer_rgba())
-        imsave(file, pixels, format="png", dpi=self._dpi, metadata=properties)
+        dots = (self._dpi, self._dpi)
+        Image.fromarray(grey).save(file, "png", dpi=dots, pnginfo=properties, optimize=True)
         return file.getvalue()
 
 
