@@ -341,11 +341,13 @@ class _Field:
             costs += np.where(_inside(segment, grown) >= 0, _FORBIDDEN, 0.0)
         starts, ends = _leader_ends(candidates)
         long = np.flatnonzero(np.abs(ends - starts) > self.leader_from)
-        for k in long:
-            segment = np.broadcast_to(_as_segments(starts[[k]], ends[[k]]), (len(others), 2, 2))
+        if len(long):
+            segments = _as_segments(starts[long], ends[long])
             spaced = others + np.array([-_CLEAR, -_CLEAR, _CLEAR, _CLEAR]) / 2
+            met = _inside(np.repeat(segments, len(spaced), axis=0), np.tile(spaced, (len(long), 1)))
+            through = np.any(met.reshape(len(long), len(spaced)) >= 0, axis=1)
             # A leader through a label is bad, a label on a label worse.
-            costs[k] += _FORBIDDEN / 2 * float(np.any(_inside(segment, spaced) >= 0))
+            costs[long] += _FORBIDDEN / 2 * through
         return costs
 
     def _far(self, label: Label) -> _Candidates:

@@ -125,14 +125,13 @@ class SvgCanvas:
         self._add(group, element, item.tag)
 
     def text(self, item: Text) -> None:
-        """Place the outlines of a run; the run itself stays readable as label and title."""
+        """Place the outlines of a run; the run itself stays readable as its label."""
         unit = _number(item.height / LETTERING.cap_height, 9)
         turn = f" rotate({_number(-item.angle, 4)})" if item.angle else ""
         name = _clean(item.text)
         run = self._sheet.g(transform=f"translate({self._xy(item.at)}){turn} scale({unit} -{unit})")
         run["role"] = "img"
         run["aria-label"] = name
-        run.set_desc(title=name)
         pen = 0
         for char in item.text:
             glyph = LETTERING.outline(char)
