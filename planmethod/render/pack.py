@@ -60,7 +60,7 @@ def pack(blocks: Sequence[Block], inner: Bounds, stamp: Bounds) -> list[Item] | 
     last_width, last_height = sizes[-1]
     # The last block and the title block under it are one leaf.
     sizes[-1] = (
-        max(last_width, stamp[2] - stamp[0] - EDGE),
+        max(last_width, min(stamp[2] - stamp[0] - EDGE, room[0])),
         last_height + (stamp[3] - stamp[1]) - EDGE + GAP / 2,
     )
     fitting = [node for node in _cuttings(sizes, room) if _fits(node, room)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -25,10 +26,10 @@ from planmethod.plans.selfcheck import verify
 from planmethod.plans.solution import Reals, Solution
 from planmethod.problem.model import Convention, Problem
 from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
-from planmethod.render.drawing import Drawing
+from planmethod.render.drawing import Bounds, Drawing, Item
 from planmethod.render.equations import equation_block, formula_block
 from planmethod.render.frame import paper_format, sheet_frame
-from planmethod.render.pack import pack
+from planmethod.render.pack import EDGE, pack
 from planmethod.render.planview import plan_picture
 from planmethod.render.scheme import scheme_picture
 from planmethod.render.tables import Cell, TableColumn, table_block
@@ -74,7 +75,7 @@ HEIGHTS = {
 
 NBSP = "\u00a0"
 
-COLUMN_WIDTHS = {"A4": 170.0, "A3": 125.0, "A2": 180.0, "A1": 250.0, "A0": 280.0}
+COLUMN_WIDTHS = {"A4": 82.0, "A3": 125.0, "A2": 180.0, "A1": 250.0, "A0": 280.0}
 """Width that texts and equations are set to, mm."""
 
 
@@ -223,7 +224,7 @@ def _blocks(
     result = table_block(
         result_columns(solution, indices),
         size.text if len(indices) == 1 else min(size.text, 3.5),
-        max_width=max(185.0, 0.58 * inside),
+        max_width=min(max(185.0, 0.58 * inside), inside - 2 * EDGE),
         leading=2 if len(solution.positions) > 1 else 0,
         title="Результаты (точные значения)",
     )
@@ -281,41 +282,66 @@ def stamp_fields(
     return {key: value for key, value in fields.items() if value}
 
 
-def _compose(
-    solution: Solution, indices: Sequence[int], paper: str, fields: Mapping[str, str]
-) -> Drawing | None:
+def _layouts(
+    solution: Solution, indices: Sequence[int], paper: str, *, forced: bool
+) -> list[list[Item]] | None:
+    """Return the items of the sheet that shows some positions, or None when they do not fit.
+
+    The formulas shrink before they are left out. On a format that was asked for one position may
+    take several sheets.
+    """
     fmt = paper_format(paper)
-    items, inner, stamp = sheet_frame(fmt, fields)
-    inside = inner[2] - inner[0]
-    # The formulas shrink before they are left out.
-    for formulas in (3.5, 2.5, None):
+    inside = fmt.inner[2] - fmt.inner[0]
+    tries: list[tuple[int, float | None]] = [(1, 3.5), (1, 2.5), (1, None)]
+    if forced and len(solution.positions) == 1:
+        tries += [(2, 3.5), (2, 2.5), (3, 3.5), (3, 2.5), (3, None), (4, None)]
+    for count, formulas in tries:
         blocks = _blocks(solution, indices, paper, inside, formulas=formulas)
-        packed = pack(blocks, inner, stamp)
-        if packed is not None:
-            break
-    else:
-        return None
-    drawing = Drawing(fmt.width, fmt.height, fields.get("title", solution.problem.title))
-    drawing.extend(items)
-    drawing.extend(packed)
-    return drawing
+        parts = _divided(blocks, count, fmt.inner, fmt.stamp)
+        if parts is not None:
+            return parts
+    return None
+
+
+def _divided(
+    blocks: Sequence[Block], count: int, inner: Bounds, stamp: Bounds
+) -> list[list[Item]] | None:
+    """Return blocks put on so many sheets in reading order, the sheets as evenly full as can be."""
+    areas = [block.width * block.height for block in blocks]
+
+    def fullest(cuts: tuple[int, ...]) -> float:
+        edges = (0, *cuts, len(blocks))
+        return max(sum(areas[i:j]) for i, j in pairwise(edges))
+
+    for cuts in sorted(combinations(range(1, len(blocks)), count - 1), key=fullest):
+        packed = [pack(blocks[i:j], inner, stamp) for i, j in pairwise((0, *cuts, len(blocks)))]
+        if all(part is not None for part in packed):
+            return [part for part in packed if part is not None]
+    return None
 
 
 def _pages(
-    solution: Solution, paper: str, per_sheet: int, extra: Mapping[str, str]
+    solution: Solution, paper: str, per_sheet: int, extra: Mapping[str, str], *, forced: bool
 ) -> list[Drawing] | None:
     """Return the sheets with so many positions on each, or None when one does not fit."""
     count = len(solution.positions)
     if per_sheet > 1 and per_sheet // 2 >= count:
         return None
-    pages = [range(k, min(k + per_sheet, count)) for k in range(0, count, per_sheet)]
-    sheets = []
-    for page, indices in enumerate(pages, 1):
-        texts = stamp_fields(solution.problem, page, len(pages), extra)
-        sheet = _compose(solution, indices, paper, texts)
-        if sheet is None:
+    layouts: list[list[Item]] = []
+    for start in range(0, count, per_sheet):
+        indices = range(start, min(start + per_sheet, count))
+        found = _layouts(solution, indices, paper, forced=forced)
+        if found is None:
             return None
-        sheets.append(sheet)
+        layouts += found
+    fmt = paper_format(paper)
+    sheets = []
+    for page, items in enumerate(layouts, 1):
+        fields = stamp_fields(solution.problem, page, len(layouts), extra)
+        drawing = Drawing(fmt.width, fmt.height, fields.get("title", solution.problem.title))
+        drawing.extend(sheet_frame(fmt, fields)[0])
+        drawing.extend(items)
+        sheets.append(drawing)
     return sheets
 
 
@@ -356,7 +382,7 @@ def kinematics_sheets(
         solution = Solution(problem, positions=asked, ruler=ruler, views=views)
         verify(solution)
         for per_sheet in PER_SHEET if len(asked) > 1 else (1,):
-            sheets = _pages(solution, name, per_sheet, fields or {})
+            sheets = _pages(solution, name, per_sheet, fields or {}, forced=paper is not None)
             if sheets is not None:
                 return sheets
     scales = problem.scales
