@@ -87,6 +87,14 @@ class Calculation:
         first, second = (q, p) if f"{q}{p}" in named else (p, q)
         return f"l_{{{first}{second}}}"
 
+    def _measured_arm(self, arm: str, letters: str, metres: float) -> str:
+        """Return how an arm that no given length tells follows from the drawing."""
+        scale = self.solution.scales[PlanKind.POSITION].per_mm
+        mm, found = _mm(metres / scale), f"{_given(round(metres, 9))} м"
+        if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
+            return f"{arm} = ({letters})/μ_{{l}} = {mm}/{_given(1.0 / scale)} = {found}"
+        return f"{arm} = μ_{{l}}·({letters}) = {_given(scale)}·{mm} = {found}"
+
     def _letters(self, tail: PointName, head: PointName) -> str:
         return segment(self.solution.problem, self.plan, tail, head)
 
@@ -210,10 +218,7 @@ class Calculation:
         given = read.place in self.solution.problem.bodies[link].points
         metres = self._distance(read.place, read.joint)
         if not given and self.kind is PlanKind.VELOCITY:
-            scale = self.solution.scales[PlanKind.POSITION].per_mm
-            mm = f"{_given(scale)}·{_mm(metres / scale)}"
-            ends_named = mark(read.joint, read.place)
-            lines.append(f"{arm} = μ_{{l}}·({ends_named}) = {mm} = {_given(round(metres, 9))} м")
+            lines.append(self._measured_arm(arm, mark(read.joint, read.place), metres))
         if not value:
             lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} = 0")
         else:
