@@ -1,25 +1,19 @@
-"""Kinematic scheme of a mechanism drawn to scale, with its symbols (план положения механизма)."""
+"""Links, sliders and joints of a mechanism drawn to scale with the symbols of kinematic schemes."""
 
 from __future__ import annotations
 
 import cmath
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.note.given import point_name, solution_peak
-from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Slide
-from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.extent import lettered
-from planmethod.render.labels import Label, segment_label
 from planmethod.render.symbols import (
     SIZES,
     angle_of,
@@ -30,10 +24,8 @@ from planmethod.render.symbols import (
     slider,
     stiff_triangle,
     stone,
-    turn_arrow,
     unit,
 )
-from planmethod.render.typeset import typeset
 
 OVERHANG = 5.0
 """How far a bar goes on beyond the stone that slides on it, mm."""
@@ -56,8 +48,7 @@ class Scheme:
     lines: list[Item] = field(default_factory=list)
     corners: list[Item] = field(default_factory=list)
     joints: list[Item] = field(default_factory=list)
-    arrows: list[Item] = field(default_factory=list)
-    labels: list[Label] = field(default_factory=list)
+    named: list[str] = field(default_factory=list)
     segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
     axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
 
@@ -231,21 +222,7 @@ class Scheme:
         )
         self.axis_ends.append((slide.label, start + u * low + offset, start + u * high + offset))
 
-    def letter_axes(self) -> None:
-        """Letter the ends of the guides' axes, but for an end that lies on a link."""
-        for label, low, high in self.axis_ends:
-            names = label.split("-")
-            if len(names) != 2:
-                continue
-            ends = [(names[0], low, low - high), (names[1], high, high - low)]
-            free = [self._clearance(place) for _, place, _ in ends]
-            for (text, place, away), room in zip(ends, free, strict=True):
-                if room > 4.0 or room == max(free):
-                    self.labels.append(
-                        Label(typeset(text, self.letter_height), place, prefer=away, gap=1.0)
-                    )
-
-    def _clearance(self, place: complex) -> float:
+    def clearance(self, place: complex) -> float:
         """Return how far a place is from the nearest link, mm."""
         room = math.inf
         for parts in self.segments.values():
@@ -263,36 +240,39 @@ class Scheme:
     # Joints and inscriptions -----------------------------------------------------------------
 
     def draw_joints(self) -> None:
-        """Draw pivots, joints and the other points of the links, and letter them."""
+        """Draw pivots, joints and the other points of the links."""
         problem = self.solution.problem
         named: set[str] = set()
         for joint in problem.mechanism.revolutes:
             place = self.at(joint.point)
             if joint.links[0] == FRAME:
                 self.joints += fixed_pivot(
-                    place, direction=self._free_direction(place), factor=self.factor
+                    place, direction=self.free_direction(place), factor=self.factor
                 )
             else:
                 self.joints += revolute(place, factor=self.factor, pen=self.pen)
+            for link in joint.links:
+                self._go_through(link, place)
             named.add(joint.point)
         for link, body in problem.bodies.items():
             for point in body.points:
                 if link != FRAME and point not in named:
                     self.joints.append(Disc(self.at(point), 0.8 * self.factor, Ink.BLACK))
                     named.add(point)
-        for point in sorted(named):
-            self.labels.append(
-                Label(
-                    typeset(point_name(point), self.letter_height),
-                    self.at(point),
-                    prefer=self._away(point),
-                    gap=1.5 * self.factor + 1.2,
-                    priority=1,
-                    name=f"point {point}",
-                )
-            )
+        self.named = sorted(named)
 
-    def _directions(self, place: complex) -> list[complex]:
+    def _go_through(self, link: str, place: complex) -> None:
+        """Draw a bar through a joint between its ends: the link is one piece there."""
+        radius = SIZES.joint / 2 * self.factor
+        for start, end in self.segments.get(link, []):
+            along = unit(end - start)
+            part = ((place - start) * along.conjugate()).real
+            off = abs(place - start - along * part)
+            if off < 0.05 and radius < part < abs(end - start) - radius:
+                ends = (place - along * radius, place + along * radius)
+                self.joints.append(Stroke(ends, self.pen, tag=f"link {link}"))
+
+    def directions(self, place: complex) -> list[complex]:
         """Return the directions in which lines leave a place."""
         out = []
         for parts in self.segments.values():
@@ -307,116 +287,16 @@ class Scheme:
                     out += [unit(end - start), unit(start - end)]
         return out
 
-    def _free_direction(self, place: complex) -> complex:
+    def free_direction(self, place: complex) -> complex:
         """Return where a pivot's support disturbs the links least; down if it can be."""
         feet = (0.5 * SIZES.support_height, SIZES.support_height + 2.0)
 
         def room(way: complex) -> float:
-            lines = min([*(abs(cmath.phase(u / way)) for u in self._directions(place)), 1.2])
-            clear = min(self._clearance(place + way * foot * self.factor) for foot in feet)
-            return round(lines / 1.2, 3) + round(min(1.0, clear / (6.0 * self.factor)), 3)
+            lines = min([*(abs(cmath.phase(u / way)) for u in self.directions(place)), 1.2])
+            clear = min(self.clearance(place + way * foot * self.factor) for foot in feet)
+            return round(lines / 1.2, 3) + round(min(1.0, clear / (3.5 * self.factor)), 3)
 
         return max((-1j, 1j, -1 + 0j, 1 + 0j), key=room)
-
-    def _away(self, point: str) -> complex:
-        lines = self._directions(self.at(point))
-        return -sum(lines, 0j) if lines else 1 + 1j
-
-    def letter_links(self) -> None:
-        """Put the links' numbers down, and circular arrows for the senses of omega and epsilon."""
-        small = self.letter_height
-        for link in self.solution.problem.mechanism.links:
-            parts = self.segments.get(link)
-            text = link
-            if parts:
-                start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
-                self.labels.append(segment_label(text, start, end, small, gap=1.2))
-            else:
-                first = next(iter(self.solution.problem.bodies[link].points))
-                self.labels.append(
-                    Label(typeset(text, small), self.at(first), gap=5.5 * self.factor)
-                )
-            self._senses(link)
-
-    def _senses(self, link: str) -> None:
-        motion = self.solution.links[link]
-        problem = self.solution.problem
-        body = problem.bodies[link].points
-        if link in problem.slides and len(body) == 1:
-            return  # the stone turns with the link that it slides on: one arrow for both
-        pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
-        parts = self.segments.get(link)
-        if not parts:
-            return
-        start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
-        if pivot is not None:
-            centre = self.at(pivot)
-            other = end if abs(end - centre) > abs(start - centre) else start
-            radius = max(10.0 * self.factor, min(20.0 * self.factor, 0.6 * abs(other - centre)))
-        else:
-            centre, other, radius = start + 0.4 * (end - start), end, 8.0 * self.factor
-        turn = angle_of(other - centre)
-        for symbol, value, shift in (
-            ("ω", float(motion.omega[self.index]), 0.0),
-            ("ε", float(motion.epsilon[self.index]), 3.5 * self.factor),
-        ):
-            if is_nothing(value, solution_peak(self.solution, symbol)):
-                continue
-            sense = 1 if value > 0 else -1
-            middle, sweep = turn, 70.0
-            arrow = turn_arrow(
-                centre,
-                radius + shift,
-                sense,
-                middle=middle,
-                sweep=sweep,
-                length=3.5 * self.factor,
-                width=1.3 * self.factor,
-                tag=f"{symbol} {link}",
-            )
-            self.arrows += arrow
-            tail = centre + (radius + shift) * cis(middle - sense * sweep / 2)
-            self.labels.append(
-                Label(
-                    typeset(f"{symbol}_{{{link}}}", self.letter_height),
-                    tail,
-                    prefer=tail - centre,
-                    gap=0.8,
-                    name=f"{symbol} {link}",
-                )
-            )
-
-    def draw_angle(self) -> None:
-        """Show the crank's angle phi from the horizontal."""
-        drive = self.solution.problem.drive
-        if drive.pivot is None:
-            return
-        phi = float(self.solution.positions[self.index]) % 360.0
-        if phi < 8 or phi > 352:
-            return
-        centre, radius = self.at(drive.pivot), 6.0 * self.factor + 2
-        support = angle_of(self._free_direction(centre)) % 360.0
-        if support < phi:
-            radius = (SIZES.support_height + SIZES.hatch_stroke + 4.0) * self.factor
-            pins = [self.at(p) for p in self.solution.problem.bodies[drive.link].points]
-            if max(abs(pin - centre) for pin in pins) < radius + 4.0:
-                return  # no room for an arc around the support: the statement tells the angle
-        self.guides.append(Stroke((centre, centre + radius + 6), Pen.THIN, tag="phi"))
-        self.guides += turn_arrow(
-            centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, width=1.0, tag="phi"
-        )
-        self.labels.append(
-            Label(
-                typeset(
-                    f"φ_{{{drive.link}}}",
-                    0.7 * self.letter_height if self.letter_height > 5 else 3.5,
-                ),
-                centre + radius * cis(phi / 2),
-                prefer=cis(phi / 2),
-                gap=1.0,
-                name="phi",
-            )
-        )
 
     def draw(self) -> None:
         """Draw links, sliders and joints."""
@@ -426,64 +306,3 @@ class Scheme:
         # A stone pinned to a slider of the frame lies on it.
         for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
             self.draw_slider(slide)
-
-
-def ghost(solution: Solution, index: int, letter_height: float) -> list[Item]:
-    """Return the mechanism in another position: pale lines only."""
-    scheme = Scheme(solution, index, letter_height, pen=Pen.PALE)
-    for link in solution.problem.mechanism.links:
-        scheme.draw_link(link)
-    return scheme.lines
-
-
-@lru_cache(maxsize=64)
-def scheme_picture(
-    solution: Solution, index: int, *, letter_height: float = 5.0, overlay: tuple[int, ...] = ()
-) -> Picture:
-    """Return the scheme in one position as a picture, mm.
-
-    The positions of ``overlay`` are there in pale lines, the driver's pin numbered.
-    """
-    scheme = Scheme(solution, index, letter_height)
-    scheme.draw()
-    scheme.draw_joints()
-    scheme.letter_axes()
-    scheme.letter_links()
-    scheme.draw_angle()
-    ghosts: list[Item] = []
-    for other in overlay:
-        if other != index:
-            ghosts += ghost(solution, other, letter_height)
-    scheme.labels += _numbers(solution, letter_height, overlay)
-    items = [
-        *ghosts,
-        *scheme.guides,
-        *scheme.bodies,
-        *scheme.lines,
-        *scheme.corners,
-        *scheme.joints,
-        *scheme.arrows,
-    ]
-    return lettered(items, scheme.labels)
-
-
-def _numbers(solution: Solution, letter_height: float, overlay: tuple[int, ...]) -> list[Label]:
-    """Return the numbers of the positions at the driver's pin."""
-    drive = solution.problem.drive
-    if drive.pivot is None:
-        return []
-    body = solution.problem.bodies[drive.link].points
-    pin = next(p for p in body if p != drive.pivot)
-    places = solution.complexes(solution.paper, PointName(pin))
-    centre = complex(solution.complexes(solution.paper, PointName(drive.pivot))[0])
-    return [
-        Label(
-            typeset(str(number), min(letter_height, 3.5)),
-            complex(place),
-            prefer=complex(place) - centre,
-            gap=1.5,
-            name=f"position {number}",
-        )
-        for number, place in enumerate(places)
-        if number in overlay
-    ]

@@ -31,7 +31,7 @@ from planmethod.render.equations import equation_block, formula_block
 from planmethod.render.frame import paper_format, sheet_frame
 from planmethod.render.pack import EDGE, pack
 from planmethod.render.planview import plan_picture
-from planmethod.render.scheme import scheme_picture
+from planmethod.render.schemeview import scheme_picture
 from planmethod.render.tables import Cell, TableColumn, table_block
 from planmethod.render.typeset import typeset
 

@@ -1,0 +1,167 @@
+"""Options of the commands: what they are called and how their values are read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+MOST_POSITIONS = 1_000_000
+"""Most positions that ``--phi`` may ask for."""
+
+
+def read_positions(
+    ctx: click.Context, param: click.Parameter, value: str | None
+) -> tuple[float, ...] | None:
+    """Return driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
+    if value is None:
+        return None
+    result: list[float] = []
+    for part in value.split(","):
+        try:
+            numbers = [float(number) for number in part.split(":")]
+        except ValueError:
+            raise click.BadParameter(f"{part!r} is not a number nor from:to:step") from None
+        result += _expanded(numbers, part)
+        if len(result) > MOST_POSITIONS:
+            raise click.BadParameter(f"more than {MOST_POSITIONS} positions")
+    return tuple(result)
+
+
+def _expanded(numbers: list[float], part: str) -> list[float]:
+    """Return the positions of one part of ``--phi``."""
+    if not all(abs(number) < 1e9 for number in numbers):
+        raise click.BadParameter(f"{part!r} is out of range: below 1e9 is expected")
+    if len(numbers) == 1:
+        return numbers
+    if len(numbers) != 3 or numbers[2] == 0:
+        raise click.BadParameter(f"{part!r} is not from:to:step with a step that is not 0")
+    start, stop, step = numbers
+    count = (stop - start) / step
+    if count <= 0 or count > MOST_POSITIONS:
+        raise click.BadParameter(f"{part!r} gives {max(0, round(count))} positions")
+    near = round(count)
+    whole = near if abs(count - near) < 1e-9 * max(1.0, count) else int(count) + 1
+    return [start + step * k for k in range(whole)]
+
+
+def read_ruler(ctx: click.Context, param: click.Parameter, value: float) -> float:
+    """Return the ruler step, which is a number."""
+    if value != value:  # NaN passes every range
+        raise click.BadParameter("nan is not a step of a ruler")
+    return value
+
+
+def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
+    """Return the output formats of a list with commas, each known."""
+    from planmethod.render.backends import BACKENDS
+
+    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
+    for name in names:
+        if name not in BACKENDS:
+            raise click.BadParameter(f"{name!r} is not one of {', '.join(BACKENDS)}")
+    if not names:
+        raise click.BadParameter(f"no format given; choose from {', '.join(BACKENDS)}")
+    return names
+
+
+def read_fields(
+    ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
+) -> dict[str, str]:
+    """Return the fields of the title block given as ``author=Иванов``."""
+    fields = {}
+    for field in value:
+        key, sign, text = field.partition("=")
+        if not sign or not key.strip():
+            raise click.BadParameter(f"{field!r} is not key=text, such as author=Иванов")
+        fields[key.strip()] = text.strip()
+    return fields
+
+
+def problem_options(command: F) -> F:
+    """Add the options that choose the problems."""
+    for option in (
+        click.argument(
+            "problems",
+            nargs=-1,
+            required=True,
+            metavar="PROBLEM...",
+            type=click.Path(path_type=Path, readable=False),
+        ),
+        click.option("--variant", metavar="NAME", help="Variant of the problem file."),
+        click.option("--all-variants", is_flag=True, help="Every variant of the problem file."),
+    ):
+        command = option(command)
+    return command
+
+
+def ruler_option(command: F) -> F:
+    """Add the ruler of the hand."""
+    return click.option(
+        "--ruler",
+        type=click.FloatRange(min=0.0, min_open=True, max=50.0),
+        callback=read_ruler,
+        default=0.5,
+        show_default=True,
+        help="Ruler step with which the plans are read, mm.",
+    )(command)
+
+
+def reading_options(command: F) -> F:
+    """Add the options that say where and how the plans are read."""
+    return click.option(
+        "--phi",
+        callback=read_positions,
+        metavar="POSITIONS",
+        help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30.",
+    )(ruler_option(command))
+
+
+def out_option(command: F) -> F:
+    """Add the folder that files are written into."""
+    return click.option(
+        "-o",
+        "--out",
+        type=click.Path(path_type=Path, file_okay=False),
+        default=Path("out"),
+        show_default=True,
+        help="Folder for the files.",
+    )(command)
+
+
+def stamp_option(command: F) -> F:
+    """Add the fields of the title block."""
+    return click.option(
+        "--stamp",
+        callback=read_fields,
+        multiple=True,
+        metavar="KEY=TEXT",
+        help="Field of the title block.",
+    )(command)
+
+
+def format_option(default: str) -> Callable[[F], F]:
+    """Add the output formats."""
+
+    def add(command: F) -> F:
+        return click.option(
+            "--format",
+            "formats",
+            callback=read_formats,
+            default=default,
+            show_default=True,
+            help="svg,pdf,png.",
+        )(command)
+
+    return add
+
+
+def lang_option(command: F) -> F:
+    """Add the language of texts."""
+    return click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)(
+        command
+    )
