@@ -34,7 +34,7 @@ def read_source(path: Path) -> str:
     Raises
     ------
     ProblemError
-        The file cannot be read, is too large, or is not UTF-8.
+        The file cannot be read, is too large, or is not UTF-8 (a byte order mark is allowed).
     """
     name = str(path)
     try:
@@ -57,10 +57,8 @@ def read_source(path: Path) -> str:
     for mark, encoding in _BOMS:
         if data.startswith(mark):
             raise _fail(name, f"the file is in {encoding}, expected UTF-8", "Save it as UTF-8.")
-    if data.startswith(b"\xef\xbb\xbf"):
-        raise _fail(name, *_BOM_FAULT)
     try:
-        return data.decode("utf-8")
+        return data.decode("utf-8-sig")  # Notepad's mark at the start says nothing more
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise _fail(
@@ -80,8 +78,7 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
     """
     if len(text.encode("utf-8", "replace")) > SIZE_LIMIT:
         raise _too_large(name)
-    if text.startswith("\ufeff"):
-        raise _fail(name, *_BOM_FAULT)
+    text = _VARIANT_HEADER.sub(_quoted, text.removeprefix("\ufeff"))
     lines = text.split("\n")
     for number, line in enumerate(lines, 1):
         if len(line) > LINE_LIMIT:
@@ -106,10 +103,17 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
     return table
 
 
-_BOM_FAULT = (
-    "the file starts with a byte order mark (BOM)",
-    "Save it as UTF-8 without BOM.",
+_VARIANT_HEADER = re.compile(
+    r"^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)", re.MULTILINE
 )
+
+
+def _quoted(header: re.Match[str]) -> str:
+    """Quote a variant's Russian name: TOML has bare keys of Latin letters only, students do not."""
+    start, name = header.groups()
+    return f"{start}{name}" if name.isascii() else f'{start}"{name}"'
+
+
 _DEPTH_HINT = "A problem file needs no more than links.2.D.at."
 
 

@@ -141,3 +141,8 @@ def test_unknown_variant(asked: str, hint: str) -> None:
 def test_no_variants_at_all() -> None:
     with pytest.raises(ProblemError, match="The file has no variants"):
         read("", "Б")
+
+
+@pytest.mark.parametrize("header", ["[variants.Б]", '[variants."Б"]', "  [ variants . Б ]"])
+def test_a_russian_name_needs_no_quotes(header: str) -> None:
+    assert read(f"{header}\ndriver.phi = 30\n", "Б").drive.positions == (30.0,)
