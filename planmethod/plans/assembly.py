@@ -67,18 +67,18 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
     done: list[AssurGroup] = []
     for group in structure.groups:
         placed = draw_positions(problem, done, choice).points()
-        mine = [
-            rules[point]
-            for link in group.links
-            for point in problem.bodies[link].points
-            if point in rules and point not in placed
-        ]
+        own = {point: None for link in group.links for point in problem.bodies[link].points}
+        mine = [rules[point] for point in own if point in rules and point not in placed]
         used.update(rule.point for rule in mine)
         done.append(group)
         if not has_two_closings(group):
             continue
         both = [_try(problem, done, {**choice, group.links: sign}, positions) for sign in (1, -1)]
-        if mine:
+        late = [_late(rule, both[0][0]) for rule in mine]
+        if any(late):
+            choice[group.links] = 1
+            faults += [fault for fault in late if fault is not None]
+        elif mine:
             signs = [_judge(problem, rule, both, positions) for rule in mine]
             choice[group.links] = signs[0]
             faults += [
@@ -108,6 +108,18 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
     if faults:
         raise ProblemError(problem.name, faults)
     return choice
+
+
+def _late(rule: Rule, draft: Draft) -> Fault | None:
+    """Return the fault of a rule that compares with a point which is placed only later."""
+    missing = [name for name in rule.refs if name not in draft.points()]
+    if not missing:
+        return None
+    return Fault(
+        f"assembly.{rule.point}",
+        f"{' and '.join(missing)} is placed after {rule.point}, so it cannot tell its place",
+        "Compare with a fixed point or with one that an earlier group places",
+    )
 
 
 def _try(
