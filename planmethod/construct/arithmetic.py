@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -14,7 +12,12 @@ Number: TypeAlias = (
 
 
 class Arithmetic(Protocol):
-    """What the evaluator needs beyond operators; one object per number type."""
+    """What the evaluator needs beyond operators; one object per number type.
+
+    The second half is where a pencil and a ruler come in: an exact reading returns what it is
+    given (`Exact`), a draughtsman returns what his hand makes of it. ``out`` is the name of the
+    step, so that he can tell which of his strokes was how good.
+    """
 
     def lift(self, value: Number) -> Number:
         """Turn given data into this number type."""
@@ -24,29 +27,99 @@ class Arithmetic(Protocol):
         """Return the square root, 0 of what is negative."""
         ...
 
-    def where(self, ok: Number, value: Number) -> Number:
-        """Return the value where ``ok``, NaN elsewhere."""
+    def guard(self, margin: Number, limit: float, value: Number) -> Number:
+        """Return the value where ``margin > limit``, NaN elsewhere."""
         ...
 
     def nonzero(self, value: Number) -> Number:
         """Return the value with NaN in place of zero: a divisor."""
         ...
 
-    def pick(self, ok: Number, value: Number, other: Number) -> Number:
-        """Return ``value`` where ``ok``, else ``other``."""
+    def solid(self, length: Number) -> Number:
+        """Return 1 where a length is not zero, else 0: the margin of what needs a direction."""
+        ...
+
+    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
+        """Return ``other`` where ``size`` is zero, else ``value``."""
+        ...
+
+    def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
+        """Return the smaller and the larger of two real numbers."""
         ...
 
     def direction(self, degrees: Number) -> Number:
         """Return the unit complex number at an angle; exact at multiples of 90 degrees."""
         ...
 
-    def ruled(self, length: Number) -> Number:
+    def given(self, out: str, point: Number) -> Number:
+        """Return a given point as it is put on the paper."""
+        ...
+
+    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
+        """Return a line (a point of it, its direction) drawn through two points ``along`` apart."""
+        ...
+
+    def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
+        """Return a line drawn through a point in a direction."""
+        ...
+
+    def arc(self, out: str, centre: Number, radius: Number) -> tuple[Number, Number]:
+        """Return centre and radius of an arc as the compass draws it."""
+        ...
+
+    def pricked(self, out: str, point: Number) -> Number:
+        """Return a point where two lines meet as it is marked."""
+        ...
+
+    def laid(self, out: str, length: Number) -> Number:
+        """Return a length as it is laid off."""
+        ...
+
+    def read(self, out: str, length: Number) -> Number:
         """Return a length as it is read on the drawing, mm."""
         ...
 
-    def reread(self, length: Number) -> Number:
+    def reread(self, out: str, length: Number) -> Number:
         """Return the read length over the true one; 1 for an exact reading."""
         ...
+
+
+class Exact:
+    """The half of an arithmetic that has no pencil: every stroke goes where it is meant to go."""
+
+    __slots__ = ()
+
+    def given(self, out: str, point: Number) -> Number:
+        """Return the point."""
+        return point
+
+    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
+        """Return the line."""
+        return tail, along
+
+    def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
+        """Return the line."""
+        return through, along
+
+    def arc(self, out: str, centre: Number, radius: Number) -> tuple[Number, Number]:
+        """Return centre and radius."""
+        return centre, radius
+
+    def pricked(self, out: str, point: Number) -> Number:
+        """Return the point."""
+        return point
+
+    def laid(self, out: str, length: Number) -> Number:
+        """Return the length."""
+        return length
+
+    def read(self, out: str, length: Number) -> Number:
+        """Return the length."""
+        return length
+
+    def reread(self, out: str, length: Number) -> Number:
+        """Return 1: what is read is exact."""
+        return 1.0
 
 
 def unit_vectors(degrees: Any) -> Any:
@@ -68,9 +141,10 @@ def unit_vectors(degrees: Any) -> Any:
     return turns[quadrant.astype(int)] * (cosine + 1j * sine)
 
 
-@dataclass(frozen=True, slots=True)
-class Float64:
+class Float64(Exact):
     """complex128 arrays, one entry per position: the exact plan."""
+
+    __slots__ = ()
 
     def lift(self, value: Number) -> Number:
         """Turn given data into an array."""
@@ -80,54 +154,30 @@ class Float64:
         """Return the square root, 0 of what is negative."""
         return np.sqrt(np.maximum(value, 0.0))
 
-    def where(self, ok: Number, value: Number) -> Number:
-        """Return the value where ``ok``, NaN elsewhere."""
-        return np.where(ok, value, complex("nan+nanj"))
+    def select(self, ok: Number, value: Number, other: Number) -> Number:
+        """Return ``value`` where ``ok``, else ``other``."""
+        return np.where(ok, value, other)
+
+    def guard(self, margin: Number, limit: float, value: Number) -> Number:
+        """Return the value where ``margin > limit``, NaN elsewhere."""
+        return np.where(margin > limit, value, np.nan * value)
 
     def nonzero(self, value: Number) -> Number:
         """Return the value with NaN in place of zero."""
         return np.where(value == 0, np.nan, value)
 
-    def pick(self, ok: Number, value: Number, other: Number) -> Number:
-        """Return ``value`` where ``ok``, else ``other``."""
-        return np.where(ok, value, other)
+    def solid(self, length: Number) -> Number:
+        """Return 1.0 where a length is not zero, else 0.0."""
+        return np.where(abs(length) > 0, 1.0, 0.0)
+
+    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
+        """Return ``other`` where ``size`` is zero, else ``value``."""
+        return np.where(size == 0, other, value)
+
+    def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
+        """Return the smaller and the larger of two real numbers."""
+        return np.minimum(one, two), np.maximum(one, two)
 
     def direction(self, degrees: Number) -> Number:
         """Return the unit complex number at an angle."""
         return unit_vectors(degrees)
-
-    def ruled(self, length: Number) -> Number:
-        """Return the exact length."""
-        return length
-
-    def reread(self, length: Number) -> Number:
-        """Return 1: what is read is exact."""
-        return 1.0
-
-
-@dataclass(frozen=True, slots=True)
-class Hand(Float64):
-    """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой).
-
-    Every length read on the drawing is rounded to the nearest ``ruler`` step, ties away from zero
-    as a person reads; what is computed from it goes on along the chain of the construction.
-
-    Attributes
-    ----------
-    ruler : float, mm
-        Step of the ruler (цена деления).
-    """
-
-    ruler: float = 0.5
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.ruler) and self.ruler > 0):
-            raise ValueError(f"ruler step must be positive, got {self.ruler}")
-
-    def ruled(self, length: Number) -> Number:
-        """Return the length rounded to the ruler step, keeping its sign."""
-        return np.sign(length) * np.floor(np.abs(length) / self.ruler + 0.5) * self.ruler
-
-    def reread(self, length: Number) -> Number:
-        """Return the read length over the true one; 1 of a length that is zero."""
-        return np.where(length == 0, 1.0, self.ruled(length) / np.where(length == 0, 1.0, length))

@@ -48,7 +48,8 @@ class Trace:
         lines: pair of complex (a point of the line, its direction, any length but zero).
     margin : mapping
         For every step that may not exist: sine of the angle between two lines, or the half chord
-        squared over the radius squared of two arcs; negative where they do not meet.
+        squared over the radius squared of two arcs; negative where they do not meet; 1 or 0 of
+        what only needs a direction.
     """
 
     value: Mapping[Name, Number]
@@ -59,81 +60,109 @@ def _cross(a: Number, b: Number) -> Number:
     return (a.conjugate() * b).imag
 
 
-def _along(vector: Number, direction: Number) -> Number:
-    return (vector * direction.conjugate()).real / abs(direction)
-
-
 def _half_chord(leg: Number, radius: Number) -> Number:
-    """Return radius² - leg² as a product: it keeps its digits where the arcs nearly touch."""
+    """Return radius² - leg² as a product: it keeps its digits where a line nearly touches."""
     return (radius - leg) * (radius + leg)
 
 
-def _apply(
+def apply(
     step: Step, env: Mapping[Name, Number], data: Mapping[str, Number], ar: Arithmetic
 ) -> tuple[Number, Number]:
     """Return the value of one step and its margin (None when the step always exists)."""
     match step:
-        case Given(out) | Known(out):
+        case Given(out):
+            return ar.given(out, data[out]), None
+        case Known(out):
             return data[out], None
-        case Join(_, a, b):
-            return (env[a], env[b] - env[a]), None
-        case Parallel(_, t, line):
-            return (env[t], env[line][1]), None
-        case Perpendicular(_, t, line):
-            return (env[t], env[line][1] * 1j), None
-        case AtAngle(_, t, line, angle):
+        case Join(out, a, b):
+            return ar.joined(out, env[a], env[b] - env[a]), None
+        case Parallel(out, t, line):
+            return ar.drawn(out, env[t], env[line][1]), None
+        case Perpendicular(out, t, line):
+            return ar.drawn(out, env[t], env[line][1] * 1j), None
+        case AtAngle(out, t, line, angle):
             turn = ar.direction(env[angle])
-            return (env[t], turn if line is None else env[line][1] * turn), None
-        case LayOff(_, o, line, length):
+            return ar.drawn(out, env[t], turn if line is None else env[line][1] * turn), None
+        case LayOff(out, o, line, length):
             u, size = env[line][1], env[length]
-            laid = env[o] + u * (size / ar.nonzero(abs(u)))
-            return ar.pick(size == 0, env[o], laid), None  # a zero length needs no direction
-        case MeetLines(_, f, g):
+            span = abs(u)
+            point = env[o] + u * (ar.laid(out, size) / ar.nonzero(span))
+            # A zero length needs no direction: it is laid off even along a line that has none.
+            return ar.unless_zero(span, point, env[o]), ar.unless_zero(size, ar.solid(span), 1.0)
+        case MeetLines(out, f, g):
             (p, u), (q, v) = env[f], env[g]
             across = _cross(u, v)
             sine = abs(across) / ar.nonzero(abs(u) * abs(v))
-            return p + u * (_cross(q - p, v) / ar.nonzero(across)), sine
-        case MeetLineCircle(_, line, c, r, way):
-            (p, u), radius = env[line], env[r]
+            return ar.pricked(out, p + u * (_cross(q - p, v) / ar.nonzero(across))), sine
+        case MeetLineCircle(out, line, c, r, way):
+            p, u = env[line]
+            centre, radius = ar.arc(out, env[c], env[r])
             u = u / ar.nonzero(abs(u))
-            to_centre = env[c] - p
+            to_centre = centre - p
             room = _half_chord(abs(_cross(u, to_centre)), radius)
             # Counted along the line from its own point: what lies on a guide stays on it exactly.
             reach = (u.conjugate() * to_centre).real + way.value * ar.root(room)
-            return p + u * reach, room / (radius * radius)
-        case MeetCircles(_, c1, r1, c2, r2, side):
-            d = env[c2] - env[c1]
-            span, one, two = abs(d), env[r1], env[r2]
-            leg = (span + (one - two) * ((one + two) / ar.nonzero(span))) / 2
-            room = _half_chord(leg, one)
-            unit = d / ar.nonzero(span)
-            return env[c1] + unit * (leg + 1j * side.value * ar.root(room)), room / (one * one)
-        case Touch(_, c, r, s, side):
-            d, radius = env[s] - env[c], env[r]
+            return ar.pricked(out, p + u * reach), room / (radius * radius)
+        case MeetCircles(out, c1, r1, c2, r2, side):
+            (p, one), (q, two) = ar.arc(out, env[c1], env[r1]), ar.arc(out, env[c2], env[r2])
+            d = q - p
             span = abs(d)
+            divisor = ar.nonzero(span)
+            leg = (span + (one - two) * ((one + two) / divisor)) / 2
+            # Heron's formula with the cancelling difference taken from the data, as Kahan does:
+            # half the chord keeps its digits where the arcs touch from outside or from inside.
+            small, big = ar.ordered(one, two)
+            gap = span - big
+            wide = ((span + (big - small)) / divisor) * ((span + (big + small)) / divisor)
+            room = _half_chord(gap, small) * wide / 4
+            unit = d / divisor
+            point = p + unit * (leg + 1j * side.value * ar.root(room))
+            return ar.pricked(out, point), room / (one * one)
+        case Touch(out, c, r, s, side):
+            (centre, radius), source = ar.arc(out, env[c], env[r]), env[s]
+            d = source - centre
+            span = abs(d)
+            divisor = ar.nonzero(span)
             room = _half_chord(radius, span)
-            unit = d / ar.nonzero(span)
-            turn = (radius + 1j * side.value * ar.root(room)) / ar.nonzero(span)
-            return env[c] + unit * (radius * turn), room / ar.nonzero(span * span)
-        case Similar(_, b, c, s, B, C, read_span, read_arm):
+            turn = (radius + 1j * side.value * ar.root(room)) / divisor
+            point = centre + d / divisor * (radius * turn)
+            return ar.pricked(out, point), room / (divisor * divisor)
+        case Similar(out, b, c, s, B, C, read_span, read_arm):
             side, span, arm = env[c] - env[b], env[C] - env[B], env[s] - env[B]
-            scale = ar.reread(abs(side))
+            scale = ar.reread(out, abs(side))
             if read_span:
-                scale = scale / ar.reread(abs(span))
+                scale = scale / ar.reread(out, abs(span))
             if read_arm:
-                scale = scale * ar.reread(abs(arm))
-            return env[b] + side * (arm / span) * scale, None
-        case Measure(_, a, b):
-            return ar.ruled(abs(env[b] - env[a])), None
-        case MeasureAlong(_, a, b, line):
-            return ar.ruled(_along(env[b] - env[a], env[line][1])), None
+                scale = scale * ar.reread(out, abs(arm))
+            point = env[b] + side * (arm / ar.nonzero(span)) * scale
+            return ar.pricked(out, point), ar.solid(abs(span))
+        case Measure(out, a, b):
+            return ar.read(out, abs(env[b] - env[a])), None
+        case MeasureAlong(out, a, b, line):
+            u = env[line][1]
+            span = abs(u)
+            vector = env[b] - env[a]
+            along = (vector * u.conjugate()).real / ar.nonzero(span)
+            return ar.read(out, along), ar.solid(span)
         case Compute(_, factor, powers):
             value: Number = factor
             for name, power in powers:
-                value = value * env[name] ** power
+                for _ in range(abs(power)):
+                    value = value * env[name] if power > 0 else value / ar.nonzero(env[name])
             return value, None
         case _:
             assert_never(step)
+
+
+def limit_of(step: Step) -> float:
+    """Return the margin that a step must exceed to exist."""
+    match step:
+        case MeetLines():
+            return PARALLEL
+        case MeetCircles() | MeetLineCircle() | Touch():
+            return TANGENT
+        case _:
+            return 0.0
 
 
 def evaluate(program: Program, data: Mapping[str, Number], ar: Arithmetic) -> Trace:
@@ -151,11 +180,9 @@ def evaluate(program: Program, data: Mapping[str, Number], ar: Arithmetic) -> Tr
     margin: dict[Name, Number] = {}
     with np.errstate(all="ignore"):
         for step in program.steps:
-            value, room = _apply(step, env, lifted, ar)
+            value, room = apply(step, env, lifted, ar)
             if room is not None:
                 margin[step.out] = room
-                value = ar.where(
-                    room > (PARALLEL if isinstance(step, MeetLines) else TANGENT), value
-                )
+                value = ar.guard(room, limit_of(step), value)
             env[step.out] = value
     return Trace(env, margin)

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.construct.evaluate import PARALLEL, TANGENT, Trace
+from planmethod.construct.evaluate import Trace, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     MeetCircles,
     MeetLineCircle,
     MeetLines,
     PointName,
+    Similar,
     Step,
     Touch,
 )
@@ -32,9 +33,8 @@ def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]
     for number, step in enumerate(program.steps):
         if step.out not in trace.margin:
             continue
-        limit = PARALLEL if isinstance(step, MeetLines) else TANGENT
         margin = np.broadcast_to(np.asarray(trace.margin[step.out], dtype=float), (count,))
-        first[(first < 0) & ~(margin > limit)] = number
+        first[(first < 0) & ~(margin > limit_of(step))] = number
     return first
 
 
@@ -106,8 +106,20 @@ def _sentence(step: Step, where: str, unit: str, real: Any, point: Any) -> str:
             plan = "velocity" if out.startswith("v:") else "acceleration"
             return (
                 f"Cannot close the {plan} plan at {where}: the rays that meet in "
-                f"{out[2:].lower()} are parallel, the mechanism stands in a dead position. Ask "
+                f"{_letter(out)} are parallel, the mechanism stands in a dead position. Ask "
                 "another position: there the velocities are not determined by the driver."
             )
+        case Similar(out, _, _, _, one, two):
+            return (
+                f"Cannot find {_letter(out)} by similarity at {where}: {one} and {two} of its "
+                "triangle coincide. Ask another position."
+            )
         case _:
-            return f"Step {step.out} is impossible at {where}."
+            return (
+                f"Step {step.out} is impossible at {where}: two points that give a direction "
+                "coincide there. Ask another position."
+            )
+
+
+def _letter(plan_point: str) -> str:
+    return plan_point.split(":")[-1].lower()

@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.construct.arithmetic import Arithmetic, Float64, Hand
+from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LayOff, Name, PointName
 from planmethod.errors import AssemblyError

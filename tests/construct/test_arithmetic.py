@@ -10,8 +10,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from planmethod.construct.arithmetic import Float64, Hand, unit_vectors
+from planmethod.construct.arithmetic import Float64, unit_vectors
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import Name, PointName
 
@@ -65,13 +66,15 @@ def test_halves_of_a_quadrant(angle: float) -> None:
 def test_float64() -> None:
     ar = Float64()
     assert ar.root(np.array([4.0, 0.0, -1.0])).tolist() == [2.0, 0.0, 0.0]
-    value = ar.where(np.array([True, False]), np.array([1 + 1j, 2 + 2j]))
+    value = ar.guard(np.array([1.0, 0.5]), 0.5, np.array([1 + 1j, 2 + 2j]))
     assert value[0] == 1 + 1j
     assert np.isnan(value[1].real) and np.isnan(value[1].imag)
     assert np.isnan(ar.nonzero(np.array([0.0, 2.0]))).tolist() == [True, False]
-    assert ar.pick(np.array([True, False]), 1.0, 2.0).tolist() == [1.0, 2.0]
-    assert ar.ruled(1.2345) == 1.2345
-    assert ar.reread(1.2345) == 1.0
+    assert ar.unless_zero(np.array([0.0, 3.0]), 1.0, 2.0).tolist() == [2.0, 1.0]
+    assert [float(x) for x in ar.ordered(0.3, 0.2)] == [0.2, 0.3]
+    assert ar.solid(np.array([0.0, 1e-300, -2.0])).tolist() == [0.0, 1.0, 1.0]
+    assert ar.read("l", 1.2345) == 1.2345
+    assert ar.reread("s", 1.2345) == 1.0
     assert isinstance(ar.lift(3.0), np.ndarray)
 
 
@@ -114,8 +117,8 @@ def test_ties_and_signs() -> None:
 
 def test_what_is_read_over_what_is() -> None:
     hand = Hand(ruler=1.0)
-    assert hand.reread(np.array([31.0668, 0.0, 10.0])).tolist() == [31 / 31.0668, 1.0, 1.0]
-    assert hand.reread(np.array([0.3]))[0] == 0.0
+    assert hand.reread("s", np.array([31.0668, 0.0, 10.0])).tolist() == [31 / 31.0668, 1.0, 1.0]
+    assert hand.reread("s", np.array([0.3]))[0] == 0.0
 
 
 @pytest.mark.parametrize("ruler", [0.0, -1.0, math.nan, math.inf])

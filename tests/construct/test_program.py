@@ -9,8 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from worked import problem_of
 
-from planmethod.construct.arithmetic import Float64, Hand
+from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
 from planmethod.construct.steps import (
     STEP_TYPES,

@@ -1,0 +1,42 @@
+"""Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64, Number
+
+
+@dataclass(frozen=True)
+class Hand(Float64):
+    """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой).
+
+    Every length read on the drawing is rounded to the nearest ``ruler`` step, ties away from zero
+    as a person reads; what is computed from it goes on along the chain of the construction.
+
+    Attributes
+    ----------
+    ruler : float, mm
+        Step of the ruler (цена деления).
+    """
+
+    ruler: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.ruler) and self.ruler > 0):
+            raise ValueError(f"ruler step must be positive, got {self.ruler}")
+
+    def ruled(self, length: Number) -> Number:
+        """Return the length rounded to the ruler step, keeping its sign."""
+        return np.sign(length) * np.floor(np.abs(length) / self.ruler + 0.5) * self.ruler
+
+    def read(self, out: str, length: Number) -> Number:
+        """Return the length rounded to the ruler step."""
+        return self.ruled(length)
+
+    def reread(self, out: str, length: Number) -> Number:
+        """Return the read length over the true one; 1 of a length that is zero."""
+        return np.where(length == 0, 1.0, self.ruled(length) / np.where(length == 0, 1.0, length))
