@@ -93,6 +93,10 @@ class Builder:
     _drawn: dict[tuple[object, ...], LineName] = field(default_factory=dict)
     _count: int = 0
 
+    def copy(self) -> Builder:
+        """Return a collector that goes on from here, and leaves this one as it is."""
+        return Builder(list(self.steps), dict(self._drawn), self._count)
+
     def program(self) -> Program:
         """Return what was collected."""
         return Program(tuple(self.steps))

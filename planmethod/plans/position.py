@@ -136,8 +136,8 @@ def _place_rpr(draft: Draft, group: AssurGroup, sign: int) -> None:
         # The line through the slider's joint touches a circle about the host's joint.
         radius = draft.drawn(draft.known(f"e_{q}{host.link}", abs(across)))
         foot = draft.b.touch(f"T_{q}_{host.link}", p, radius, q, side(sign * across))
-        ends = (foot, p) if across > 0 else (p, foot)
-        line = draft.b.perpendicular(q, draft.b.join(*ends))
+        # Joined over the tangent, not turned from its short radius: that keeps the digits.
+        line = draft.b.join(foot, q) if sign > 0 else draft.b.join(q, foot)
     draft.axes[slider.link] = draft.b.parallel(q, line)
     draft.axes[host.link] = draft.turned(line, p, -slide.angle, f"angle_{host.link}")
 

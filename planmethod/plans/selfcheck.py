@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from planmethod.construct.steps import MeetCircles, MeetLineCircle, PointName, Touch
+from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, PlanMethodError
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.doubt import doubt
 from planmethod.plans.solution import Complexes, Reals, Solution
 
 DOUBTFUL = 1e-6
-"""Estimated relative error of accelerations from which a warning is given."""
+"""Bound of the relative error of the results from which a warning is given."""
 
 SPOILT = 1e-2
-"""Estimated relative error of accelerations from which a result is refused."""
+"""Bound of the relative error from which a position is refused."""
+
+MOST_NAMED = 5
+"""Doubtful positions that are named, the worst of them."""
+
+NEAR = 1e-3
+"""Margin below which a position is called next to a dead one."""
 
 LIMIT = 1e-7
 """Largest closing error, as a share of the largest value of its kind in the position."""
@@ -23,50 +30,56 @@ class SelfCheckError(PlanMethodError):
     """The plans of a solution contradict each other: a mistake of ours (exit code 5)."""
 
 
-def doubt(solution: Solution) -> Reals:
-    """Return an estimate of the relative error of the accelerations, ndarray of shape (n,).
-
-    Two lines that meet at a small angle magnify rounding: the sine of the least angle of all steps
-    spoils places once, velocities twice, accelerations three times. Arcs meet at an angle whose
-    sine is the root of their margin.
-    """
-    sines = [np.ones(solution.positions.shape)]
-    arcs = {
-        step.out
-        for step in solution.construction.program.steps
-        if isinstance(step, MeetCircles | MeetLineCircle | Touch)
-    }
-    for name, margin in solution.si.margin.items():
-        value = np.maximum(np.asarray(margin, dtype=float), 0.0)
-        sine = np.sqrt(value) if name in arcs else value
-        sines.append(np.broadcast_to(sine, solution.positions.shape))
-    least = np.maximum(np.min(sines, axis=0), 1e-100)
-    return np.asarray(np.finfo(float).eps / least**3, dtype=float)
-
-
 def warnings(solution: Solution) -> list[str]:
-    """Return what a user should know of the accuracy, a sentence for each doubtful position."""
+    """Return what a user should know of the accuracy: a sentence for each doubtful position.
+
+    Of many positions the worst few are named and the rest counted.
+    """
     estimate = doubt(solution)
-    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
-    return [
-        f"position {i + 1} ({name} = {solution.positions[i]:.10g} {unit}) is next to a dead "
-        f"position (margin {solution.margin[i]:.1e}): the accelerations are good to about "
-        f"{estimate[i]:.0e} of their value."
-        for i in np.flatnonzero(estimate > DOUBTFUL)
+    doubtful = np.flatnonzero(estimate > DOUBTFUL)
+    named = doubtful
+    if len(doubtful) > MOST_NAMED:
+        named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MOST_NAMED:]])
+    said = [
+        f"{_place(solution, i)} is {_nature(solution, i)}: the worst of its results is good to "
+        f"about {estimate[i]:.0e} of its value."
+        for i in map(int, named)
     ]
+    if len(named) < len(doubtful):
+        said.append(
+            f"so are {len(doubtful) - len(named)} more of {len(estimate)} positions, less badly."
+        )
+    return said
+
+
+def _place(solution: Solution, i: int) -> str:
+    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
+    return f"position {i + 1} ({name} = {solution.positions[i]:.10g} {unit})"
+
+
+def _nature(solution: Solution, i: int) -> str:
+    """Return why a position is badly conditioned."""
+    margin = solution.margin[i]
+    if margin < NEAR:
+        return f"next to a dead position (margin {margin:.1e})"
+    return "badly conditioned (its results hang on small differences of large values)"
 
 
 def _refuse_spoilt(solution: Solution) -> None:
-    spoilt = np.flatnonzero(doubt(solution) > SPOILT)
+    spoilt = np.flatnonzero(~(doubt(solution) <= SPOILT))
     if not spoilt.size:
         return
     i = int(spoilt[0])
-    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
     more = f" So do {spoilt.size - 1} other positions." if spoilt.size > 1 else ""
+    near = solution.margin[i] < NEAR
+    why = (
+        f"stands so near a dead position (margin {solution.margin[i]:.1e}) that rounding"
+        if near
+        else "hangs on such small differences of large values that rounding"
+    )
     raise AssemblyError(
-        f"{solution.problem.name}: position {i + 1} ({name} = {solution.positions[i]:.10g} {unit}) "
-        f"stands so near a dead position (margin {solution.margin[i]:.1e}) that rounding spoils "
-        f"the accelerations.{more} Ask a position further away."
+        f"{solution.problem.name}: {_place(solution, i)} {why} spoils its results.{more} Ask a "
+        "position further away."
     )
 
 
@@ -81,7 +94,7 @@ def verify(solution: Solution) -> None:
     SelfCheckError
         With the link, the position and the size of the contradiction.
     AssemblyError
-        When a position is so near a dead one that its accelerations mean nothing.
+        When a position is so badly conditioned that its results mean nothing.
     """
     _refuse_spoilt(solution)
     kin = solution.construction.kinematics

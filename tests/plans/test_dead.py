@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from planmethod.errors import AssemblyError, ProblemError
-from planmethod.plans.selfcheck import doubt, verify, warnings
+from planmethod.plans.doubt import doubt
+from planmethod.plans.selfcheck import verify, warnings
 from planmethod.plans.solution import Solution
 from planmethod.problem import loads
 

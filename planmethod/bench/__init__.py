@@ -1,0 +1,1 @@
+"""A speed benchmark: one four-bar, solved here and by peers."""

@@ -1,0 +1,97 @@
+"""How far the results of a solution can be trusted: their conditioning, position by position."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.condition import UNIT_ROUNDOFF, reach
+from planmethod.construct.steps import Join
+from planmethod.plans.assembly import drive_data
+from planmethod.plans.results import ResultKind, results_of
+from planmethod.plans.solution import Reals, Solution
+
+MULTIPLE = 16
+"""Forward error of a result in units of u times its reach that is allowed for."""
+
+SCALES = ("mu_l", "mu_v", "mu_a")
+"""Data that carry no rounding."""
+
+SAFE = 2e-3
+"""Margin, and share of a difference in its terms, above which a position needs no closer look."""
+
+FEW, BLOCK = 64, 256
+"""Positions that are all looked at closely; positions looked at in one go."""
+
+JUDGED = (
+    ResultKind.PLACE,
+    ResultKind.VELOCITY,
+    ResultKind.OMEGA,
+    ResultKind.ACCELERATION,
+    ResultKind.EPSILON,
+)
+
+
+def doubt(solution: Solution) -> Reals:
+    """Return a bound of the relative error of the worst results, ndarray of shape (n,).
+
+    It is ``16 u`` times the reach of a result (see `planmethod.construct.condition`) over the
+    largest value of its kind in the position. Positions far from any cancellation are not
+    computed: their bound is given as ``16 u / SAFE**3``, which none of them reaches.
+    """
+    bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
+    for chosen in _blocks(_suspects(solution)):
+        bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, chosen)
+    return bound
+
+
+def _blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
+    for start in range(0, len(suspects), BLOCK):
+        yield suspects[start : start + BLOCK]
+
+
+def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
+    """Return the positions that a cheap look does not clear."""
+    count = len(solution.positions)
+    if count <= FEW:
+        return np.arange(count)
+    least = solution.margin
+    value = solution.si.value
+    for step in solution.construction.program.steps:
+        if isinstance(step, Join):
+            ends = np.maximum(np.abs(value[step.tail]), np.abs(value[step.head]))
+            gap = np.abs(value[step.head] - value[step.tail])
+            least = np.minimum(least, gap / np.where(ends > 0, ends, 1.0))
+    return np.flatnonzero(~(least > SAFE))
+
+
+def _relative_reach(solution: Solution, chosen: npt.NDArray[np.intp]) -> Reals:
+    data = drive_data(solution.problem, solution.construction.draft, solution.positions)
+    data["phi" if solution.problem.drive.is_crank else "s"] = solution.positions[chosen]
+    found = reach(solution.construction.program, data, SCALES)
+    results = results_of(solution.construction).all
+    worst = np.ones(len(chosen))
+    largest = dict.fromkeys(JUDGED, np.zeros(len(chosen)))
+    for kind in JUDGED:
+        names = [r.name for r in results if r.kind is kind]
+        for name in names:
+            whole = np.broadcast_to(np.abs(solution.si.value[name]), solution.positions.shape)
+            largest[kind] = np.maximum(largest[kind], whole[chosen])
+        size = _natural_size(kind, largest)
+        spans = np.array([np.broadcast_to(found[name], size.shape) for name in names])
+        some = size > 0
+        if names and some.any():
+            worst[some] = np.fmax(worst[some], spans.max(axis=0)[some] / size[some])
+    return worst
+
+
+def _natural_size(kind: ResultKind, largest: dict[ResultKind, Reals]) -> Reals:
+    """Return what a result is small against: accelerations may all be zero while links turn."""
+    turning = largest[ResultKind.OMEGA]
+    if kind is ResultKind.EPSILON:
+        return np.maximum(largest[kind], turning**2)
+    if kind is ResultKind.ACCELERATION:
+        return np.maximum(largest[kind], turning * largest[ResultKind.VELOCITY])
+    return largest[kind]

@@ -1,0 +1,148 @@
+"""What a solved problem is asked for, and the steps that give it (искомые величины)."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from enum import Enum
+
+from planmethod.construct.program import Program
+from planmethod.construct.steps import Name, PointName
+from planmethod.errors import PlanMethodError
+from planmethod.plans.build import Construction
+from planmethod.plans.draft import Draft
+
+
+class ResultKind(Enum):
+    """Kind of a result (вид величины)."""
+
+    PLACE = "place"
+    VELOCITY = "velocity"
+    ACCELERATION = "acceleration"
+    DIRECTION = "direction"
+    OMEGA = "omega"
+    EPSILON = "epsilon"
+    SLIDING = "sliding"  # signed, along the slide line
+
+
+UNIT = {
+    ResultKind.PLACE: "m",
+    ResultKind.VELOCITY: "m/s",
+    ResultKind.ACCELERATION: "m/s²",
+    ResultKind.DIRECTION: "deg",
+    ResultKind.OMEGA: "1/s",
+    ResultKind.EPSILON: "1/s²",
+    ResultKind.SLIDING: "m/s",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """One quantity of a solved problem and the step that makes it (искомая величина).
+
+    Attributes
+    ----------
+    label : str
+        ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``.
+    kind : ResultKind
+    name : Name
+        A point, a number, or for a direction the line of the link's own axis.
+    of : str
+        Point or link.
+    """
+
+    label: str
+    kind: ResultKind
+    name: Name
+    of: str
+
+
+class UnknownResultError(PlanMethodError, ValueError):
+    """A quantity is asked for that the problem does not have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Results:
+    """All results of a construction, and the program that makes them.
+
+    Attributes
+    ----------
+    program : Program
+        The construction's, and the own axes of links that it has no line for.
+    numbers : dict
+        Known numbers of the program.
+    all : tuple of Result
+        Points in the order of the plans: place, velocity, acceleration; then links.
+    """
+
+    program: Program
+    numbers: dict[str, float]
+    all: tuple[Result, ...]
+
+    def choose(self, labels: Iterable[str] | None) -> tuple[Result, ...]:
+        """Return the results of some labels, in the order asked; all of them for None.
+
+        ``positions``, ``velocities`` and ``accelerations`` stand for what they say.
+
+        Raises
+        ------
+        UnknownResultError
+        """
+        if labels is None:
+            return self.all
+        chosen: dict[str, Result] = {}
+        for label in labels:
+            chosen.update((result.label, result) for result in self._named(label))
+        return tuple(chosen.values())
+
+    def _named(self, label: str) -> Sequence[Result]:
+        if label in WHOLE:
+            return [result for result in self.all if result.kind in WHOLE[label]]
+        found = [result for result in self.all if result.label == label]
+        if not found:
+            known = [result.label for result in self.all] + list(WHOLE)
+            near = get_close_matches(label, known, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise UnknownResultError(f"no result {label!r}{hint} Known: {', '.join(known)}.")
+        return found
+
+
+WHOLE = {
+    "positions": (ResultKind.PLACE, ResultKind.DIRECTION),
+    "velocities": (ResultKind.VELOCITY, ResultKind.OMEGA, ResultKind.SLIDING),
+    "accelerations": (ResultKind.ACCELERATION, ResultKind.EPSILON),
+}
+"""Whole groups of results that can be asked for at once."""
+
+
+def results_of(construction: Construction) -> Results:
+    """Return every result of a construction."""
+    draft = _beside(construction.draft)
+    kin = construction.kinematics
+    found: list[Result] = []
+    for name, (link, place) in kin.velocity.named.items():
+        found += [
+            Result(name, ResultKind.PLACE, PointName(place), name),
+            Result(f"v_{name}", ResultKind.VELOCITY, kin.velocity.point[link, place], name),
+            Result(f"a_{name}", ResultKind.ACCELERATION, kin.acceleration.point[link, place], name),
+        ]
+    for link in draft.problem.mechanism.links:
+        found.append(Result(f"phi_{link}", ResultKind.DIRECTION, draft.axis(link), link))
+        if link in kin.omega:
+            found.append(Result(f"omega_{link}", ResultKind.OMEGA, kin.omega[link], link))
+        if link in kin.epsilon:
+            found.append(Result(f"epsilon_{link}", ResultKind.EPSILON, kin.epsilon[link], link))
+    for sliding in kin.relatives.values():
+        found.append(Result(sliding.speed, ResultKind.SLIDING, sliding.speed, sliding.point))
+    return Results(draft.b.program(), draft.numbers, tuple(found))
+
+
+def _beside(draft: Draft) -> Draft:
+    """Return a draft that goes on where a construction ended, and leaves that as it is."""
+    beside = copy.copy(draft)
+    beside.b = draft.b.copy()
+    beside.numbers = dict(draft.numbers)
+    beside.axes = dict(draft.axes)
+    return beside
