@@ -27,6 +27,11 @@ UNIT_ROUNDOFF = 2.0**-53
 Reals = npt.NDArray[np.float64]
 
 
+def plain(value: Number) -> Number:
+    """Return a point or a number as it is, and of a line its direction as a unit vector."""
+    return value[1] / abs(value[1]) if isinstance(value, tuple) else value
+
+
 def _causes(data: Mapping[str, Number], exact: Collection[str]) -> list[tuple[str, complex]]:
     """Return (datum, direction) of every coordinate that rounding may move."""
     causes: list[tuple[str, complex]] = []
@@ -49,7 +54,9 @@ def _part(value: Number, way: complex) -> Number:
 def reach(
     program: Program, data: Mapping[str, Number], exact: Collection[str] = ()
 ) -> dict[Name, Reals]:
-    """Return the reach of every point and number of a program, to first order in float64.
+    """Return the reach of every result of a program, to first order in float64.
+
+    Of a line it is the reach of its unit direction.
 
     Parameters
     ----------
@@ -77,11 +84,7 @@ def reach(
             slope[i] = _part(row, way)
         lifted[name] = Dual(row, slope)
     trace = evaluate(program, lifted, Duals())
-    return {
-        name: _reach(as_dual(value))
-        for name, value in trace.value.items()
-        if not isinstance(value, tuple)
-    }
+    return {name: _reach(as_dual(plain(value))) for name, value in trace.value.items()}
 
 
 def _reach(value: Dual) -> Reals:
@@ -106,15 +109,11 @@ def measured_reach(
     """
     step = referee.context.mpf(10) ** -(referee.digits // 3)
     lifted = {name: referee.lift(value) for name, value in data.items()}
-    names = {
-        name: value
-        for name, value in evaluate(program, lifted, referee).value.items()
-        if not isinstance(value, tuple)
-    }
+    names = {name: plain(v) for name, v in evaluate(program, lifted, referee).value.items()}
     total = {name: abs(value) for name, value in names.items()}
     for name, way in _causes(data, exact):
         part = lifted[name].real if way == 1.0 else 1j * lifted[name].imag
         moved = evaluate(program, {**lifted, name: lifted[name] + part * step}, referee)
         for result, value in names.items():
-            total[result] += abs(moved.value[result] - value) / step
+            total[result] += abs(plain(moved.value[result]) - value) / step
     return {name: (value, total[name]) for name, value in names.items()}
