@@ -22,6 +22,7 @@ class ResultKind(Enum):
     VELOCITY = "velocity"
     ACCELERATION = "acceleration"
     DIRECTION = "direction"
+    UNIT = "unit"  # the direction as a unit vector
     OMEGA = "omega"
     EPSILON = "epsilon"
     SLIDING = "sliding"  # signed, along the slide line
@@ -32,6 +33,7 @@ UNIT = {
     ResultKind.VELOCITY: "m/s",
     ResultKind.ACCELERATION: "m/s²",
     ResultKind.DIRECTION: "deg",
+    ResultKind.UNIT: "1",
     ResultKind.OMEGA: "1/s",
     ResultKind.EPSILON: "1/s²",
     ResultKind.SLIDING: "m/s",
@@ -45,7 +47,8 @@ class Result:
     Attributes
     ----------
     label : str
-        ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``.
+        ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``; and
+        ``u_2``, the direction ``phi_2`` as a unit vector.
     kind : ResultKind
     name : Name
         A point, a number, or for a direction the line of the link's own axis.
@@ -82,16 +85,16 @@ class Results:
     all: tuple[Result, ...]
 
     def choose(self, labels: Iterable[str] | None) -> tuple[Result, ...]:
-        """Return the results of some labels, in the order asked; all of them for None.
+        """Return the results of some labels, in the order asked; for None all but unit vectors.
 
-        ``positions``, ``velocities`` and ``accelerations`` stand for what they say.
+        ``positions``, ``velocities``, ``accelerations`` and ``units`` stand for what they say.
 
         Raises
         ------
         UnknownResultError
         """
         if labels is None:
-            return self.all
+            return tuple(result for result in self.all if result.kind is not ResultKind.UNIT)
         chosen: dict[str, Result] = {}
         for label in labels:
             chosen.update((result.label, result) for result in self._named(label))
@@ -113,6 +116,7 @@ WHOLE = {
     "positions": (ResultKind.PLACE, ResultKind.DIRECTION),
     "velocities": (ResultKind.VELOCITY, ResultKind.OMEGA, ResultKind.SLIDING),
     "accelerations": (ResultKind.ACCELERATION, ResultKind.EPSILON),
+    "units": (ResultKind.UNIT,),
 }
 """Whole groups of results that can be asked for at once."""
 
@@ -129,7 +133,9 @@ def results_of(construction: Construction) -> Results:
             Result(f"a_{name}", ResultKind.ACCELERATION, kin.acceleration.point[link, place], name),
         ]
     for link in draft.problem.mechanism.links:
-        found.append(Result(f"phi_{link}", ResultKind.DIRECTION, draft.axis(link), link))
+        axis = draft.axis(link)
+        found.append(Result(f"phi_{link}", ResultKind.DIRECTION, axis, link))
+        found.append(Result(f"u_{link}", ResultKind.UNIT, axis, link))
         if link in kin.omega:
             found.append(Result(f"omega_{link}", ResultKind.OMEGA, kin.omega[link], link))
         if link in kin.epsilon:

@@ -1,0 +1,319 @@
+"""A tape run on NumPy arrays block by block: the work stays in the cache, memory does not grow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import unit_vectors
+from planmethod.construct.compiled.straight import used_by
+from planmethod.construct.compiled.symbolic import Guard
+from planmethod.construct.compiled.tape import Ref, Tape
+
+Array = npt.NDArray[Any]
+
+BLOCK = 8192
+"""Positions in a block: with some twenty buffers in use they fill a cache of the second level."""
+
+UFUNC: dict[str, np.ufunc] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "abs": np.abs,
+    "sqrt": np.sqrt,
+    "min": np.minimum,
+    "max": np.maximum,
+    "atan2": np.arctan2,
+}
+
+EQUAL = 1e-9
+"""Largest departure from equal steps, degrees, that the table of angles makes good."""
+
+
+class Blocks:
+    """A tape made ready for arrays.
+
+    Parameters
+    ----------
+    tape : Tape
+    results : sequence of Ref
+        Rows of the output.
+    guards : sequence of Guard
+        Margins to be watched.
+    depends : sequence of frozenset of int
+        Guards that each result depends on.
+    dtype : dtype
+        float64, or float32 for a picture.
+    """
+
+    def __init__(
+        self,
+        tape: Tape,
+        results: Sequence[Ref],
+        guards: Sequence[Guard],
+        depends: Sequence[frozenset[int]],
+        *,
+        dtype: npt.DTypeLike = np.float64,
+        block: int = BLOCK,
+    ) -> None:
+        self.results, self.guards, self.depends = tuple(results), tuple(guards), tuple(depends)
+        self.dtype, self.block = np.dtype(dtype), block
+        self._steps, self._buffers = _schedule(tape, self.results, self.guards, self.dtype)
+        self._code = _line(self._steps, len(self.results))
+        self._angle = _Angle(block, self.dtype)
+
+    def run(
+        self,
+        inputs: Sequence[Array],
+        out: Array,
+        failed: npt.NDArray[np.int16] | None = None,
+    ) -> None:
+        """Fill ``out`` of shape (k, n); NaN where a step is impossible.
+
+        Parameters
+        ----------
+        inputs : sequence of ndarray of shape (n,) or ()
+        failed : ndarray of shape (n,), optional
+            Filled with the number of the first guard that does not hold, or -1.
+        """
+        count = out.shape[1]
+        buffers = [np.empty(min(self.block, count), self.dtype) for _ in range(self._buffers)]
+        with np.errstate(all="ignore"):
+            for start in range(0, count, self.block):
+                stop = min(start + self.block, count)
+                size = stop - start
+                here = buffers if size == len(buffers[0]) else [b[:size] for b in buffers]
+                rows = [row[start:stop] for row in out]
+                missed: dict[int, Array] = {}
+                self._code(
+                    [column[start:stop] if column.ndim else column for column in inputs],
+                    rows,
+                    here,
+                    self._angle,
+                    lambda guard, margin, missed=missed: missed.setdefault(
+                        guard, ~(margin > self.guards[guard].limit)
+                    ),
+                )
+                for row, ref in zip(rows, self.results, strict=True):
+                    if type(ref) is float:
+                        row.fill(ref)
+                if failed is not None:
+                    failed[start:stop] = -1
+                    for guard in sorted(missed, reverse=True):
+                        failed[start:stop][missed[guard]] = guard
+                for guard, mask in missed.items():
+                    for row, needs in zip(rows, self.depends, strict=True):
+                        if guard in needs:
+                            row[mask] = np.nan
+
+
+class _Angle:
+    """Cosine and sine of a block of angles in degrees, by a table where the steps are equal."""
+
+    def __init__(self, block: int, dtype: np.dtype[Any]) -> None:
+        self.block, self.dtype = block, dtype
+        self.step: float | None = None
+        self.work: list[Array] = []
+
+    def __call__(self, degrees: Array, cosine: Array, sine: Array) -> None:
+        if self.dtype == np.float64 and len(degrees) > 64 and self._by_table(degrees, cosine, sine):
+            return
+        unit = unit_vectors(degrees)
+        cosine[:], sine[:] = unit.real, unit.imag
+
+    def _by_table(self, degrees: Array, cosine: Array, sine: Array) -> bool:
+        """Turn a table of equal steps to where the block begins.
+
+        What the given angles differ from equal steps by, their own rounding, is made good to first
+        order, so the result belongs to the angles as they are given.
+        """
+        size = len(degrees)
+        first, step = float(degrees[0]), float(degrees[-1] - degrees[0]) / (size - 1)
+        if self.step is None or abs(step - self.step) * size > EQUAL:
+            self._make_table(step)
+        turns, c, s, rest, work = (array[:size] for array in self.work)
+        np.subtract(degrees, first, rest)
+        np.subtract(rest, turns, rest)
+        if not (rest.max() < EQUAL and rest.min() > -EQUAL):
+            return False
+        np.multiply(rest, np.pi / 180.0, rest)
+        unit = complex(unit_vectors(first))
+        np.multiply(c, unit.real, cosine)
+        np.multiply(s, unit.imag, work)
+        np.subtract(cosine, work, cosine)
+        np.multiply(c, unit.imag, sine)
+        np.multiply(s, unit.real, work)
+        np.add(sine, work, sine)
+        np.multiply(sine, rest, work)
+        np.multiply(cosine, rest, rest)
+        np.subtract(cosine, work, cosine)
+        np.add(sine, rest, sine)
+        return True
+
+    def _make_table(self, step: float) -> None:
+        self.step = step
+        turns = np.arange(self.block) * step
+        unit = unit_vectors(turns)
+        self.work = [turns, unit.real.copy(), unit.imag.copy()]
+        self.work += [np.empty(self.block), np.empty(self.block)]
+
+
+# From the tape to a line of calls ---------------------------------------------------------------
+
+Place = str
+"""Where an operand lives: ``x0`` an input, ``o3`` a row of the output, ``b2`` a buffer, ``k5`` a
+constant."""
+
+
+class _Step:
+    """One call: what, from where, to where; or a guard to look at."""
+
+    __slots__ = ("into", "kind", "sources")
+
+    def __init__(self, kind: str, sources: list[Any], into: list[Place]) -> None:
+        self.kind, self.sources, self.into = kind, sources, into
+
+
+def _schedule(
+    tape: Tape, results: Sequence[Ref], guards: Sequence[Guard], dtype: np.dtype[Any]
+) -> tuple[list[_Step], int]:
+    """Give every node a place: a row of the output if it is a result, else a buffer.
+
+    A buffer is used again as soon as what it held is used for the last time.
+    """
+    watch: dict[int, list[int]] = {}
+    for place_of, guard in enumerate(guards):
+        if type(guard.margin) is int:
+            watch.setdefault(guard.margin, []).append(place_of)
+    needed = used_by(tape, [*results, *(guard.margin for guard in guards)])
+    last = dict.fromkeys(needed, -1)
+    partner = _partners(tape, needed)
+    for number in needed:
+        if tape.nodes[number].kind != "input":
+            for ref in tape.nodes[number].operands:
+                if type(ref) is int:
+                    last[ref] = number
+    rows: dict[int, int] = {}
+    for row, ref in enumerate(results):
+        if type(ref) is int:
+            rows.setdefault(ref, row)
+    place: dict[int, Place] = {}
+    free: list[int] = []
+    count = 0
+    steps: list[_Step] = []
+
+    def settle(node: int) -> Place:
+        nonlocal count
+        if node in rows:
+            place[node] = f"o{rows[node]}"
+        else:
+            if not free:
+                free.append(count)
+                count += 1
+            place[node] = f"b{free.pop()}"
+        return place[node]
+
+    def release(node: int) -> None:
+        if place[node].startswith("b"):
+            free.append(int(place[node][1:]))
+
+    for number in needed:
+        kind, refs = tape.nodes[number]
+        if kind == "input":
+            place[number] = f"x{refs[0]}"
+            continue
+        sources = [place[ref] if type(ref) is int else float(ref) for ref in refs]
+        if kind in ("cosd", "sind"):
+            if number in place:  # made together with its partner
+                pass
+            else:
+                other = partner[number]
+                pair = (number, other) if kind == "cosd" else (other, number)
+                steps.append(_Step("turn", sources, [settle(n) for n in pair]))
+                for made in pair:
+                    if made in last and last[made] < 0 and made not in rows and made not in watch:
+                        release(made)
+        else:
+            # In place where an operand is used for the last time: one buffer less in the cache.
+            dying = [ref for ref in dict.fromkeys(refs) if type(ref) is int and last[ref] == number]
+            if kind != "at_zero":
+                for ref in dying:
+                    release(ref)
+            steps.append(_Step(kind, sources, [settle(number)]))
+            if kind == "at_zero":
+                for ref in dying:
+                    release(ref)
+        for watching in watch.get(number, ()):
+            limit = guards[watching].limit
+            steps.append(_Step("guard", [place[number], watching, limit], []))
+        if last[number] < 0 and number not in rows and kind not in ("cosd", "sind"):
+            release(number)
+    for row, ref in enumerate(results):
+        if type(ref) is int and rows[ref] != row:
+            steps.append(_Step("copy", [f"o{rows[ref]}"], [f"o{row}"]))
+        elif type(ref) is int and place[ref].startswith("x"):
+            steps.append(_Step("copy", [place[ref]], [f"o{row}"]))
+    return steps, max(count, 1)
+
+
+def _partners(tape: Tape, needed: list[int]) -> dict[int, int]:
+    """Return for every cosine the node of its sine and the other way; -1 where nobody wants it."""
+    of: dict[tuple[str, Ref], int] = {}
+    for number in needed:
+        kind, refs = tape.nodes[number]
+        if kind in ("cosd", "sind"):
+            of[kind, refs[0]] = number
+    result: dict[int, int] = {}
+    for (kind, ref), number in of.items():
+        result[number] = of.get(("sind" if kind == "cosd" else "cosd", ref), -1 - number)
+    return result
+
+
+def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
+    """Compile the calls to one function; its source holds numbered places only."""
+    constants: dict[float, str] = {}
+
+    def said(source: Any) -> str:
+        if isinstance(source, float):
+            return constants.setdefault(source, f"k{len(constants)}")
+        return str(source)
+
+    lines = []
+    for step in steps:
+        match step.kind:
+            case "guard":
+                margin, guard, limit = step.sources
+                lines.append(f"if not least({margin}) > {limit!r}: fail({guard}, {margin})")
+            case "turn":
+                lines.append(f"turn({said(step.sources[0])}, {step.into[0]}, {step.into[1]})")
+            case "copy":
+                lines.append(f"copyto({step.into[0]}, {said(step.sources[0])})")
+            case "at_zero":
+                size, other, value = map(said, step.sources)
+                lines.append(f"copyto({step.into[0]}, {value})")
+                lines.append(f"copyto({step.into[0]}, {other}, where={size} == 0.0)")
+            case kind:
+                lines.append(f"{kind}({', '.join(map(said, step.sources))}, {step.into[0]})")
+    text = "\n".join(f"    {line}" for line in lines)
+    used = sorted(set(_names(text)))
+    head = []
+    for letter, source in (("x", "inputs"), ("o", "out"), ("b", "buffers")):
+        head += [f"    {name} = {source}[{name[1:]}]" for name in used if name[0] == letter]
+    source = "def run(inputs, out, buffers, turn, fail):\n" + "\n".join(head) + "\n" + text + "\n"
+    namespace: dict[str, Any] = {f"{kind}": ufunc for kind, ufunc in UFUNC.items()}
+    namespace |= {"least": np.minimum.reduce, "copyto": np.copyto}
+    namespace |= {name: np.asarray(value) for value, name in constants.items()}
+    exec(compile(source, "<plan>", "exec"), namespace)  # source of our own making only
+    made: Callable[..., None] = namespace["run"]
+    return made
+
+
+def _names(text: str) -> list[str]:
+    import re
+
+    return re.findall(r"\b[xob]\d+\b", text)

@@ -1,0 +1,174 @@
+"""A tape as one straight line of Python, for few positions: source made of numbers and letters.
+
+Nothing of a problem file comes into the source: temporaries are ``t`` and a number, constants are
+written as floats by ``repr``.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from planmethod.construct.compiled.symbolic import Guard
+from planmethod.construct.compiled.tape import Ref, Tape
+
+BINARY = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
+
+
+class ImpossibleError(ArithmeticError):
+    """A step is impossible in a position; who runs the tape in blocks can tell which."""
+
+
+Straight = Callable[[Sequence[Sequence[float]], bytearray], None]
+"""Function of a sequence for each input; it packs the results into a buffer, float64, position by
+position."""
+
+
+def used_by(tape: Tape, wanted: Sequence[Ref]) -> list[int]:
+    """Return the nodes that some results need, in order."""
+    need = {ref for ref in wanted if type(ref) is int}
+    for number in range(len(tape.nodes) - 1, -1, -1):
+        node = tape.nodes[number]
+        if number in need and node.kind != "input":
+            need.update(ref for ref in node.operands if type(ref) is int)
+    return sorted(need)
+
+
+def straight(tape: Tape, results: Sequence[Ref], guards: Sequence[Guard]) -> Straight:
+    """Compile a tape to a function of positions.
+
+    Raises
+    ------
+    ImpossibleError, ZeroDivisionError, ValueError, OverflowError
+        By the function made, where a step is impossible in some position.
+    """
+    lines = _Lines(tape, results, guards)
+    namespace: dict[str, Any] = {
+        "sqrt": math.sqrt,
+        "sin": math.sin,
+        "cos": math.cos,
+        "remainder": math.remainder,
+        "atan2": math.atan2,
+        "pack": struct.Struct(f"={len(results)}d").pack_into,
+        "ImpossibleError": ImpossibleError,
+        "inf": math.inf,
+        "nan": math.nan,
+    }
+    exec(compile(lines.source(), "<plan>", "exec"), namespace)  # source of our own making only
+    made: Straight = namespace["run"]
+    return made
+
+
+class _Lines:
+    """Lines of the function while it is written."""
+
+    def __init__(self, tape: Tape, results: Sequence[Ref], guards: Sequence[Guard]) -> None:
+        self.tape, self.results = tape, results
+        watched = [guard.margin for guard in guards]
+        self.needed = used_by(tape, [*results, *watched])
+        self.count = dict.fromkeys(self.needed, 0)
+        for number in self.needed:
+            if tape.nodes[number].kind != "input":
+                for ref in tape.nodes[number].operands:
+                    if type(ref) is int:
+                        self.count[ref] += 1
+        for ref in (*results, *watched):
+            if type(ref) is int:
+                self.count[ref] += 1
+        self.watch: dict[int, float] = {}
+        for guard in guards:
+            if type(guard.margin) is int:
+                limit = self.watch.get(guard.margin, guard.limit)
+                self.watch[guard.margin] = max(limit, guard.limit)
+        self.text: dict[int, str] = {}
+        self.lines: list[str] = []
+        self.angles: dict[Ref, str] = {}
+
+    def source(self) -> str:
+        """Return the source of a function ``run(inputs)``."""
+        for number in self.needed:
+            self._write(number)
+        row = ", ".join(self._said(ref) for ref in self.results)
+        inputs = sorted(
+            {
+                int(node.operands[0])
+                for number in self.needed
+                if (node := self.tape.nodes[number]).kind == "input"
+            }
+        )
+        names = ", ".join(f"x{number}" for number in inputs)
+        columns = ", ".join(f"inputs[{number}]" for number in inputs)
+        each = f"for {names} in " + (columns if len(inputs) == 1 else f"zip({columns})")
+        body = "".join(f"        {line}\n" for line in self.lines)
+        return (
+            f"def run(inputs, buffer):\n    at = 0\n    {each}:\n{body}"
+            f"        pack(buffer, at, {row})\n        at += {8 * len(self.results)}\n"
+        )
+
+    def _said(self, ref: Ref) -> str:
+        if type(ref) is float:
+            return repr(ref) if ref >= 0 else f"({ref!r})"
+        return self.text[int(ref)]
+
+    def _write(self, number: int) -> None:
+        node = self.tape.nodes[number]
+        told = self._expression(number)
+        # Used once and short: it stands where it is used.
+        once = self.count[number] <= 1 and number not in self.watch and node.kind in BINARY
+        if once and len(told) < 120:
+            self.text[number] = f"({told})"
+            return
+        if node.kind in ("input", "cosd", "sind"):
+            self.text[number] = told
+            return
+        self.text[number] = f"t{number}"
+        self.lines.append(f"t{number} = {told}")
+        if number in self.watch:
+            self.lines.append(f"if not t{number} > {self.watch[number]!r}: raise ImpossibleError")
+
+    def _expression(self, number: int) -> str:
+        kind, refs = self.tape.nodes[number]
+        if kind == "input":
+            return f"x{refs[0]}"
+        said = [self._said(ref) for ref in refs]
+        if kind in BINARY:
+            return f"{said[0]} {BINARY[kind]} {said[1]}"
+        match kind:
+            case "neg":
+                return f"-{said[0]}"
+            case "abs" | "sqrt" | "atan2":
+                return f"{kind}({', '.join(said)})"
+            case "max" | "min":
+                sign = ">" if kind == "max" else "<"
+                named = [self._named(ref) for ref in refs]
+                return f"{named[0]} if {named[0]} {sign} {named[1]} else {named[1]}"
+            case "at_zero":
+                return f"{said[1]} if {said[0]} == 0.0 else {said[2]}"
+            case _:  # cosd, sind
+                c, s = self._turned(refs[0], said[0]).split()
+                return c if kind == "cosd" else s
+
+    def _named(self, ref: Ref) -> str:
+        """Return an operand that is written twice: a name, not what it stands for."""
+        said = self._said(ref)
+        if type(ref) is int and said.startswith("("):
+            self.lines.append(f"t{ref} = {said}")
+            said = self.text[ref] = f"t{ref}"
+        return said
+
+    def _turned(self, ref: Ref, degrees: str) -> str:
+        """Write cosine and sine of an angle, exact at quadrants; return their names."""
+        if ref not in self.angles:
+            k = len(self.angles)
+            self.lines += [
+                f"r{k} = remainder({degrees}, 90.0)",
+                f"q{k} = int(({degrees} - r{k}) / 90.0) & 3",
+                f"r{k} *= {math.pi / 180!r}",
+                f"c{k} = cos(r{k}); s{k} = sin(r{k})",
+                f"if q{k}: c{k}, s{k} = (-s{k}, c{k}) if q{k} == 1 else "
+                f"(-c{k}, -s{k}) if q{k} == 2 else (s{k}, -c{k})",
+            ]
+            self.angles[ref] = f"c{k} s{k}"
+        return self.angles[ref]

@@ -1,0 +1,319 @@
+"""A program read in symbols: the tape of real operations that it comes to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from planmethod.construct.arithmetic import Exact, Number, unit_vectors
+from planmethod.construct.compiled.tape import Ref, Tape
+from planmethod.construct.evaluate import apply, limit_of
+from planmethod.construct.program import Program
+from planmethod.construct.steps import (
+    LayOff,
+    MeetCircles,
+    MeetLineCircle,
+    Name,
+    Step,
+    operands,
+)
+
+
+class Symbol:
+    """Real or complex number of a tape.
+
+    Attributes
+    ----------
+    re, im : Ref
+        ``im`` is None for a real number.
+    size : Ref or None
+        Absolute value where it is known beforehand: the radius of the arc a point was found on.
+    """
+
+    __slots__ = ("im", "re", "size", "tape")
+
+    def __init__(self, tape: Tape, re: Ref, im: Ref | None = None, size: Ref | None = None) -> None:
+        self.tape, self.re, self.im, self.size = tape, re, im, size
+
+    def _other(self, value: Number) -> Symbol:
+        if isinstance(value, Symbol):
+            return value
+        if isinstance(value, complex):
+            return Symbol(self.tape, value.real, value.imag)
+        return Symbol(self.tape, float(value))
+
+    def _parts(self) -> tuple[Ref, Ref]:
+        return self.re, 0.0 if self.im is None else self.im
+
+    def _new(self, re: Ref, im: Ref, real: bool, size: Ref | None = None) -> Symbol:
+        return Symbol(self.tape, re, None if real else im, size)
+
+    def __add__(self, value: Number) -> Symbol:
+        other, tape = self._other(value), self.tape
+        (a, b), (c, d) = self._parts(), other._parts()
+        real = self.im is None and other.im is None
+        return self._new(tape.add(a, c), 0.0 if real else tape.add(b, d), real)
+
+    __radd__ = __add__
+
+    def __sub__(self, value: Number) -> Symbol:
+        other, tape = self._other(value), self.tape
+        (a, b), (c, d) = self._parts(), other._parts()
+        real = self.im is None and other.im is None
+        return self._new(tape.sub(a, c), 0.0 if real else tape.sub(b, d), real)
+
+    def __rsub__(self, value: Number) -> Symbol:
+        return self._other(value) - self
+
+    def __neg__(self) -> Symbol:
+        a, b = self._parts()
+        return self._new(self.tape.neg(a), self.tape.neg(b), self.im is None, self.size)
+
+    def __mul__(self, value: Number) -> Symbol:
+        other, tape = self._other(value), self.tape
+        (a, b), (c, d) = self._parts(), other._parts()
+        size = None
+        if self.size is not None and other.size is not None:
+            size = tape.mul(self.size, other.size)
+        elif self.size is not None and type(c) is float and type(d) is float:
+            size = tape.mul(self.size, math.hypot(c, d))
+        if self.im is None and other.im is None:
+            return Symbol(tape, tape.mul(a, c))
+        re = tape.sub(tape.mul(a, c), tape.mul(b, d))
+        return Symbol(tape, re, tape.add(tape.mul(a, d), tape.mul(b, c)), size)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, value: Number) -> Symbol:
+        other, tape = self._other(value), self.tape
+        if other.im is None:
+            a, b = self._parts()
+            re = tape.div(a, other.re)
+            return self._new(re, tape.div(b, other.re), self.im is None)
+        square = abs(other)
+        return self * other.conjugate() / (square * square)
+
+    def __rtruediv__(self, value: Number) -> Symbol:
+        return self._other(value) / self
+
+    def conjugate(self) -> Symbol:
+        """Return the complex conjugate."""
+        if self.im is None:
+            return self
+        return Symbol(self.tape, self.re, self.tape.neg(self.im), self.size)
+
+    @property
+    def real(self) -> Symbol:
+        """Real part."""
+        return Symbol(self.tape, self.re)
+
+    @property
+    def imag(self) -> Symbol:
+        """Imaginary part."""
+        return Symbol(self.tape, self._parts()[1])
+
+    def __abs__(self) -> Symbol:
+        tape = self.tape
+        a, b = self._parts()
+        if self.size is not None:
+            return Symbol(tape, self.size)
+        if b == 0.0 and type(b) is float:
+            return Symbol(tape, tape.abs(a))
+        if a == 0.0 and type(a) is float:
+            return Symbol(tape, tape.abs(b))
+        if type(a) is float and type(b) is float:
+            return Symbol(tape, math.hypot(a, b))
+        squares = tape.add(
+            tape.mul(tape.bare(a), tape.bare(a)), tape.mul(tape.bare(b), tape.bare(b))
+        )
+        return Symbol(tape, tape.make("sqrt", squares))
+
+
+@dataclass(frozen=True, slots=True)
+class Guard:
+    """Margin that must exceed a limit for a step to exist."""
+
+    step: Name
+    margin: Ref
+    limit: float
+
+
+@dataclass
+class Symbolic(Exact):
+    """Arithmetic that writes down what is to be computed, and knows lengths before they are.
+
+    Attributes
+    ----------
+    tape : Tape
+    sizes : dict
+        Absolute values of vectors, by their two coordinates without signs in either order: a
+        vector and the same one turned by 90 degrees have one length.
+    """
+
+    tape: Tape = field(default_factory=Tape)
+    sizes: dict[frozenset[Ref], Ref] = field(default_factory=dict)
+
+    def _key(self, value: Symbol) -> frozenset[Ref]:
+        a, b = value._parts()
+        return frozenset((self.tape.bare(a), self.tape.bare(b)))
+
+    def note(self, vector: Symbol, size: Symbol) -> None:
+        """Note how long a vector is."""
+        self.sizes.setdefault(self._key(vector), self.tape.abs(size.re))
+
+    def known(self, vector: Symbol) -> Symbol:
+        """Return a vector with its length if it was noted."""
+        if vector.size is None and vector.im is not None:
+            vector.size = self.sizes.get(self._key(vector))
+        return vector
+
+    def lift(self, value: Number) -> Number:
+        """Turn given data into a symbol."""
+        if isinstance(value, Symbol):
+            return value
+        if isinstance(value, complex):
+            return Symbol(self.tape, value.real, value.imag)
+        return Symbol(self.tape, float(value))
+
+    def root(self, value: Number) -> Number:
+        """Return the square root, 0 of what is negative."""
+        symbol = self.lift(value)
+        largest = self.tape.make("max", symbol.re, 0.0)
+        return Symbol(self.tape, self.tape.make("sqrt", largest))
+
+    def guard(self, margin: Number, limit: float, value: Number) -> Number:
+        """Return the value; who runs the tape looks at the margins."""
+        return value
+
+    def nonzero(self, value: Number) -> Number:
+        """Return the value; who runs the tape looks at the margins."""
+        return value
+
+    def solid(self, length: Number) -> Number:
+        """Return the length, which is positive where it is not zero."""
+        return length
+
+    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
+        """Return ``other`` where ``size`` is zero, else ``value``."""
+        size, value, other = (self.lift(number) for number in (size, value, other))
+        if type(size.re) is float:
+            return other if size.re == 0.0 else value
+        (a, b), (c, d) = value._parts(), other._parts()
+        re = self.tape.make("at_zero", size.re, c, a)
+        if value.im is None and other.im is None:
+            return Symbol(self.tape, re)
+        return Symbol(self.tape, re, self.tape.make("at_zero", size.re, d, b))
+
+    def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
+        """Return the smaller and the larger of two real numbers."""
+        make, (a, b) = self.tape.make, (one.re, two.re)
+        return Symbol(self.tape, make("min", a, b)), Symbol(self.tape, make("max", a, b))
+
+    def direction(self, degrees: Number) -> Number:
+        """Return the unit complex number at an angle."""
+        angle = self.lift(degrees).re
+        if type(angle) is float:
+            unit = complex(unit_vectors(angle))
+            return Symbol(self.tape, unit.real, unit.imag, 1.0)
+        make = self.tape.make
+        return Symbol(self.tape, make("cosd", angle), make("sind", angle), 1.0)
+
+    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
+        """Return the line, its length if it is known."""
+        return tail, self.known(along)
+
+
+@dataclass(frozen=True)
+class Written:
+    """A program written on a tape.
+
+    Attributes
+    ----------
+    tape : Tape
+    value : mapping
+        Symbol of every point and number; pair of symbols of every line.
+    guards : tuple of Guard
+        Every margin that is not a constant good for all positions.
+    depends : mapping of name to frozenset of int
+        Guards that a result depends on, by their place in ``guards``.
+    inputs : tuple of str
+        Data that vary, in the order of the tape's inputs.
+    """
+
+    tape: Tape
+    value: Mapping[Name, Any]
+    guards: tuple[Guard, ...]
+    depends: Mapping[Name, frozenset[int]]
+    inputs: tuple[str, ...]
+
+
+def write(
+    program: Program, data: Mapping[str, complex | float], inputs: tuple[str, ...]
+) -> Written:
+    """Read a program in symbols.
+
+    Parameters
+    ----------
+    program : Program
+    data : mapping
+        Constants: complex points, float numbers.
+    inputs : tuple of str
+        Known numbers that differ from position to position; a complex point that varies has two
+        inputs, ``name.x`` and ``name.y``.
+    """
+    ar = Symbolic()
+    lifted: dict[str, Number] = {name: ar.lift(value) for name, value in data.items()}
+    refs = {name: ar.tape.input(number) for number, name in enumerate(inputs)}
+    for name, ref in refs.items():
+        point, dot, axis = name.rpartition(".")
+        if not dot:
+            lifted[name] = Symbol(ar.tape, ref)
+        elif axis == "x":
+            lifted[point] = Symbol(ar.tape, ref, refs[f"{point}.y"])
+    env: dict[Name, Any] = {}
+    guards: list[Guard] = []
+    depends: dict[Name, frozenset[int]] = {}
+    for step in program.steps:
+        value, margin = apply(step, env, lifted, ar)
+        mine = frozenset[int]().union(*(depends[name] for name, _ in operands(step)))
+        if margin is not None:
+            guard = _watched(Guard(step.out, ar.lift(margin).re, limit_of(step)), ar.tape)
+            if guard is not None:
+                mine |= {len(guards)}
+                guards.append(guard)
+        env[step.out], depends[step.out] = value, mine
+        _note_lengths(step, env, ar)
+    return Written(ar.tape, env, tuple(guards), depends, inputs)
+
+
+def _watched(guard: Guard, tape: Tape) -> Guard | None:
+    """Return a guard without what need not be computed to look at it; None if it always holds."""
+    margin, limit = guard.margin, guard.limit
+    while type(margin) is int:
+        kind, refs = tape.nodes[margin]
+        if kind == "at_zero" and all(type(ref) is float and ref > limit for ref in refs[1:]):
+            return None
+        scaled = refs[-1] if kind == "div" else refs[0] if kind == "mul" else None
+        if not (type(scaled) is float and scaled > 0.0):
+            break
+        margin, limit = (refs[0], limit * scaled) if kind == "div" else (refs[1], limit / scaled)
+    if type(margin) is float and margin > limit:
+        return None
+    return Guard(guard.step, margin, limit)
+
+
+def _note_lengths(step: Step, env: Mapping[Name, Any], ar: Symbolic) -> None:
+    """Note how far a new point is from the points that it was found from."""
+    match step:
+        case MeetCircles(out, c1, r1, c2, r2, _):
+            pairs: tuple[tuple[Name, Name], ...] = ((c1, r1), (c2, r2))
+        case MeetLineCircle(out, _, c, r, _):
+            pairs = ((c, r),)
+        case LayOff(out, o, _, length):
+            pairs = ((o, length),)
+        case _:
+            return
+    for centre, radius in pairs:
+        ar.note(env[out] - env[centre], env[radius])

@@ -1,0 +1,185 @@
+"""Tape of real operations: what is left of a program when its constants are folded (лента)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple, TypeAlias
+
+Ref: TypeAlias = int | float
+"""Operand: the number of a node (int), or a constant (float)."""
+
+
+class Node(NamedTuple):
+    """One operation on earlier nodes and constants.
+
+    ``input`` has the number of the input as its only operand; ``cosd`` and ``sind`` take degrees;
+    ``at_zero`` has three operands (size, other, value): the other where the size is zero.
+    """
+
+    kind: str
+    operands: tuple[Ref, ...]
+
+
+def _divided(a: float, b: float) -> float:
+    if b == 0.0:
+        return math.nan if a == 0.0 or math.isnan(a) else math.copysign(math.inf, a)
+    return a / b
+
+
+FOLD: dict[str, Callable[..., float]] = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "div": _divided,
+    "neg": lambda a: -a,
+    "abs": abs,
+    "sqrt": math.sqrt,
+    "min": min,
+    "max": max,
+    "at_zero": lambda size, other, value: other if size == 0.0 else value,
+}
+"""What an operation does to constants."""
+
+
+@dataclass
+class Tape:
+    """Operations in order, each made once.
+
+    An operation on constants is carried out at once, and one that changes nothing (times 1, plus
+    0, a + b - a) is not made at all: the straight line has no step that a person would skip.
+    """
+
+    nodes: list[Node] = field(default_factory=list)
+    _made: dict[Node, int] = field(default_factory=dict)
+
+    def make(self, kind: str, *operands: Ref) -> Ref:
+        """Return a node for an operation, an earlier one of the same if there is."""
+        if kind in FOLD and all(type(operand) is float for operand in operands):
+            return FOLD[kind](*operands)
+        node = Node(kind, operands)
+        number = self._made.get(node)
+        if number is None:
+            number = self._made[node] = len(self.nodes)
+            self.nodes.append(node)
+        return number
+
+    def input(self, number: int) -> Ref:
+        """Return the node of an input."""
+        return self.make("input", number)
+
+    def _is(self, ref: Ref, kind: str) -> bool:
+        return type(ref) is int and self.nodes[ref].kind == kind
+
+    def add(self, a: Ref, b: Ref) -> Ref:
+        """Return a + b."""
+        if a == 0.0 and type(a) is float:
+            return b
+        if b == 0.0 and type(b) is float:
+            return a
+        if self._is(b, "neg"):
+            return self.sub(a, self.nodes[int(b)].operands[0])
+        if self._is(a, "neg"):
+            return self.sub(b, self.nodes[int(a)].operands[0])
+        return self.make("add", *self._sorted(a, b))
+
+    def sub(self, a: Ref, b: Ref) -> Ref:
+        """Return a - b; of a sum less one of its terms, the other term."""
+        if b == 0.0 and type(b) is float:
+            return a
+        if a == b and type(a) is type(b):
+            return 0.0
+        if a == 0.0 and type(a) is float:
+            return self.neg(b)
+        if self._is(b, "neg"):
+            return self.add(a, self.nodes[int(b)].operands[0])
+        if self._is(a, "add"):
+            one, two = self.nodes[int(a)].operands
+            if b in (one, two) and type(b) is type(one if b == one else two):
+                return two if b == one else one
+        if self._is(b, "add"):
+            one, two = self.nodes[int(b)].operands
+            if a in (one, two) and type(a) is type(one if a == one else two):
+                return self.neg(two if a == one else one)
+        if self._is(a, "sub") and b == self.nodes[int(a)].operands[0] and type(b) is int:
+            return self.neg(self.nodes[int(a)].operands[1])
+        if self._is(a, "neg"):
+            return self.neg(self.add(self.nodes[int(a)].operands[0], b))
+        turned = self._made.get(Node("sub", (b, a)))
+        if turned is not None:
+            return self.make("neg", turned)
+        return self.make("sub", a, b)
+
+    def neg(self, a: Ref) -> Ref:
+        """Return -a."""
+        if self._is(a, "neg"):
+            return self.nodes[int(a)].operands[0]
+        return self.make("neg", a)
+
+    def mul(self, a: Ref, b: Ref) -> Ref:
+        """Return a·b; the sign goes outside, so that turned vectors are found again."""
+        if type(b) is float:
+            a, b = b, a
+        if type(a) is float:
+            if a in (0.0, 1.0, -1.0):
+                return 0.0 if a == 0.0 else b if a == 1.0 else self.neg(b)
+            if a < 0.0 and type(b) is int:
+                return self.neg(self.mul(-a, b))
+        inner = self._factor(b) if type(a) is float else None
+        if inner is not None and type(a) is float:
+            return self.mul(a * inner[0], inner[1])
+        negative = False
+        if self._is(a, "neg"):
+            a, negative = self.nodes[int(a)].operands[0], not negative
+        if self._is(b, "neg"):
+            b, negative = self.nodes[int(b)].operands[0], not negative
+        product = self.make("mul", *self._sorted(a, b))
+        return self.neg(product) if negative else product
+
+    def div(self, a: Ref, b: Ref) -> Ref:
+        """Return a / b."""
+        if type(b) is float and b in (1.0, -1.0):
+            return a if b == 1.0 else self.neg(a)
+        if type(a) is float and a == 0.0:
+            return 0.0
+        if type(b) is float and b != 0.0:
+            if math.frexp(b)[0] == 0.5:
+                return self.mul(1.0 / b, a)  # exact
+            if self._is(a, "div") and type(self.nodes[int(a)].operands[1]) is float:
+                first, second = self.nodes[int(a)].operands
+                return self.div(first, second * b)
+            factor = self._factor(a)
+            if factor is not None and factor[0] == b:
+                return factor[1]
+        if self._is(a, "neg"):
+            return self.neg(self.div(self.nodes[int(a)].operands[0], b))
+        if self._is(b, "neg"):
+            return self.neg(self.div(a, self.nodes[int(b)].operands[0]))
+        return self.make("div", a, b)
+
+    def _factor(self, a: Ref) -> tuple[float, Ref] | None:
+        """Return the constant factor of a product and what it multiplies."""
+        if self._is(a, "mul") and type(self.nodes[int(a)].operands[0]) is float:
+            one, two = self.nodes[int(a)].operands
+            return float(one), two
+        return None
+
+    def abs(self, a: Ref) -> Ref:
+        """Return |a|."""
+        if self._is(a, "neg"):
+            a = self.nodes[int(a)].operands[0]
+        return a if self._is(a, "abs") or self._is(a, "sqrt") else self.make("abs", a)
+
+    @staticmethod
+    def _sorted(a: Ref, b: Ref) -> tuple[Ref, Ref]:
+        """Return operands in one order: constants first, then by number."""
+        if type(a) is type(b):
+            return (a, b) if a <= b else (b, a)
+        return (a, b) if type(a) is float else (b, a)
+
+    def bare(self, ref: Ref) -> Ref:
+        """Return a node without its sign: what tells vectors of one length."""
+        if self._is(ref, "neg"):
+            return self.nodes[int(ref)].operands[0]
+        return abs(ref) if type(ref) is float else ref

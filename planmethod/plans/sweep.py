@@ -1,0 +1,303 @@
+"""Any number of positions in one call: a program compiled once, run in blocks (развёртка)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.compiled.blocks import Blocks
+from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
+from planmethod.construct.compiled.symbolic import Symbol, Written, write
+from planmethod.construct.compiled.tape import Ref
+from planmethod.errors import PlanMethodError
+from planmethod.mechanism.structure import analyse
+from planmethod.plans.assembly import choose_closings, drive_data
+from planmethod.plans.build import build
+from planmethod.plans.results import Result, ResultKind, results_of
+from planmethod.plans.solution import Solution
+from planmethod.problem.model import Problem
+
+Array = npt.NDArray[Any]
+
+FEW = 40
+"""Positions up to which a line of Python is quicker than NumPy's calls."""
+
+
+class SweepError(PlanMethodError, ValueError):
+    """Parameters or variants that one sweep cannot hold."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One row of a sweep's output.
+
+    Attributes
+    ----------
+    name : str
+        ``B.x``, ``B.vy``, ``2.phi_deg``, ``2.cos``, ``2.omega``: the columns of ``solve --csv``.
+    label : str
+        The result it belongs to, as it is asked for: ``B``, ``v_B``, ``phi_2``.
+    """
+
+    name: str
+    label: str
+
+
+class Sweep:
+    """Results of a problem in any number of positions (развёртка по положениям).
+
+    The program is cut down to what is asked, compiled once, and run in blocks that stay in the
+    cache: memory holds the answers, not the steps.
+
+    Parameters
+    ----------
+    problem : Problem
+    asked : iterable of str, optional
+        Labels of results (``v_E``, ``omega_3``), or ``positions``, ``velocities``,
+        ``accelerations``, ``units``; everything when absent.
+    varied : sequence of str
+        Known numbers that `run` will be given: ``l_BC``, ``omega_1``; see `parameters`.
+    dtype : dtype
+        float64; float32 is for pictures only.
+
+    Attributes
+    ----------
+    rows : tuple of Row
+    parameters : dict
+        Every known number of the program and its value, SI and degrees.
+    steps : int
+        Steps of the program that are needed.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError, UnknownResultError, SweepError
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        asked: Iterable[str] | None = None,
+        *,
+        varied: Sequence[str] = (),
+        dtype: npt.DTypeLike = np.float64,
+    ) -> None:
+        self.problem = problem
+        structure = analyse(problem.mechanism)
+        construction = build(problem, structure, choose_closings(problem, structure))
+        results = results_of(construction)
+        chosen = results.choose(asked)
+        self.program = results.program.needed_for([result.name for result in chosen])
+        self.steps = len(self.program.steps)
+        self.driver = "phi" if problem.drive.is_crank else "s"
+        data = drive_data(problem, construction.draft, np.zeros(1))
+        data.update(results.numbers)
+        self.constants: dict[str, complex | float] = {
+            name: complex(value) if np.iscomplexobj(value) else float(np.real(value))
+            for name, value in data.items()
+            if name != self.driver
+        }
+        self.parameters: dict[str, float] = {
+            name: value
+            for name, value in self.constants.items()
+            if isinstance(value, float) and name not in ("mu_l", "mu_v", "mu_a")
+        }
+        self._check(varied)
+        self.varied = tuple(varied)
+        fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
+        written = write(self.program, fixed, (self.driver, *self.varied))
+        self.rows, refs, depends = _rows(chosen, written)
+        self._refs, self._written = refs, written
+        self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
+        self._straight: Straight | None = None
+
+    def _check(self, varied: Sequence[str]) -> None:
+        unknown = [name for name in varied if name not in self.parameters]
+        if unknown:
+            known = ", ".join(sorted(self.parameters))
+            raise SweepError(f"no parameter {', '.join(unknown)} to vary. Known: {known}.")
+
+    def run(
+        self,
+        positions: npt.ArrayLike,
+        parameters: Mapping[str, npt.ArrayLike] | None = None,
+        *,
+        out: Array | None = None,
+        failed: npt.NDArray[np.int16] | None = None,
+    ) -> Array:
+        """Return the results of some positions.
+
+        Parameters
+        ----------
+        positions : ndarray of shape (n,)
+            phi in degrees, or s in metres.
+        parameters : mapping of str to ndarray of shape (n,), (v, 1) or scalar, optional
+            Values of `varied`. Of shape (v, 1) they make v variants of every position.
+        out : ndarray of shape (k, ...), optional
+            Buffer for the results; a fresh one costs more time than the arithmetic.
+        failed : ndarray of int16 of the shape of the positions, optional
+            Filled with -1, or with the number of the first impossible step's guard (`reason`).
+
+        Returns
+        -------
+        ndarray of shape (k, n), or (k, v, n) for variants
+            NaN where a step that the result depends on is impossible.
+        """
+        parameters = parameters or {}
+        if set(parameters) != set(self.varied):
+            raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
+        angle = np.asarray(positions, dtype=self._blocks.dtype)
+        extra = [np.asarray(parameters[name], dtype=self._blocks.dtype) for name in self.varied]
+        shape = np.broadcast_shapes(angle.shape, *(value.shape for value in extra))
+        if len(shape) not in (1, 2):
+            raise SweepError(f"positions and parameters make an array of shape {shape}")
+        if out is None:
+            quick = len(shape) == 1 and shape[0] <= FEW and failed is None
+            if quick and (found := self._in_line(angle, extra, shape[0])) is not None:
+                return found
+            out = np.empty((len(self.rows), *shape), self._blocks.dtype)
+        if len(shape) == 1:
+            columns = [np.broadcast_to(value, shape) if value.ndim else value for value in extra]
+            self._blocks.run([np.broadcast_to(angle, shape), *columns], out, failed)
+            return out
+        for i in range(shape[0]):
+            columns = [
+                np.broadcast_to(value, shape)[i] if value.shape[-1:] != (1,) else value[i, 0]
+                for value in (np.atleast_2d(value) for value in extra)
+            ]
+            here = np.broadcast_to(angle, shape)[i]
+            self._blocks.run([here, *columns], out[:, i], None if failed is None else failed[i])
+        return out
+
+    def _in_line(self, angle: Array, extra: list[Array], count: int) -> Array | None:
+        """Run few positions as one line of Python; None where a step is impossible."""
+        if self._blocks.dtype != np.float64:
+            return None
+        if self._straight is None:
+            self._straight = straight(self._written.tape, self._refs, self._written.guards)
+        buffer = bytearray(8 * len(self._refs) * count)
+        columns = [np.broadcast_to(value, (count,)).tolist() for value in extra]
+        try:
+            self._straight([angle.tolist(), *columns], buffer)
+        except (ImpossibleError, ArithmeticError, ValueError):
+            return None
+        return np.frombuffer(buffer).reshape(count, -1).T
+
+    def table(
+        self, positions: npt.ArrayLike, parameters: Mapping[str, npt.ArrayLike] | None = None
+    ) -> dict[str, Array]:
+        """Return the results by the names of their rows."""
+        found = self.run(positions, parameters)
+        return {row.name: values for row, values in zip(self.rows, found, strict=True)}
+
+    def reason(self, guard: int) -> str:
+        """Return the step behind a guard's number."""
+        return str(self._written.guards[guard].step)
+
+    def explain(self, position: float) -> str:
+        """Return why a position is impossible, in the words and numbers of the drawing."""
+        try:
+            _ = Solution(self.problem, positions=[position]).si
+        except PlanMethodError as error:
+            return str(error)
+        return ""
+
+
+def sweep_variants(
+    problems: Sequence[Problem], positions: npt.ArrayLike, asked: Iterable[str] | None = None
+) -> tuple[tuple[Row, ...], Array]:
+    """Return the results of several variants of one problem in the same positions.
+
+    Variants that are built by the same steps and differ in numbers only go through one compiled
+    program.
+
+    Returns
+    -------
+    rows : tuple of Row
+    values : ndarray of shape (k, v, n)
+
+    Raises
+    ------
+    SweepError
+        When the variants are not built by the same steps, or a fixed point moves.
+    """
+    labels = None if asked is None else tuple(asked)
+    each = [Sweep(problem, labels) for problem in problems]
+    first = each[0]
+    for other in each[1:]:
+        if other.program != first.program:
+            raise SweepError(
+                f"{_named(other.problem)} is not built by the same steps as "
+                f"{_named(first.problem)}: sweep it alone"
+            )
+    differing = {
+        name
+        for other in each[1:]
+        for name, value in other.constants.items()
+        if value != first.constants[name]
+    }
+    moved = sorted(name for name in differing if name not in first.parameters)
+    if moved:
+        raise SweepError(f"the variants differ in the places of {', '.join(moved)}: sweep each")
+    varied = sorted(differing)
+    values = {name: np.array([[s.parameters[name]] for s in each]) for name in varied}
+    whole = Sweep(first.problem, labels, varied=varied)
+    angle = np.asarray(positions, dtype=float)
+    if not varied:
+        one = whole.run(angle)
+        return whole.rows, np.repeat(one[:, np.newaxis], len(each), axis=1)
+    return whole.rows, whole.run(angle, values)
+
+
+def _named(problem: Problem) -> str:
+    return problem.name + (f" ({problem.variant})" if problem.variant else "")
+
+
+SUFFIX: Mapping[ResultKind, tuple[str, ...]] = {
+    ResultKind.PLACE: ("x", "y"),
+    ResultKind.VELOCITY: ("vx", "vy"),
+    ResultKind.ACCELERATION: ("ax", "ay"),
+    ResultKind.DIRECTION: ("phi_deg",),
+    ResultKind.UNIT: ("cos", "sin"),
+    ResultKind.OMEGA: ("omega",),
+    ResultKind.EPSILON: ("epsilon",),
+    ResultKind.SLIDING: (),
+}
+
+
+def _rows(
+    chosen: Sequence[Result], written: Written
+) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
+    rows: list[Row] = []
+    refs: list[Ref] = []
+    depends: list[frozenset[int]] = []
+    for result in chosen:
+        parts = list(_parts(result, written))
+        suffixes = SUFFIX[result.kind]
+        names = [f"{result.of}.{suffix}" for suffix in suffixes] or [result.label]
+        rows += [Row(name, result.label) for name in names]
+        refs += parts
+        depends += [written.depends[result.name]] * len(parts)
+    return tuple(rows), refs, depends
+
+
+def _parts(result: Result, written: Written) -> Iterator[Ref]:
+    """Yield the numbers of the tape that a result consists of."""
+    value, tape = written.value[result.name], written.tape
+    if isinstance(value, tuple):
+        along: Symbol = value[1]
+        if result.kind is ResultKind.DIRECTION:
+            x, y = along.re, 0.0 if along.im is None else along.im
+            if type(x) is float and type(y) is float:
+                yield math.degrees(math.atan2(y, x))
+            else:
+                yield tape.mul(180.0 / math.pi, tape.make("atan2", y, x))
+            return
+        value = along / abs(along)
+    yield value.re
+    if result.kind not in (ResultKind.OMEGA, ResultKind.EPSILON, ResultKind.SLIDING):
+        yield 0.0 if value.im is None else value.im
