@@ -97,7 +97,7 @@ class Sweep:
         data = drive_data(problem, construction.draft, np.zeros(1))
         data.update(results.numbers)
         self.constants: dict[str, complex | float] = {
-            name: complex(value) if np.iscomplexobj(value) else float(np.real(value))
+            name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
             for name, value in data.items()
             if name != self.driver
         }
