@@ -7,7 +7,6 @@ that is meant exactly is exact in float64 where nothing is turned.
 
 from __future__ import annotations
 
-import cmath
 import math
 
 from planmethod.plans.draft import cis
@@ -316,6 +315,24 @@ def stone_on_pivot(*, phi: float) -> str:
     return slotted(phi=phi, pivot=0.125 + 0j)
 
 
-def phase(z: complex) -> float:
-    """Return an angle in degrees."""
-    return math.degrees(cmath.phase(z))
+def with_fixed(text: str, place: complex) -> str:
+    """Return a text with a fixed point F that belongs to no link."""
+    return text.replace("[frame]\n", f"[frame]\nF = {_pair(place)}\n")
+
+
+def line_of_one_place() -> str:
+    """Return a slotted link whose slot is named by two points at one place."""
+    text = slotted()
+    return (
+        text.replace('["C", "D"]', '["C", "D", "E"]')
+        .replace("CD = 0.375", 'CD = 0.375\nE = { on = "CD", at = 0.0 }')
+        .replace('along = "CD"', 'along = "CE"')
+    )
+
+
+def crank_of_one_place() -> str:
+    """Return a rocker mechanism whose crank pin is at the crank's pivot."""
+    text = rocker()
+    return text.replace('["O", "A"]', '["O", "A", "K"]').replace(
+        "OA = 0.125", 'OK = 0.125\nA = { on = "OK", at = 0.0 }'
+    )

@@ -13,6 +13,9 @@ from planmethod.plans.solution import Segment, Solution
 SCHEMA = 1
 """Version of the record's shape."""
 
+LONG = {"ak": "a_coriolis", "ar": "a_rel"}
+"""Names in the record of what is called shorter in the labels of drafting errors."""
+
 POLE = {PlanKind.VELOCITY: "p", PlanKind.ACCELERATION: "π"}
 
 
@@ -52,24 +55,82 @@ def _vector(prefix: str, value: complex) -> dict[str, float]:
     }
 
 
-def _segments(segments: list[Segment], index: int) -> dict[str, dict[str, float]]:
+def _finite(value: Any) -> float | None:
+    """Return a plain float, None (null) for what a drawing cannot tell."""
+    return _number(value) if np.isfinite(value) else None
+
+
+def _segments(
+    solution: Solution, kind: PlanKind, segments: list[Segment], index: int
+) -> dict[str, dict[str, float | None]]:
+    spreads = solution.drafting.spreads
     return {
         segment.name: {
             "exact": _number(segment.exact[index]),
             "read": _number(segment.read[index]),
+            "sigma": _finite(spreads[f"{kind.value}.{segment.name}"].sigma[index]),
         }
         for segment in segments
+    }
+
+
+def _hand(solution: Solution, index: int) -> dict[str, Any]:
+    """Return what follows from the read segments, and one sigma of each quantity."""
+    hand, spreads = solution.by_hand_results, solution.drafting.spreads
+
+    def told(label: str, value: Any) -> dict[str, float | None]:
+        """Return a quantity and its sigma; the name is the first part of the label."""
+        name = LONG.get(label.split("_")[0], label.split("_")[0])
+        spread = spreads.get(label)
+        sigma = 0.0 if spread is None else _finite(spread.sigma[index])
+        return {name: _finite(value), f"sigma_{name}": sigma}
+
+    def place(name: str) -> dict[str, float | None]:
+        return {
+            f"sigma_{axis}": _finite(spreads[f"{axis}_{name}"].sigma[index]) for axis in ("x", "y")
+        }
+
+    relatives = zip(
+        solution.construction.kinematics.relatives.values(), hand.relatives, strict=True
+    )
+    return {
+        "ruler": solution.hand.ruler,
+        "profile": solution.profile.name,
+        "points": {
+            name: {**told(f"v_{name}", v[index]), **told(f"a_{name}", a[index]), **place(name)}
+            for name, (v, a) in hand.points.items()
+        },
+        "links": {
+            name: {
+                **told(f"omega_{name}", omega[index]),
+                **told(f"epsilon_{name}", epsilon[index]),
+            }
+            for name, (omega, epsilon) in hand.links.items()
+        },
+        "relative": [
+            {
+                "point": r.point,
+                "of": r.of,
+                "to": r.to,
+                **told(r.speed, v[index]),
+                **told(f"ak_{r.speed.removeprefix('v_')}", k[index]),
+                **told(f"ar_{r.speed.removeprefix('v_')}", a[index]),
+            }
+            for r, (v, k, a) in zip(sliding, hand.relatives, strict=True)
+        ],
+        "monte_carlo": [label for label, spread in spreads.items() if spread.drawn[index]],
     }
 
 
 def record(solution: Solution) -> dict[str, Any]:
     """Return everything that a solution says as plain data, SI, full precision.
 
-    ``segments`` are in millimetres of the plan: ``exact``, and ``read`` with the ruler along the
-    hand's own chain. ``hand`` holds the quantities that follow from the read segments.
+    ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along the hand's
+    own chain, and ``sigma``, one standard deviation of the drafting error. ``hand`` holds the
+    quantities that follow from the read segments with theirs, and the labels of those whose sigma
+    was found by random draws because first order does not hold.
     """
     segments = {kind: solution.segments(kind) for kind in PlanKind}
-    hand = solution.by_hand_results
     positions = []
     for i, asked in enumerate(solution.positions):
         entry: dict[str, Any] = {}
@@ -116,32 +177,11 @@ def record(solution: Solution) -> dict[str, Any]:
             kind.value: {
                 "mu": solution.scales[kind].per_mm,
                 **({"pole": POLE[kind]} if kind in POLE else {}),
-                "segments": _segments(segments[kind], i),
+                "segments": _segments(solution, kind, segments[kind], i),
             }
             for kind in PlanKind
         }
-        entry["hand"] = {
-            "ruler": solution.hand.ruler,
-            "points": {
-                name: {"v": _number(v[i]), "a": _number(a[i])}
-                for name, (v, a) in hand.points.items()
-            },
-            "links": {
-                name: {"omega": _number(omega[i]), "epsilon": _number(epsilon[i])}
-                for name, (omega, epsilon) in hand.links.items()
-            },
-            "relative": [
-                {
-                    "point": r.point,
-                    "of": r.of,
-                    "to": r.to,
-                    "v": _number(v[i]),
-                    "a_coriolis": _number(k[i]),
-                    "a_rel": _number(a[i]),
-                }
-                for r, (v, k, a) in zip(solution.relatives, hand.relatives, strict=True)
-            ],
-        }
+        entry["hand"] = _hand(solution, i)
         positions.append(entry)
     return {
         "schema": SCHEMA,

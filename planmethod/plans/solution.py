@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Arithmetic, Float64
+from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
@@ -23,6 +25,9 @@ from planmethod.plans.leads import Relative
 from planmethod.plans.model import Plan, PlanKind
 from planmethod.plans.scaling import Views, choose_scales
 from planmethod.problem.model import Problem
+
+if TYPE_CHECKING:
+    from planmethod.plans.drafting import Drafting
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
@@ -89,8 +94,10 @@ class Solution:
     positions : sequence of float, optional
         Other positions of the driver than the file asks (degrees, or m for a driving slider). The
         closings of the groups stay those of the file's own positions.
-    ruler : float, mm
-        Step of the ruler with which the hand reads the plans.
+    ruler : float, mm, optional
+        Step of the ruler with which the hand reads the plans; the profile's when absent.
+    profile : Profile
+        How well the hand draws: what the drafting errors follow from.
     views : Views, optional
         Boxes that the plans shall fill where the file gives no scale.
 
@@ -105,13 +112,15 @@ class Solution:
         problem: Problem,
         *,
         positions: Sequence[float] | None = None,
-        ruler: float = 0.5,
+        ruler: float | None = None,
+        profile: Profile = PROFILES["board"],
         views: Views | None = None,
     ) -> None:
         self.problem = problem
         asked = problem.drive.positions if positions is None else positions
         self.positions: Reals = np.asarray(asked, dtype=float)
-        self.hand = Hand(ruler=ruler)
+        self.profile = profile if ruler is None else replace(profile, ruler=ruler)
+        self.hand = Hand(ruler=self.profile.ruler)
         self.structure: Structure = analyse(problem.mechanism)
         self.construction: Construction = build(
             problem, self.structure, choose_closings(problem, self.structure)
@@ -300,6 +309,13 @@ class Solution:
                 )
             )
         return HandResults(points, links, relatives)
+
+    @cached_property
+    def drafting(self) -> Drafting:
+        """How far the hand's drawing may be off."""
+        from planmethod.plans.drafting import Drafting
+
+        return Drafting(self)
 
     def segments(self, kind: PlanKind) -> list[Segment]:
         """Return the segments of a plan in mm: exact, and read along the hand's own chain."""

@@ -1,0 +1,214 @@
+"""What a pencil does to a construction: every stroke a little off, and how far (чертёжник).
+
+The strokes and their standard deviations are those of a `Profile`. One set of strokes is read in
+two ways: with dual numbers, which carry every error to every result to first order and keep all
+correlations (`Propagated`), and with random draws, its check (`Sampled`).
+
+How each step errs, sigma by sigma:
+
+- a given point, a point where lines meet, a similar point: pricked ``point`` off in x and in y;
+- a line through two points: the ruler lies ``point`` off across at either of them, so that its
+  direction errs by sqrt(2)·point/length;
+- a line through a point: ``point`` off across at the point, turned by ``parallel`` from the line it
+  is parallel or perpendicular to, or from the angle of the protractor;
+- an arc: its needle stands as a pricked point, its radius is taken off the ruler to ``lay_off``;
+- a length: laid off to ``lay_off``, read to ``measure`` and rounded to the ruler's step.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.dual import Dual, Duals, as_dual
+from planmethod.construct.hand import Hand
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """How well somebody draws (точность построений): standard deviations.
+
+    Attributes
+    ----------
+    name : str
+    point : float, mm
+        Placing of a point by each coordinate; of a ruler at a point.
+    lay_off, measure : float, mm
+        Laying off and reading of a length.
+    parallel : float, degrees
+        Transfer of a direction with the set square; setting of the protractor.
+    ruler : float, mm
+        Step to which lengths are read.
+    """
+
+    name: str
+    point: float
+    lay_off: float
+    measure: float
+    parallel: float
+    ruler: float
+
+
+PROFILES: dict[str, Profile] = {
+    profile.name: profile
+    for profile in (
+        Profile("cad", 0.01, 0.01, 0.01, 0.01, 0.01),
+        Profile("board", 0.25, 0.25, 0.25, 0.25, 0.5),
+        Profile("coarse", 0.5, 0.5, 0.5, 0.5, 1.0),
+    )
+}
+"""Drawing with CAD, on a board with care (the default), and in haste."""
+
+
+class Pencil:
+    """Strokes of a draughtsman; who mixes it with an arithmetic says what an error is.
+
+    Parameters
+    ----------
+    profile : Profile
+    free : frozenset of str
+        Given points that cannot be off: the poles, which may stand anywhere.
+    """
+
+    def __init__(self, profile: Profile, free: frozenset[str] = frozenset()) -> None:
+        self.profile, self.free = profile, free
+
+    def error(self, out: str, sigma: float) -> Number:
+        """Return the next error of a stroke: a real number of zero mean."""
+        raise NotImplementedError
+
+    def rounded(self, out: str, length: Number) -> Number:
+        """Return a length as it is rounded to the ruler's step."""
+        raise NotImplementedError
+
+    def _spot(self, out: str) -> Number:
+        sigma = self.profile.point
+        return self.error(out, sigma) + self.error(out, sigma) * 1j
+
+    def given(self, out: str, point: Number) -> Number:
+        """Return a given point as it is pricked."""
+        return point if out in self.free else point + self._spot(out)
+
+    def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
+        """Return a line as the ruler lies at its two points."""
+        across = along * 1j / self.nonzero(abs(along))
+        one, two = self.error(out, self.profile.point), self.error(out, self.profile.point)
+        return tail + across * one, along + across * (two - one)
+
+    def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
+        """Return a line as the set square draws it."""
+        across = along * 1j / self.nonzero(abs(along))
+        turn = self.error(out, math.radians(self.profile.parallel))
+        return through + across * self.error(out, self.profile.point), along + along * (turn * 1j)
+
+    def arc(self, out: str, centre: Number, radius: Number) -> tuple[Number, Number]:
+        """Return an arc as the compass draws it."""
+        return centre + self._spot(out), radius + self.error(out, self.profile.lay_off)
+
+    def pricked(self, out: str, point: Number) -> Number:
+        """Return a point as it is pricked."""
+        return point + self._spot(out)
+
+    def laid(self, out: str, length: Number) -> Number:
+        """Return a length as it is laid off; of nothing, nothing."""
+        return self.unless_zero(length, length + self.error(out, self.profile.lay_off), length)
+
+    def read(self, out: str, length: Number) -> Number:
+        """Return a length as it is read."""
+        return self.rounded(out, length + self.error(out, self.profile.measure))
+
+    def reread(self, out: str, length: Number) -> Number:
+        """Return the read length over the drawn one; 1 of a length that is zero."""
+        one = length * 0.0 + 1.0
+        return self.unless_zero(length, self.read(out, length) / self.nonzero(length), one)
+
+    def nonzero(self, value: Number) -> Number:
+        """Return the value with NaN in place of zero."""
+        raise NotImplementedError
+
+    def unless_zero(self, size: Number, value: Number, other: Number) -> Number:
+        """Return ``other`` where ``size`` is zero, else ``value``."""
+        raise NotImplementedError
+
+
+class Propagated(Pencil, Duals):
+    """Errors carried to first order: each stroke is a cause of its own.
+
+    Parameters
+    ----------
+    causes : int
+        How many errors the construction has, as `Counted` finds.
+    """
+
+    def __init__(self, profile: Profile, free: frozenset[str], causes: int) -> None:
+        super().__init__(profile, free)
+        self.causes = causes
+        self.of: list[str] = []
+
+    nonzero = Duals.nonzero
+    unless_zero = Duals.unless_zero
+
+    def error(self, out: str, sigma: float) -> Number:
+        """Return a dual number that only its own cause changes."""
+        slope = np.zeros((self.causes, 1))
+        slope[len(self.of)] = sigma
+        self.of.append(out)
+        return Dual(np.zeros(1), slope)
+
+    def rounded(self, out: str, length: Number) -> Number:
+        """Return a length with the error of rounding, which is spread evenly over a step."""
+        return as_dual(length) + self.error(out, self.profile.ruler / math.sqrt(12.0))
+
+
+class Counted(Pencil, Float64):
+    """Nothing off, the errors only counted."""
+
+    def __init__(self, profile: Profile, free: frozenset[str] = frozenset()) -> None:
+        super().__init__(profile, free)
+        self.causes = 0
+
+    nonzero = Float64.nonzero
+    unless_zero = Float64.unless_zero
+
+    def error(self, out: str, sigma: float) -> Number:
+        """Count an error and return none."""
+        self.causes += 1
+        return 0.0
+
+    def rounded(self, out: str, length: Number) -> Number:
+        """Count the rounding and return the length."""
+        self.causes += 1
+        return length
+
+
+class Sampled(Pencil, Float64):
+    """Every stroke drawn at random, many times over (метод Монте-Карло).
+
+    Parameters
+    ----------
+    draws : int
+        How many sheets are drawn: the length of every array.
+    seed : int
+        The same seed draws the same sheets.
+    """
+
+    def __init__(self, profile: Profile, free: frozenset[str], draws: int, seed: int) -> None:
+        super().__init__(profile, free)
+        self.draws = draws
+        self._random = np.random.default_rng(seed)
+        self._hand = Hand(ruler=profile.ruler)
+
+    nonzero = Float64.nonzero
+    unless_zero = Float64.unless_zero
+
+    def error(self, out: str, sigma: float) -> npt.NDArray[np.float64]:
+        """Return normal errors."""
+        return np.asarray(self._random.normal(0.0, sigma, self.draws))
+
+    def rounded(self, out: str, length: Number) -> Number:
+        """Return the length rounded to the step of the ruler."""
+        return self._hand.ruled(length)
