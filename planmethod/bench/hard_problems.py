@@ -30,8 +30,10 @@ def slider_crank(
     omega: float = 12.0,
     epsilon: float = 0.0,
     origin: complex = 0j,
+    size: float = 1.0,
 ) -> str:
     """Return a slider-crank driven by its crank; S is a point beside its rod."""
+    crank, rod, offset = crank * size, rod * size, offset * size
     u = cis(turn)
     return f"""
 [frame]
@@ -158,28 +160,37 @@ def slotted(
     offset: float = 0.0,
     omega: float = 12.0,
     epsilon: float = 0.0,
+    origin: complex = 0j,
+    size: float = 1.0,
 ) -> str:
     """Return a slotted link (кулиса) about C, its stone on the pin A of a crank of 0.125 m."""
     return f"""
 [frame]
-O = [0.0, 0.0]
-C = {_pair(cis(turn) * pivot)}
+O = {_pair(cis(turn) * origin * size)}
+C = {_pair(cis(turn) * pivot * size)}
 [links.1]
 points = ["O", "A"]
-OA = 0.125
+OA = {0.125 * size!r}
 [links.2]
 points = ["A"]
-slides = {{ on = "3", along = "CD", offset = {offset!r} }}
+slides = {{ on = "3", along = "CD", offset = {offset * size!r} }}
 [links.3]
 points = ["C", "D"]
-CD = 0.375
+CD = {0.375 * size!r}
 {_crank("1", phi + turn, omega, epsilon)}"""
 
 
-def pin_from_pivot(*, distance: float, turn: float = 0.0, offset: float = 0.0) -> str:
+def pin_from_pivot(
+    *, distance: float, turn: float = 0.0, offset: float = 0.0, size: float = 1.0
+) -> str:
     """Return a slotted link whose pin stands at a distance from its pivot, the crank at 0 deg."""
     pivot = 0.125 + distance * (0.6 + 0.8j)
-    return slotted(phi=0.0, turn=turn, pivot=pivot, offset=offset)
+    return slotted(phi=0.0, turn=turn, pivot=pivot, offset=offset, size=size)
+
+
+def pivot_at_origin() -> str:
+    """Return a slotted link whose pin meets its pivot in the origin, the crank at 0 deg."""
+    return slotted(origin=-0.125 + 0j, pivot=0j)
 
 
 def swinging_block(*, distance: float) -> str:
@@ -240,15 +251,22 @@ B = {{ near = {_pair(pin + rod)} }}
 {_crank("1", 90.0 + turn, 12.0, 0.0)}"""
 
 
-def cross_slide(*, angle: float = 70.0, turn: float = 0.0, omega: float = 12.0) -> str:
+def cross_slide(
+    *,
+    angle: float = 70.0,
+    turn: float = 0.0,
+    omega: float = 12.0,
+    origin: complex = 0j,
+    size: float = 1.0,
+) -> str:
     """Return a bar on a guide, in its slot at an angle to the guide a stone on the crank (RPP)."""
     return f"""
 [frame]
-O = [0.0, 0.0]
+O = {_pair(origin)}
 guides.x-x = {{ through = "O", angle = {turn!r} }}
 [links.1]
 points = ["O", "A"]
-OA = 0.125
+OA = {0.125 * size!r}
 [links.2]
 points = ["A"]
 slides = {{ on = "3", through = "E", angle = {turn + angle!r} }}
@@ -258,19 +276,20 @@ slides = {{ on = "x-x" }}
 {_crank("1", 50.0 + turn, omega, 0.0)}"""
 
 
-def isosceles(*, turn: float = 0.0) -> str:
-    """Return a slider-crank with rod = crank: at phi = 90 the slider stands in the pivot."""
-    return slider_crank(turn=turn, crank=0.25, rod=0.25)
-
-
-def beside(distance: float, *, at: float = 0.25) -> str:
+def lay_beside(distance: float, *, at: float = 0.25) -> str:
     """Return the place of the rod's third point beside a line."""
     return f'S = {{ on = "AB", at = {at!r}, across = {distance!r} }}'
 
 
-def needle(excess: float) -> str:
+def lay_needle(excess: float) -> str:
     """Return the third point by two lengths that exceed the rod of 0.5 m by a share."""
     return f'AS = {0.25 * (1 + excess)!r}\nBS = {0.25 * (1 + excess)!r}\nS.side = "left of AB"'
+
+
+def lay_close(distance: float) -> str:
+    """Return the third point by two lengths, at a distance from the far end of a rod of 0.5 m."""
+    length = math.hypot(0.5 - 0.3 * distance, 0.9 * distance)
+    return f'AS = {length!r}\nBS = {distance!r}\nS.side = "left of AB"'
 
 
 def depart(crank: float, rod: float, angle: float) -> float:
@@ -305,17 +324,7 @@ def abreast(*, gap: float, turn: float = 0.0, inside: bool = False) -> str:
     return rocker(phi=0.0, turn=turn, rod=rod, arm=arm, frame=0.125 + apart)
 
 
-def two_pivots() -> str:
-    """Return a rocker mechanism whose two fixed joints are two points at one place."""
-    return rocker(phi=0.0, frame=0.0, crank=0.25)
-
-
-def stone_on_pivot(*, phi: float) -> str:
-    """Return an equal-armed slotted link: at phi = 0 its pin is on its fixed pivot."""
-    return slotted(phi=phi, pivot=0.125 + 0j)
-
-
-def with_fixed(text: str, place: complex) -> str:
+def add_fixed(text: str, place: complex) -> str:
     """Return a text with a fixed point F that belongs to no link."""
     return text.replace("[frame]\n", f"[frame]\nF = {_pair(place)}\n")
 

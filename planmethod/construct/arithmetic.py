@@ -72,7 +72,7 @@ class Arithmetic(Protocol):
         ...
 
     def laid(self, out: str, length: Number) -> Number:
-        """Return a length as it is laid off."""
+        """Return a length as it is laid off; its imaginary part goes beside the line."""
         ...
 
     def read(self, out: str, length: Number) -> Number:

@@ -12,7 +12,8 @@ How each step errs, sigma by sigma:
 - a line through a point: ``point`` off across at the point, turned by ``parallel`` from the line it
   is parallel or perpendicular to, or from the angle of the protractor;
 - an arc: its needle stands as a pricked point, its radius is taken off the ruler to ``lay_off``;
-- a length: laid off to ``lay_off``, read to ``measure`` and rounded to the ruler's step.
+- a length: laid off to ``lay_off`` and pricked ``point`` beside its line; read to ``measure`` and
+  rounded to the ruler's step.
 """
 
 from __future__ import annotations
@@ -114,8 +115,10 @@ class Pencil:
         return point + self._spot(out)
 
     def laid(self, out: str, length: Number) -> Number:
-        """Return a length as it is laid off; of nothing, nothing."""
-        return self.unless_zero(length, length + self.error(out, self.profile.lay_off), length)
+        """Return a length as it is laid off, and how far beside the line; of nothing, nothing."""
+        beside = self.error(out, self.profile.point) * 1j
+        off = length + self.error(out, self.profile.lay_off) + beside
+        return self.unless_zero(length, off, length)
 
     def read(self, out: str, length: Number) -> Number:
         """Return a length as it is read."""

@@ -90,9 +90,7 @@ def _hand(solution: Solution, index: int) -> dict[str, Any]:
             f"sigma_{axis}": _finite(spreads[f"{axis}_{name}"].sigma[index]) for axis in ("x", "y")
         }
 
-    relatives = zip(
-        solution.construction.kinematics.relatives.values(), hand.relatives, strict=True
-    )
+    sliding = solution.construction.kinematics.relatives.values()
     return {
         "ruler": solution.hand.ruler,
         "profile": solution.profile.name,

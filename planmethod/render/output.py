@@ -5,8 +5,9 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+from collections.abc import Iterator
 from pathlib import Path
-from typing import NoReturn
+from typing import BinaryIO, NoReturn
 
 from planmethod.errors import OutputError
 
@@ -29,11 +30,24 @@ _CAUSES = {
 
 
 def write(path: Path | str, data: bytes) -> None:
-    """Write ``data`` to ``path`` whole or not at all.
+    """Write ``data`` to ``path`` whole or not at all, see `opened`.
 
-    The bytes go to a temporary file beside ``path``, which then takes its place: a reader sees the
-    old file or the new one, and a failure leaves what was there. Missing directories are made; a
-    symbolic link is followed; an existing file keeps its permissions.
+    Raises
+    ------
+    OutputError
+        The file cannot be written; the message says why and what to do.
+    """
+    with opened(path) as file:
+        file.write(data)
+
+
+@contextlib.contextmanager
+def opened(path: Path | str) -> Iterator[BinaryIO]:
+    """Open a file for bytes that appear at ``path`` whole or not at all.
+
+    The bytes go to a temporary file beside ``path``, which takes its place when the block ends: a
+    reader sees the old file or the new one, and a failure leaves what was there. Missing
+    directories are made; a symbolic link is followed; an existing file keeps its permissions.
 
     Raises
     ------
@@ -49,7 +63,7 @@ def write(path: Path | str, data: bytes) -> None:
         try:
             # "x": never through a link or a file that somebody put there; permissions by umask.
             with temporary.open("xb") as file:
-                file.write(data)
+                yield file
             if mode is not None:
                 temporary.chmod(mode)
             temporary.replace(target)
