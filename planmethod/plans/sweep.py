@@ -115,6 +115,11 @@ class Sweep:
         self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
         self._straight: Straight | None = None
 
+    @property
+    def operations(self) -> int:
+        """Real operations for one position, after folding."""
+        return self._blocks.operations
+
     def _check(self, varied: Sequence[str]) -> None:
         unknown = [name for name in varied if name not in self.parameters]
         if unknown:
@@ -147,10 +152,15 @@ class Sweep:
         ndarray of shape (k, n), or (k, v, n) for variants
             NaN where a step that the result depends on is impossible.
         """
+        angle = np.asarray(positions, dtype=self._blocks.dtype)
+        alone = not self.varied and not parameters and angle.ndim == 1
+        if alone and out is None and failed is None and len(angle) <= FEW:
+            found = self._in_line(angle, [], len(angle))
+            if found is not None:
+                return found
         parameters = parameters or {}
         if set(parameters) != set(self.varied):
             raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
-        angle = np.asarray(positions, dtype=self._blocks.dtype)
         extra = [np.asarray(parameters[name], dtype=self._blocks.dtype) for name in self.varied]
         shape = np.broadcast_shapes(angle.shape, *(value.shape for value in extra))
         if len(shape) not in (1, 2):

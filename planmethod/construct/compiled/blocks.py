@@ -67,6 +67,11 @@ class Blocks:
         self._code = _line(self._steps, len(self.results))
         self._angle = _Angle(block, self.dtype)
 
+    @property
+    def operations(self) -> int:
+        """Calls for a block, guards not counted."""
+        return sum(step.kind != "guard" for step in self._steps)
+
     def run(
         self,
         inputs: Sequence[Array],
@@ -119,12 +124,43 @@ class _Angle:
         self.block, self.dtype = block, dtype
         self.step: float | None = None
         self.work: list[Array] = []
+        self.spare: list[Array] = []
 
     def __call__(self, degrees: Array, cosine: Array, sine: Array) -> None:
-        if self.dtype == np.float64 and len(degrees) > 64 and self._by_table(degrees, cosine, sine):
-            return
-        unit = unit_vectors(degrees)
-        cosine[:], sine[:] = unit.real, unit.imag
+        few = len(degrees) <= 64 or self.dtype != np.float64
+        if few or not self._by_table(degrees, cosine, sine):
+            self._each(degrees, cosine, sine)
+
+    def _each(self, degrees: Array, cosine: Array, sine: Array) -> None:
+        """Reduce every angle to its quadrant, exactly, and turn the rest back by it."""
+        size = len(degrees)
+        if not self.spare:
+            self.spare = [np.empty(self.block, self.dtype) for _ in range(4)]
+        quarter, rest, across, work = (array[:size] for array in self.spare)
+        np.multiply(degrees, 1.0 / 90.0, quarter)
+        np.rint(quarter, quarter)
+        np.multiply(quarter, 90.0, rest)
+        np.subtract(degrees, rest, rest)
+        np.multiply(rest, np.pi / 180.0, rest)
+        # The quarter turn modulo 4: its cosine is |q - 2| - 1, its sine 1 - |q - 1|.
+        np.multiply(quarter, 0.25, work)
+        np.floor(work, work)
+        np.multiply(work, 4.0, work)
+        np.subtract(quarter, work, quarter)
+        np.subtract(quarter, 1.0, across)
+        np.abs(across, across)
+        np.subtract(1.0, across, across)
+        np.subtract(quarter, 2.0, quarter)
+        np.abs(quarter, quarter)
+        np.subtract(quarter, 1.0, quarter)
+        np.cos(rest, work)
+        np.sin(rest, rest)
+        np.multiply(work, quarter, cosine)
+        np.multiply(rest, quarter, sine)
+        np.multiply(rest, across, rest)
+        np.multiply(work, across, work)
+        np.subtract(cosine, rest, cosine)
+        np.add(sine, work, sine)
 
     def _by_table(self, degrees: Array, cosine: Array, sine: Array) -> bool:
         """Turn a table of equal steps to where the block begins.
@@ -134,6 +170,8 @@ class _Angle:
         """
         size = len(degrees)
         first, step = float(degrees[0]), float(degrees[-1] - degrees[0]) / (size - 1)
+        if any(abs(float(degrees[k]) - first - k * step) > EQUAL for k in (1, size // 2)):
+            return False
         if self.step is None or abs(step - self.step) * size > EQUAL:
             self._make_table(step)
         turns, c, s, rest, work = (array[:size] for array in self.work)

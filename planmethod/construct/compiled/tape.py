@@ -129,6 +129,10 @@ class Tape:
         inner = self._factor(b) if type(a) is float else None
         if inner is not None and type(a) is float:
             return self.mul(a * inner[0], inner[1])
+        if type(a) is float and self._is(b, "div"):
+            one, two = self.nodes[int(b)].operands
+            if type(one) is float:
+                return self.div(a * one, two)
         negative = False
         if self._is(a, "neg"):
             a, negative = self.nodes[int(a)].operands[0], not negative

@@ -1,0 +1,66 @@
+"""Mechanisms that the benchmark runs: a four-bar, a slotted-link six-bar, chains of dyads."""
+
+from __future__ import annotations
+
+from planmethod.problem import loads, template
+from planmethod.problem.model import Problem
+
+FOURBAR = """
+title = "Four-bar"
+[frame]
+A = [0, 0]
+D = [0.4, 0]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.35
+[links.3]
+points = ["D", "C"]
+DC = 0.3
+[driver]
+link = "1"
+phi = 20
+omega = 10
+[assembly]
+C = "left of BD"
+"""
+"""The four-bar of the peers (see `planmethod.bench.peers`)."""
+
+FOURBAR_ROWS = (
+    "B", "v_B", "a_B", "C", "v_C", "a_C",
+    "u_2", "omega_2", "epsilon_2", "u_3", "omega_3", "epsilon_3",
+)  # fmt: skip
+"""Results that make the same 20 rows as the peers': all moving points and links."""
+
+
+def fourbar() -> Problem:
+    """Return the four-bar that the peers solve."""
+    return loads(FOURBAR, name="four-bar")
+
+
+def slotted() -> Problem:
+    """Return a mechanism with a slotted link and a Coriolis acceleration, six members."""
+    return loads(template("slotted-link"), name="slotted-link")
+
+
+def chain(dyads: int) -> Problem:
+    """Return a crank and a chain of RRR dyads: 1 + 2·dyads moving links.
+
+    Each rocker drives the next through a coupler of the length of the frame between them, so all
+    of them swing alike and the chain assembles at every angle of the crank.
+    """
+    lines = ['title = "Chain"', "[frame]", "A = [0, 0]"]
+    lines += [f"D{k} = [{0.4 * k:.1f}, 0]" for k in range(1, dyads + 1)]
+    lines += ["[links.1]", 'points = ["A", "B"]', "AB = 0.06"]
+    rules = []
+    for k in range(1, dyads + 1):
+        before = "B" if k == 1 else f"C{k - 1}"
+        length = 0.47 if k == 1 else 0.4
+        lines += [f"[links.{2 * k}]", f'points = ["{before}", "C{k}"]']
+        lines += [f"{before}C{k} = {length}"]
+        lines += [f"[links.{2 * k + 1}]", f'points = ["D{k}", "C{k}"]', f"D{k}C{k} = 0.3"]
+        rules.append(f'C{k} = "above D{k}"')
+    lines += ["[driver]", 'link = "1"', "phi = 40", "omega = 10", "[assembly]", *rules]
+    return loads("\n".join(lines) + "\n", name=f"chain-{dyads}")
