@@ -2,51 +2,69 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import click
 
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
 F = TypeVar("F", bound=Callable[..., Any])
+
+Positions: TypeAlias = "npt.NDArray[np.float64]"
+"""Driver positions, ndarray of shape (n,): degrees, or metres of a slider."""
 
 MOST_POSITIONS = 1_000_000
 """Most positions that ``--phi`` may ask for."""
 
+MOST_SWEPT = 10_000_000
+"""Most positions where they are swept, not drawn: ``--npz`` and ``--ask``."""
+
 
 def read_positions(
-    ctx: click.Context, param: click.Parameter, value: str | None
-) -> tuple[float, ...] | None:
+    ctx: click.Context, param: click.Parameter, value: str | None, *, most: int = MOST_POSITIONS
+) -> Positions | None:
     """Return driver positions: ``20``, ``0,30,60``, or ``from:to:step`` without the end."""
     if value is None:
         return None
-    result: list[float] = []
+    import numpy as np
+
+    parts: list[Positions] = []
+    count = 0
     for part in value.split(","):
         try:
             numbers = [float(number) for number in part.split(":")]
         except ValueError:
             raise click.BadParameter(f"{part!r} is not a number nor from:to:step") from None
-        result += _expanded(numbers, part)
-        if len(result) > MOST_POSITIONS:
-            raise click.BadParameter(f"more than {MOST_POSITIONS} positions")
-    return tuple(result)
+        parts.append(_expanded(numbers, part, most))
+        count += len(parts[-1])
+        if count > most:
+            raise click.BadParameter(f"more than {most} positions")
+    return np.concatenate(parts)
 
 
-def _expanded(numbers: list[float], part: str) -> list[float]:
+def _expanded(numbers: list[float], part: str, most: int) -> Positions:
     """Return the positions of one part of ``--phi``."""
+    import numpy as np
+
     if not all(abs(number) < 1e9 for number in numbers):
         raise click.BadParameter(f"{part!r} is out of range: below 1e9 is expected")
     if len(numbers) == 1:
-        return numbers
+        return np.array(numbers)
     if len(numbers) != 3 or numbers[2] == 0:
         raise click.BadParameter(f"{part!r} is not from:to:step with a step that is not 0")
     start, stop, step = numbers
     count = (stop - start) / step
-    if count <= 0 or count > MOST_POSITIONS:
+    if count <= 0 or count > most:
         raise click.BadParameter(f"{part!r} gives {max(0, round(count))} positions")
-    near = round(count)
+    near = max(1, round(count))
     whole = near if abs(count - near) < 1e-9 * max(1.0, count) else int(count) + 1
-    return [start + step * k for k in range(whole)]
+    found: Positions = start + step * np.arange(whole)
+    return found
 
 
 def read_ruler(ctx: click.Context, param: click.Parameter, value: float) -> float:
@@ -111,14 +129,19 @@ def ruler_option(command: F) -> F:
     )(command)
 
 
-def reading_options(command: F) -> F:
-    """Add the options that say where and how the plans are read."""
+def positions_option(most: int) -> Callable[[F], F]:
+    """Add the positions of the driver, so many at the most."""
     return click.option(
         "--phi",
-        callback=read_positions,
+        callback=functools.partial(read_positions, most=most),
         metavar="POSITIONS",
         help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30.",
-    )(ruler_option(command))
+    )
+
+
+def reading_options(command: F) -> F:
+    """Add the options that say where and how the plans are read."""
+    return positions_option(MOST_POSITIONS)(ruler_option(command))
 
 
 def out_option(command: F) -> F:

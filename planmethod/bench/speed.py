@@ -126,25 +126,20 @@ def row_error(scene: str, count: int, found: Array) -> float:
 def sweeps(scene: str, counts: Sequence[int]) -> list[Reading]:
     """Time sweeps in float64 and float32, the output buffer passed in."""
     problem, asked = scene_of(scene)
-    found = []
-    for dtype in (np.float64, np.float32):
-        sweep = Sweep(problem, asked, dtype=dtype)
-        for count in counts:
-            angles = turn(count).astype(dtype)
-            few = count <= 40
-            out = None if few else np.empty((len(sweep.rows), count), dtype)
-            timing = clock(lambda a=angles, o=out: sweep.run(a, out=o))  # type: ignore[misc]
-            values = sweep.run(angles, out=out)
-            found.append(
-                Reading(
-                    f"sweep, {np.dtype(dtype).name}",
-                    scene,
-                    count,
-                    timing.median,
-                    row_error(scene, count, values),
-                )
-            )
-    return found
+    both = (np.dtype(np.float64), np.dtype(np.float32))
+    return [
+        _swept(scene, Sweep(problem, asked, dtype=dtype), count, dtype)
+        for dtype in both
+        for count in counts
+    ]
+
+
+def _swept(scene: str, sweep: Sweep, count: int, dtype: np.dtype[Any]) -> Reading:
+    angles = turn(count).astype(dtype)
+    out = None if count <= 40 else np.empty((len(sweep.rows), count), dtype)
+    timing = clock(lambda: sweep.run(angles, out=out))
+    error = row_error(scene, count, sweep.run(angles, out=out))
+    return Reading(f"sweep, {dtype.name}", scene, count, timing.median, error)
 
 
 def single_readings(scene: str) -> list[Reading]:
@@ -318,24 +313,15 @@ def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
 # What grows with what ---------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Growth:
-    """Cost of one size of a scene."""
-
-    size: int
-    seconds: float
-    note: str = ""
-
-
-def by_positions(counts: Sequence[int]) -> list[Growth]:
-    """Return seconds of a sweep of the slotted link by number of positions."""
+def by_positions(counts: Sequence[int]) -> list[tuple[int, float]]:
+    """Return (positions, seconds) of a sweep of the slotted link."""
     problem, asked = scene_of("slotted-link")
     sweep = Sweep(problem, asked)
     found = []
     for n in counts:
         out = None if n <= 40 else np.empty((len(sweep.rows), n))
         angles = turn(n)
-        found.append(Growth(n, clock(lambda a=angles, o=out: sweep.run(a, out=o)).median))  # type: ignore[misc]
+        found.append((n, clock(lambda a=angles, o=out: sweep.run(a, out=o)).median))  # type: ignore[misc]
     return found
 
 

@@ -1,4 +1,4 @@
-"""Result tables for the terminal, and rows for a spreadsheet (таблицы результатов)."""
+"""Result tables for the terminal (таблицы результатов)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from planmethod.note.plaintext import (
 )
 from planmethod.note.wording import Wording, wording
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Reals, Segment, Solution
+from planmethod.plans.solution import Segment, Solution
 from planmethod.problem.model import Convention
 
 FEW = 3
@@ -229,44 +229,3 @@ def _many(solution: Solution, words: Wording) -> list[str]:
         if columns:
             lines += [*([""] if lines else []), title, *columns_text([*lead, *columns], len(lead))]
     return lines
-
-
-# Spreadsheet -----------------------------------------------------------------------------------
-
-
-def csv_rows(solution: Solution) -> tuple[list[str], list[list[float | int]]]:
-    """Return header and rows for a spreadsheet: one row for each position, SI, full precision.
-
-    Columns: ``position`` (from 1), ``phi_deg`` or ``s``, ``margin``; for each point ``B.x, B.y,
-    B.vx, B.vy, B.v, B.ax, B.ay, B.a``; for each link ``2.phi_deg, 2.omega, 2.epsilon``
-    (counter-clockwise positive); for each segment of the plans ``velocity.p-b.exact`` and
-    ``velocity.p-b.read``, mm of the plan.
-    """
-    columns: dict[str, Reals] = {}
-
-    def add(name: str, values: Reals) -> None:
-        key, copy = name, 2
-        while key in columns:
-            key, copy = f"{name}#{copy}", copy + 1
-        columns[key] = values + 0.0  # no negative zeros
-
-    add("phi_deg" if solution.problem.drive.is_crank else "s", solution.positions)
-    add("margin", solution.margin)
-    for name, point in solution.points.items():
-        add(f"{name}.x", point.place.real)
-        add(f"{name}.y", point.place.imag)
-        for letter, vector in (("v", point.velocity), ("a", point.acceleration)):
-            add(f"{name}.{letter}x", vector.real)
-            add(f"{name}.{letter}y", vector.imag)
-            add(f"{name}.{letter}", np.array([abs(complex(value)) for value in vector]))
-    for name, link in solution.links.items():
-        add(f"{name}.phi_deg", link.phi_deg)
-        add(f"{name}.omega", link.omega)
-        add(f"{name}.epsilon", link.epsilon)
-    for kind in PlanKind:
-        for segment in solution.segments(kind):
-            add(f"{kind.value}.{segment.name}.exact", segment.exact)
-            add(f"{kind.value}.{segment.name}.read", segment.read)
-    stacked = np.column_stack(list(columns.values())).tolist()
-    rows: list[list[float | int]] = [[i, *row] for i, row in enumerate(stacked, 1)]
-    return ["position", *columns], rows

@@ -100,6 +100,8 @@ class Solution:
         How well the hand draws: what the drafting errors follow from.
     views : Views, optional
         Boxes that the plans shall fill where the file gives no scale.
+    scales : mapping of PlanKind to Scale, optional
+        Scales of the plans, where neither the file nor the views shall tell them.
 
     Raises
     ------
@@ -115,6 +117,7 @@ class Solution:
         ruler: float | None = None,
         profile: Profile = PROFILES["board"],
         views: Views | None = None,
+        scales: Mapping[PlanKind, Scale] | None = None,
     ) -> None:
         self.problem = problem
         asked = problem.drive.positions if positions is None else positions
@@ -126,6 +129,7 @@ class Solution:
             problem, self.structure, choose_closings(problem, self.structure)
         )
         self._views = views
+        self._scales = scales
 
     # Readings --------------------------------------------------------------------------------
 
@@ -158,8 +162,8 @@ class Solution:
 
     @cached_property
     def scales(self) -> dict[PlanKind, Scale]:
-        """Scales of the plans: the file's, else chosen from the series to fill the views."""
-        return choose_scales(self)
+        """Scales of the plans: given, the file's, or chosen from the series to fill the views."""
+        return choose_scales(self) if self._scales is None else dict(self._scales)
 
     @property
     def views(self) -> Views:

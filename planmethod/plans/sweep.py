@@ -10,16 +10,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.construct.arithmetic import Float64
 from planmethod.construct.compiled.blocks import Blocks
 from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
 from planmethod.construct.compiled.symbolic import Symbol, Written, write
 from planmethod.construct.compiled.tape import Ref
+from planmethod.construct.evaluate import evaluate
 from planmethod.errors import PlanMethodError
 from planmethod.mechanism.structure import analyse
 from planmethod.plans.assembly import choose_closings, drive_data
 from planmethod.plans.build import build
+from planmethod.plans.impossible import explain, failing
 from planmethod.plans.results import Result, ResultKind, results_of
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
 
 Array = npt.NDArray[Any]
@@ -94,6 +96,7 @@ class Sweep:
         self.program = results.program.needed_for([result.name for result in chosen])
         self.steps = len(self.program.steps)
         self.driver = "phi" if problem.drive.is_crank else "s"
+        self._draft = construction.draft
         data = drive_data(problem, construction.draft, np.zeros(1))
         data.update(results.numbers)
         self.constants: dict[str, complex | float] = {
@@ -208,13 +211,25 @@ class Sweep:
         """Return the step behind a guard's number."""
         return str(self._written.guards[guard].step)
 
-    def explain(self, position: float) -> str:
-        """Return why a position is impossible, in the words and numbers of the drawing."""
-        try:
-            _ = Solution(self.problem, positions=[position]).si
-        except PlanMethodError as error:
-            return str(error)
-        return ""
+    def explain(self, position: float, *, number: int = 1) -> str:
+        """Return why a position is impossible, in the words and numbers of the drawing.
+
+        Parameters
+        ----------
+        number : int
+            Number of the position, from 1, for the message.
+
+        Returns
+        -------
+        str
+            Empty if every step that the sweep needs exists there.
+        """
+        at = np.array([position], dtype=float)
+        trace = evaluate(self.program, {**self.constants, self.driver: at}, Float64())
+        if failing(self.program, trace, 1)[0] < 0:
+            return ""
+        said = explain(self.problem, self._draft, self.program, trace, at, unit_scales=True)
+        return said.replace("position 1 (", f"position {number} (", 1)
 
 
 def sweep_variants(

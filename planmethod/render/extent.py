@@ -34,12 +34,17 @@ ROOMS = (26.0, 60.0)
 """Room around a picture for its letters, mm: more where they find no free place in less."""
 
 
-def lettered(items: Sequence[Item], labels: Sequence[Label]) -> Picture:
-    """Return a picture of items with their labels in free places around them."""
+def lettered(
+    items: Sequence[Item], labels: Sequence[Label], *, clear: Sequence[Item] = ()
+) -> Picture:
+    """Return a picture of items with their labels in free places around them.
+
+    ``clear`` is what the labels keep clear of though it is not drawn.
+    """
     left, low, right, high = ink_bounds(items)
     for room in ROOMS:
         bounds = (left - room, low - room, right + room, high + room)
-        placed = place_labels(labels, items, bounds)
+        placed = place_labels(labels, [*items, *clear], bounds)
         if all(label.free for label in placed):
             break
     whole = [*items, *(item for label in placed for item in label.items())]

@@ -11,6 +11,7 @@ from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ellipses import Ellipses, error_ellipses
 from planmethod.render.extent import lettered
 from planmethod.render.labels import Label
 from planmethod.render.symbols import vector_arrow
@@ -35,11 +36,17 @@ def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, Point
 
 @lru_cache(maxsize=256)
 def plan_picture(
-    solution: Solution, kind: PlanKind, index: int, *, letter_height: float = 5.0
+    solution: Solution,
+    kind: PlanKind,
+    index: int,
+    *,
+    letter_height: float = 5.0,
+    errors: bool = False,
 ) -> Picture:
     """Return a plan in one position as a picture, its own pole at the origin, mm.
 
-    Kept, since a sheet is tried with fewer positions when it does not fit with more.
+    ``errors`` draws the ellipses of the drafting error around its points. Kept, since a sheet is
+    tried with fewer positions when it does not fit with more.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
@@ -48,7 +55,8 @@ def plan_picture(
     share = solution.scales[kind].per_mm / own_scale(solution, kind, index).per_mm
     at = {name: complex(solution.complexes(solution.paper, name)[index]) * share for name in ends}
     factor = min(1.0, letter_height / 5.0 + 0.2)
-    items: list[Item] = []
+    ellipses = error_ellipses(solution, kind, index) if errors else Ellipses()
+    items: list[Item] = list(ellipses.strokes)
     for tail, head in similar_lines(solution, plan):
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag="similar"))
@@ -65,7 +73,8 @@ def plan_picture(
             tag=vector.kind.value,
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag="pole"))
-    return lettered(items, _labels(solution, plan, at, letter_height, f"{kind.value} {index}"))
+    labels = _labels(solution, plan, at, letter_height, f"{kind.value} {index}")
+    return lettered(items, labels, clear=ellipses.grounds)
 
 
 def _labels(

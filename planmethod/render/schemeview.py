@@ -10,9 +10,11 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.given import point_name, solution_peak
 from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
+from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Item, Pen, Stroke
+from planmethod.render.ellipses import Ellipses, error_ellipses
 from planmethod.render.extent import lettered
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.scheme import Scheme
@@ -171,11 +173,17 @@ def ghost(solution: Solution, index: int, letter_height: float) -> list[Item]:
 
 @lru_cache(maxsize=64)
 def scheme_picture(
-    solution: Solution, index: int, *, letter_height: float = 5.0, overlay: tuple[int, ...] = ()
+    solution: Solution,
+    index: int,
+    *,
+    letter_height: float = 5.0,
+    overlay: tuple[int, ...] = (),
+    errors: bool = False,
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
-    The positions of ``overlay`` are there in pale lines, the driver's pin numbered.
+    The positions of ``overlay`` are there in pale lines, the driver's pin numbered. ``errors``
+    draws the ellipses of the drafting error around the moving points.
     """
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
@@ -188,6 +196,7 @@ def scheme_picture(
         if other != index:
             ghosts += ghost(solution, other, letter_height)
     view.labels += _numbers(solution, letter_height, overlay)
+    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
     items = [
         *ghosts,
         *scheme.guides,
@@ -196,8 +205,10 @@ def scheme_picture(
         *scheme.corners,
         *scheme.joints,
         *view.arrows,
+        # After the joints, whose white would cover them.
+        *ellipses.strokes,
     ]
-    return lettered(items, view.labels)
+    return lettered(items, view.labels, clear=ellipses.grounds)
 
 
 def _numbers(solution: Solution, letter_height: float, overlay: tuple[int, ...]) -> list[Label]:

@@ -26,7 +26,7 @@ UnitsAt: TypeAlias = Literal["above", "below", "none"]
 
 _PAD = 1.5  # white on both sides of a cell's text, mm
 _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
-_NUMBER = re.compile(r"[-−+]?\d+(?P<fraction>[.,]\d+)?$")
+_NUMBER = re.compile(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,7 +280,7 @@ def _set_at(column: TableColumn, size: float, lettering: Lettering) -> _Set:
 
 
 def _integer_width(number: str, size: float, lettering: Lettering) -> float:
-    return lettering.width(re.split("[.,]", number)[0], size)
+    return lettering.width(re.split("[., *]", number)[0], size)
 
 
 def _total(part: Sequence[_Set]) -> float:

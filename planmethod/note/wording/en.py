@@ -114,6 +114,12 @@ EN = Wording(
     "the triangle {link}, its letters going round in the same sense, and get point "
     "{point}{coincide}.",
     read_off="We read off the plan:",
+    referee_note=(
+        "Float64 beside the referee of {digits} digits: error in SI units, condition number "
+        "κ, and the error in units of κ·u, u = 2⁻⁵³. A direction φ is given by its cosine and "
+        "sine."
+    ),
+    columns_referee=("result", "referee", "error", "κ", "error/(κ·u)"),
     table_points="Points",
     table_links="Links",
     table_sliding="Relative motion in prismatic pairs",
@@ -132,6 +138,7 @@ EN = Wording(
     number="No.",
     margin="margin",
     sense_note="ω and ε are positive counter-clockwise.",
+    profiles={"cad": "CAD", "board": "drawing board", "coarse": "in haste"},
     structure_title="Structural analysis",
     pairs="Kinematic pairs",
     columns_pairs=("pair", "links", "kind", "mobility"),

@@ -112,6 +112,8 @@ class Wording:
     read_off: str
 
     # Result tables
+    referee_note: str
+    columns_referee: tuple[str, ...]
     table_points: str
     table_links: str
     table_sliding: str
@@ -130,6 +132,9 @@ class Wording:
     number: str
     margin: str
     sense_note: str
+
+    # Drafting errors
+    profiles: Mapping[str, str]
 
     # Structure
     structure_title: str

@@ -8,6 +8,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
+from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
 from planmethod.note.calculation import calculation
@@ -20,6 +21,8 @@ from planmethod.note.given import (
     wanted,
 )
 from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
+from planmethod.note.sigmas import DRAWN, label_of, marked, rounded_to, sigma_text
+from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
 from planmethod.plans.scaling import AS_HIGH, Views, own_scale
 from planmethod.plans.selfcheck import verify
@@ -27,6 +30,7 @@ from planmethod.plans.solution import Reals, Solution
 from planmethod.problem.model import Convention, Problem
 from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
 from planmethod.render.drawing import Bounds, Drawing, Item
+from planmethod.render.ellipses import ellipse_inscription
 from planmethod.render.equations import equation_block, formula_block
 from planmethod.render.frame import paper_format, sheet_frame
 from planmethod.render.pack import EDGE, pack
@@ -65,6 +69,14 @@ class Heights:
     text: float
 
 
+@dataclass(frozen=True, slots=True)
+class Extras:
+    """What a sheet shows of the drafting errors: ellipses around points, sigmas in the table."""
+
+    errors: bool = False
+    sigma: bool = False
+
+
 HEIGHTS = {
     "A4": Heights(3.5, 3.5, 2.5),
     "A3": Heights(3.5, 5.0, 3.5),
@@ -89,16 +101,25 @@ def scale_inscription(scale: Scale, convention: Convention) -> str:
     return f"μ_{{{letter}}} = {number(scale.per_mm)} {grouped}/мм"
 
 
-def _view(solution: Solution, kind: PlanKind, picture: Block, size: Heights, title: str) -> Block:
+def _view(
+    solution: Solution,
+    kind: PlanKind,
+    picture: Block,
+    size: Heights,
+    title: str,
+    ellipses: Sequence[int] = (),
+) -> Block:
+    """Return a picture with its title and scale; ``ellipses`` are the positions that have them."""
     convention = solution.problem.scales.convention
-    inscription = scale_inscription(solution.scales[kind], convention)
+    said = [scale_inscription(solution.scales[kind], convention)]
+    said += ellipse_inscription(solution, kind, ellipses) if ellipses else []
     return Column(
         [
             picture,
             Column(
                 [
                     Line(typeset(title, size.title), underline=True),
-                    Line(typeset(inscription, size.text)),
+                    *(Line(typeset(text, size.text)) for text in said),
                 ],
                 gap=2.5,
                 align="centre",
@@ -142,19 +163,39 @@ def _sense(value: float) -> int:
     return 0 if value == 0 else (1 if value > 0 else -1)
 
 
-def result_columns(solution: Solution, indices: Sequence[int]) -> list[TableColumn]:
-    """Return the columns of the result table: v, ω, a, ε with values and senses."""
+def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> list[str]:
+    """Return what was read on the drawing, to the place of its error, and the error."""
+    hand, which = solution.by_hand_results, symbol in "aε"
+    read = float((hand.links if symbol in "ωε" else hand.points)[name][which][index])
+    sigma, mark = marked(solution.drafting, label_of(symbol, name), index)
+    return [russian(rounded_to(abs(read), sigma)), russian(sigma_text(sigma)) + mark]
+
+
+def result_columns(
+    solution: Solution, indices: Sequence[int], *, sigma: bool = False
+) -> list[TableColumn]:
+    """Return the columns of the result table: v, ω, a, ε with values and senses.
+
+    With ``sigma`` a single position has rows for what was read and for its error, and the values
+    of many have their errors beside them.
+    """
+    alone = len(solution.positions) == 1
 
     def column(symbol: str, name: str, unit: str, numbers: Reals) -> TableColumn:
         peak = solution_peak(solution, symbol)
         shown = [float(numbers[i]) for i in indices]
         shown = [0.0 if is_nothing(value, peak) else value for value in shown]
-        texts = alike([abs(value) for value in shown])
+        texts = [russian(text) for text in alike([abs(value) for value in shown])]
         turns = symbol in "ωε"
-        cells = tuple(
-            Cell(russian(text), _sense(value) if turns else None)
-            for text, value in zip(texts, shown, strict=True)
-        )
+        senses = [_sense(value) if turns else None for value in shown]
+        if sigma and alone:
+            texts += _sigma_rows(solution, symbol, name, indices[0])
+            senses += [0 if turns else None] * 2
+        elif sigma:
+            for k, i in enumerate(indices):
+                error, mark = marked(solution.drafting, label_of(symbol, name), i)
+                texts[k] += f" ± {russian(sigma_text(error))}{mark}" if error else ""
+        cells = tuple(map(Cell, texts, senses))
         return TableColumn(f"{symbol}_{{{name}}}", cells, unit=UNITS_RU[unit])
 
     points, links = asked_points(solution), asked_links(solution)
@@ -176,13 +217,42 @@ def result_columns(solution: Solution, indices: Sequence[int]) -> list[TableColu
         column("ε", link, "1/s²", turning.epsilon)
         for link, turning in zip(links, turnings, strict=True)
     ]
-    if len(solution.positions) > 1:
+    if sigma and alone:
+        columns.insert(0, TableColumn("", ("точно", "снято", "±σ")))
+    if not alone:
         drive = solution.problem.drive
         symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
         asked = tuple(Cell(position_text(solution, i)) for i in indices)
         columns.insert(0, TableColumn(symbol, asked, unit=unit))
         columns.insert(0, TableColumn("№", tuple(Cell(str(i)) for i in indices), least=8.0))
     return columns
+
+
+def _results(
+    solution: Solution, indices: Sequence[int], height: float, width: float, *, sigma: bool
+) -> Block:
+    """Return the table of results and, with ``sigma``, what its errors are."""
+    alone = len(solution.positions) == 1
+    title = "Результаты (точные значения)"
+    if sigma:
+        title = "Результаты" if alone else "Результаты (точные значения ± погрешность построения σ)"
+    columns = result_columns(solution, indices, sigma=sigma)
+    table = table_block(
+        columns,
+        height,
+        max_width=width,
+        leading=(1 if sigma else 0) if alone else 2,
+        title=title,
+    )
+    if not sigma:
+        return table
+    name = solution.profile.name
+    profile = wording("ru").profiles.get(name, name)
+    said = f"σ — среднее квадратическое отклонение построения («{profile}»)."
+    if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
+        count = solution.drafting.draws
+        said += f" {DRAWN} Первый порядок здесь не верен, σ найдена розыгрышем {count} чертежей."
+    return Column([table, paragraph(said, min(height, 3.5), table.width)], gap=3.0)
 
 
 def position_text(solution: Solution, index: int) -> str:
@@ -193,7 +263,9 @@ def position_text(solution: Solution, index: int) -> str:
     return number(round(value % 360.0, 2) % 360.0)
 
 
-def _grid(solution: Solution, kind: PlanKind, indices: Sequence[int], size: Heights) -> Block:
+def _grid(
+    solution: Solution, kind: PlanKind, indices: Sequence[int], size: Heights, *, errors: bool
+) -> Block:
     """Return the plans of many positions in rows, each with its number."""
     drive = solution.problem.drive
     cells: list[Block] = []
@@ -206,44 +278,53 @@ def _grid(solution: Solution, kind: PlanKind, indices: Sequence[int], size: Heig
         if own != solution.scales[kind]:
             scale = Line(typeset(scale_inscription(own, convention), 3.5))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        picture = plan_picture(solution, kind, i, letter_height=3.5)
+        picture = plan_picture(solution, kind, i, letter_height=3.5, errors=errors)
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     per_row = {2: 2, 3: 3, 4: 4}.get(len(cells), 6 if len(cells) > 5 else 5)
     rows = [
         Row(cells[k : k + per_row], gap=6.0, align="bottom") for k in range(0, len(cells), per_row)
     ]
-    return _view(solution, kind, Column(rows, gap=6.0), size, MANY_TITLES[kind])
+    ellipses = indices if errors else ()
+    return _view(solution, kind, Column(rows, gap=6.0), size, MANY_TITLES[kind], ellipses)
 
 
 def _blocks(
-    solution: Solution, indices: Sequence[int], paper: str, inside: float, *, formulas: float | None
+    solution: Solution,
+    indices: Sequence[int],
+    paper: str,
+    inside: float,
+    extras: Extras,
+    *,
+    formulas: float | None,
 ) -> list[Block]:
     """Return the blocks of a sheet in reading order; ``formulas`` is their letter height, mm."""
     size = HEIGHTS[AS_HIGH.get(paper, paper)]
     column = COLUMN_WIDTHS[AS_HIGH.get(paper, paper)]
-    result = table_block(
-        result_columns(solution, indices),
+    result = _results(
+        solution,
+        indices,
         size.text if len(indices) == 1 else min(size.text, 3.5),
-        max_width=min(max(185.0, 0.58 * inside), inside - 2 * EDGE),
-        leading=2 if len(solution.positions) > 1 else 0,
-        title="Результаты (точные значения)",
+        min(max(185.0, 0.58 * inside), inside - 2 * EDGE),
+        sigma=extras.sigma,
     )
     statement = _statement(solution, size, column)
     v, a = PlanKind.VELOCITY, PlanKind.ACCELERATION
     if len(solution.positions) == 1:
-        scheme = scheme_picture(solution, indices[0], letter_height=size.letter)
+        errors, ellipses = extras.errors, tuple(indices) if extras.errors else ()
+        scheme = scheme_picture(solution, indices[0], letter_height=size.letter, errors=errors)
         plans = {
             kind: _view(
                 solution,
                 kind,
-                plan_picture(solution, kind, indices[0], letter_height=size.letter),
+                plan_picture(solution, kind, indices[0], letter_height=size.letter, errors=errors),
                 size,
                 TITLES[kind],
+                ellipses,
             )
             for kind in (v, a)
         }
         return [
-            _view(solution, PlanKind.POSITION, scheme, size, TITLES[PlanKind.POSITION]),
+            _view(solution, PlanKind.POSITION, scheme, size, TITLES[PlanKind.POSITION], ellipses),
             statement,
             plans[v],
             _equations(solution, v, size, column),
@@ -255,14 +336,17 @@ def _blocks(
         ]
     # The bold position is the one furthest from a dead position.
     bold = max(indices, key=lambda i: float(solution.margin[i]))
-    scheme = scheme_picture(solution, bold, letter_height=size.letter, overlay=tuple(indices))
+    scheme = scheme_picture(
+        solution, bold, letter_height=size.letter, overlay=tuple(indices), errors=extras.errors
+    )
+    title, ellipses = MANY_TITLES[PlanKind.POSITION], (bold,) if extras.errors else ()
     return [
-        _view(solution, PlanKind.POSITION, scheme, size, MANY_TITLES[PlanKind.POSITION]),
+        _view(solution, PlanKind.POSITION, scheme, size, title, ellipses),
         statement,
         _equations(solution, v, size, column),
         _equations(solution, a, size, column),
-        _grid(solution, v, indices, size),
-        _grid(solution, a, indices, size),
+        _grid(solution, v, indices, size, errors=extras.errors),
+        _grid(solution, a, indices, size, errors=extras.errors),
         result,
     ]
 
@@ -283,7 +367,7 @@ def stamp_fields(
 
 
 def _layouts(
-    solution: Solution, indices: Sequence[int], paper: str, *, forced: bool
+    solution: Solution, indices: Sequence[int], paper: str, extras: Extras, *, forced: bool
 ) -> list[list[Item]] | None:
     """Return the items of the sheet that shows some positions, or None when they do not fit.
 
@@ -296,7 +380,7 @@ def _layouts(
     if forced and len(solution.positions) == 1:
         tries += [(2, 3.5), (2, 2.5), (3, 3.5), (3, 2.5), (3, None), (4, None)]
     for count, formulas in tries:
-        blocks = _blocks(solution, indices, paper, inside, formulas=formulas)
+        blocks = _blocks(solution, indices, paper, inside, extras, formulas=formulas)
         parts = _divided(blocks, count, fmt.inner, fmt.stamp)
         if parts is not None:
             return parts
@@ -321,7 +405,13 @@ def _divided(
 
 
 def _pages(
-    solution: Solution, paper: str, per_sheet: int, extra: Mapping[str, str], *, forced: bool
+    solution: Solution,
+    paper: str,
+    per_sheet: int,
+    fields: Mapping[str, str],
+    extras: Extras,
+    *,
+    forced: bool,
 ) -> list[Drawing] | None:
     """Return the sheets with so many positions on each, or None when one does not fit."""
     count = len(solution.positions)
@@ -330,16 +420,16 @@ def _pages(
     layouts: list[list[Item]] = []
     for start in range(0, count, per_sheet):
         indices = range(start, min(start + per_sheet, count))
-        found = _layouts(solution, indices, paper, forced=forced)
+        found = _layouts(solution, indices, paper, extras, forced=forced)
         if found is None:
             return None
         layouts += found
     fmt = paper_format(paper)
     sheets = []
     for page, items in enumerate(layouts, 1):
-        fields = stamp_fields(solution.problem, page, len(layouts), extra)
-        drawing = Drawing(fmt.width, fmt.height, fields.get("title", solution.problem.title))
-        drawing.extend(sheet_frame(fmt, fields)[0])
+        told = stamp_fields(solution.problem, page, len(layouts), fields)
+        drawing = Drawing(fmt.width, fmt.height, told.get("title", solution.problem.title))
+        drawing.extend(sheet_frame(fmt, told)[0])
         drawing.extend(items)
         sheets.append(drawing)
     return sheets
@@ -350,8 +440,11 @@ def kinematics_sheets(
     *,
     paper: str | None = None,
     positions: Sequence[float] | None = None,
-    ruler: float = 0.5,
+    ruler: float | None = None,
+    profile: Profile = PROFILES["board"],
     fields: Mapping[str, str] | None = None,
+    errors: bool = False,
+    sigma: bool = False,
 ) -> list[Drawing]:
     """Draw the kinematic analysis: one sheet for each dozen of positions.
 
@@ -361,8 +454,16 @@ def kinematics_sheets(
         Format; the smallest that the blocks fit when absent.
     positions : sequence of float, optional
         Other driver positions than the file's.
+    ruler : float, mm, optional
+        Step of the ruler with which the plans are read; the profile's when absent.
+    profile : Profile
+        How well the plans are drawn.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
+    errors : bool
+        Draw the ellipses of the drafting error around the points of scheme and plans.
+    sigma : bool
+        Show the drafting errors of the results in their table.
 
     Raises
     ------
@@ -376,13 +477,16 @@ def kinematics_sheets(
             f"{len(asked)} are asked. Ask fewer (--phi 0:360:30); for tables take solve --csv."
         )
     default = Views.for_problem(problem, len(asked)).paper
+    extras = Extras(errors, sigma)
     papers = (paper_format(paper).name,) if paper else PAPERS[PAPERS.index(default) :]
     for name in papers:
         views = Views.for_paper(name, len(asked))
-        solution = Solution(problem, positions=asked, ruler=ruler, views=views)
+        solution = Solution(problem, positions=asked, ruler=ruler, profile=profile, views=views)
         verify(solution)
         for per_sheet in PER_SHEET if len(asked) > 1 else (1,):
-            sheets = _pages(solution, name, per_sheet, fields or {}, forced=paper is not None)
+            sheets = _pages(
+                solution, name, per_sheet, fields or {}, extras, forced=paper is not None
+            )
             if sheets is not None:
                 return sheets
     scales = problem.scales

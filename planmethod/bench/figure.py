@@ -1,0 +1,107 @@
+"""The figure of the benchmark: time for a position against error, and cost against size."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+from planmethod.bench.speed import Reading, Rival
+
+MARKS = (
+    ("sweep, float64", "o", "#1f5aa6"),
+    ("sweep, float32", "s", "#5aa61f"),
+    ("step by step", "D", "#7b3fa0"),
+    ("solve()", "D", "#b58cc9"),
+    ("referee", "^", "#b3261e"),
+    ("the hand", "v", "#8a6d00"),
+)
+
+
+def draw(
+    readings: Sequence[Reading],
+    rivals: Sequence[Rival],
+    positions: Sequence[tuple[int, float]],
+    links: Sequence[tuple[int, int, float, float, float]],
+) -> bytes:
+    """Return the figure as PNG: two log-log plots side by side."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11, 5.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    left, right = figure.subplots(1, 2)
+    _errors(left, readings, rivals)
+    _growth(right, positions, links)
+    target = io.BytesIO()
+    figure.savefig(target, format="png", dpi=110, metadata={"Software": None})
+    return target.getvalue()
+
+
+def _errors(axes: object, readings: Sequence[Reading], rivals: Sequence[Rival]) -> None:
+    from matplotlib.axes import Axes
+
+    assert isinstance(axes, Axes)
+    for start, mark, colour in MARKS:
+        mine = [r for r in readings if r.name.startswith(start)]
+        if not mine:
+            continue
+        axes.loglog(
+            [r.per_position for r in mine],
+            [max(r.error, 1e-60) for r in mine],
+            mark,
+            color=colour,
+            label=start,
+            markersize=6,
+            markerfacecolor="none" if start == "solve()" else colour,
+        )
+    for rival in rivals:
+        if rival.error and not rival.name.startswith("planmethod"):
+            axes.loglog(
+                [rival.seconds[n].median / n for n in rival.error],
+                list(rival.error.values()),
+                "x",
+                label=rival.name,
+                markersize=7,
+            )
+    axes.set_xlabel("time for a position, s")
+    axes.set_ylabel("largest error, parts of the largest value")
+    axes.set_ylim(1e-55, 1)
+    axes.grid(True, which="major", color="0.85", linewidth=0.6)
+    axes.legend(fontsize=8, loc="center right")
+    axes.set_title("Speed against error", fontsize=11)
+
+
+def _growth(
+    axes: object,
+    positions: Sequence[tuple[int, float]],
+    links: Sequence[tuple[int, int, float, float, float]],
+) -> None:
+    from matplotlib.axes import Axes
+
+    assert isinstance(axes, Axes)
+    axes.loglog(
+        [n for n, _ in positions],
+        [seconds / n for n, seconds in positions],
+        "o-",
+        color="#1f5aa6",
+        label="slotted link, by positions in a call",
+    )
+    axes.loglog(
+        [row[0] for row in links],
+        [row[4] / 10_000 for row in links],
+        "s-",
+        color="#5aa61f",
+        label="chain of dyads, by links, 10⁴ positions",
+    )
+    axes.loglog(
+        [row[0] for row in links],
+        [row[2] for row in links],
+        "^--",
+        color="#b3261e",
+        label="chain of dyads, by links: to prepare, once",
+    )
+    axes.set_xlabel("positions in a call; links")
+    axes.set_ylabel("time for a position (to prepare), s")
+    axes.grid(True, which="major", color="0.85", linewidth=0.6)
+    axes.legend(fontsize=8)
+    axes.set_title("Cost against size", fontsize=11)

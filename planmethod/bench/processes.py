@@ -1,0 +1,146 @@
+"""Whole commands: cold and warm time, what they import, how much memory they take."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from planmethod.bench.clock import Timing, clock, clock_processes, run_python
+from planmethod.problem import load, template
+
+FORMATS = ("svg", "pdf", "png")
+
+WATCHED = (
+    "click", "numpy", "shapely", "svgwrite", "reportlab", "PIL", "matplotlib", "mpmath", "ezdxf",
+)  # fmt: skip
+"""Third parties whose import a command may pay for."""
+
+COMMANDS = (
+    ("--version", ()),
+    ("structure --no-drawing", ()),
+    ("solve", ()),
+    ("solve --json", ()),
+    ("solve --ask v_D", ()),
+    ("protocol", ()),
+    ("sheet --format svg", ("-o", "{out}")),
+    ("sheet --format pdf", ("-o", "{out}")),
+    ("sheet --format png", ("-o", "{out}")),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """What one command costs.
+
+    Attributes
+    ----------
+    cold : Timing or None
+        Whole process, seconds.
+    imports : tuple of str
+        Third parties of `WATCHED` that it imported.
+    modules : int
+        Modules in memory when it ended.
+    peak_mb : float
+        Largest resident size, megabytes.
+    """
+
+    name: str
+    cold: Timing | None
+    imports: tuple[str, ...]
+    modules: int
+    peak_mb: float
+
+
+def commands(*, runs: int = 5) -> list[Command]:
+    """Measure commands on a slotted link, each in processes of its own, taking turns.
+
+    First come two yardsticks: an empty interpreter and ``import numpy``.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        problem = Path(folder) / "slotted-link.toml"
+        problem.write_text(template("slotted-link"), encoding="utf-8")
+        lines: list[tuple[str, list[str]]] = []
+        for name, more in COMMANDS:
+            words = name.split()
+            target = [] if name == "--version" else [str(problem)]
+            rest = [word.format(out=folder) for word in more]
+            lines.append((name, [words[0], *target, *words[1:], *rest]))
+        plain = [[sys.executable, "-c", "pass"], [sys.executable, "-c", "import numpy"]]
+        # The module is run as the installed script runs it.
+        start = "import sys; from planmethod.cli import main; main()"
+        whole = [[sys.executable, "-c", start, *arguments] for _, arguments in lines]
+        timings = clock_processes([*plain, *whole], runs=runs)
+        found = [
+            Command("python -c pass", timings[0], (), 0, 0.0),
+            Command("import numpy", timings[1], ("numpy",), 0, 0.0),
+        ]
+        for (name, arguments), timing in zip(lines, timings[2:], strict=True):
+            imports, modules, peak = _looked_at(arguments)
+            found.append(Command(f"planmethod {name}", timing, imports, modules, peak))
+        return found
+
+
+def _looked_at(arguments: list[str]) -> tuple[tuple[str, ...], int, float]:
+    """Return what one run of a command imports and how large it gets."""
+    said = run_python(
+        "import contextlib, io, resource, sys\n"
+        f"sys.argv = ['planmethod', *{arguments!r}]\n"
+        "from planmethod.cli import main\n"
+        "with contextlib.redirect_stdout(io.StringIO()):\n"
+        "    try:\n"
+        "        main()\n"
+        "    except SystemExit:\n"
+        "        pass\n"
+        "peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024\n"
+        f"print(*(name for name in {WATCHED!r} if name in sys.modules))\n"
+        "print(len(sys.modules), peak)\n"
+    )
+    names, _, numbers = said.rpartition("\n")
+    modules, peak = numbers.split()
+    return tuple(names.split()), int(modules), float(peak)
+
+
+def warm_sheets() -> list[tuple[str, Timing, Timing]]:
+    """Return (format, seconds to make the sheet, seconds to write it) in a running process."""
+    from planmethod.render.backends import render
+    from planmethod.render.sheets.kinematics import kinematics_sheets
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "slotted-link.toml"
+        path.write_text(template("slotted-link"), encoding="utf-8")
+        problem = load(path)
+    make = clock(lambda: kinematics_sheets(problem), enough=2.0, least=3)
+    sheet = kinematics_sheets(problem)[0]
+    return [
+        (fmt, make, clock(lambda f=fmt: render(sheet, f), enough=1.0, least=3))  # type: ignore[misc]
+        for fmt in FORMATS
+    ]
+
+
+MEMORY = (
+    ("interpreter and NumPy", "import numpy"),
+    ("sweep of 10⁴ positions", "sweep(10_000)"),
+    ("sweep of 10⁶ positions", "sweep(1_000_000)"),
+    ("step by step, 10⁴ positions", "steps(10_000)"),
+    ("step by step, 10⁵ positions", "steps(100_000)"),
+)
+
+
+def memory() -> list[tuple[str, float]]:
+    """Return (what, peak megabytes), each in a process of its own."""
+    head = (
+        "import resource\n"
+        "import numpy as np\n"
+        "from planmethod.bench.scenes import slotted\n"
+        "from planmethod.bench.speed import turn\n"
+        "def sweep(n):\n"
+        "    from planmethod.plans.sweep import Sweep\n"
+        "    Sweep(slotted()).run(turn(n))\n"
+        "def steps(n):\n"
+        "    from planmethod.plans.solution import Solution\n"
+        "    Solution(slotted(), positions=turn(n)).points\n"
+    )
+    tail = "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)\n"
+    return [(name, float(run_python(f"{head}{act}\n{tail}"))) for name, act in MEMORY]

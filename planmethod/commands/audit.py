@@ -1,0 +1,51 @@
+"""Command ``audit``: what the sources print, beside the exact values and the ruler's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from planmethod.commands.output import put
+from planmethod.commands.problems import each, finish, guarded
+from planmethod.options import lang_option, problem_options, ruler_option
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+
+
+@click.command()
+@problem_options
+@ruler_option
+@lang_option
+@click.option(
+    "-o",
+    "--out",
+    "file",
+    metavar="FILE",
+    help="Markdown file; to the terminal when absent.",
+)
+@guarded
+def audit(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    ruler: float,
+    lang: str,
+    file: str | None,
+) -> None:
+    """Compare what the sources print with the exact values and with the ruler's."""
+    from planmethod.note.audit import audit as examine
+    from planmethod.note.audit_table import Document
+
+    if file is not None and file.lower().endswith(".toml"):
+        raise click.UsageError(f"-o would write over the problem file {file}; name another one")
+    audits: list[tuple[Problem, Any]] = []
+
+    def compare(problem: Problem) -> None:
+        audits.append((problem, examine(problem, ruler=ruler)))
+
+    # A faulty problem ends the command here: the document is written whole or not at all.
+    finish(each(problems, variant, all_variants, compare))
+    put(Document(lang, ruler).markdown(audits), file)

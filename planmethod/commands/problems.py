@@ -1,0 +1,121 @@
+"""Problem files that a command is given: read, acted on, and what is said when one fails."""
+
+from __future__ import annotations
+
+import functools
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from planmethod.errors import ExitCode, PlanMethodError
+
+if TYPE_CHECKING:
+    from planmethod.options import Positions
+    from planmethod.plans.solution import Solution
+    from planmethod.problem.model import Problem
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+MANY = 6
+"""Problems from which a command shows how far it is."""
+
+
+def fail(error: PlanMethodError) -> None:
+    """Say what went wrong."""
+    click.echo(f"Error: {error}", err=True)
+
+
+def guarded(command: F) -> F:
+    """Turn the package's errors into a message and an exit code."""
+
+    @functools.wraps(command)
+    def wrapper(*args: Any, **kwargs: Any) -> Any:
+        try:
+            return command(*args, **kwargs)
+        except PlanMethodError as error:
+            fail(error)
+            sys.exit(error.exit_code)
+
+    return wrapper  # type: ignore[return-value]
+
+
+def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
+    """Read a problem file: one problem, or one for each variant."""
+    from planmethod.problem import load, variant_names
+
+    if all_variants and variant is not None:
+        raise click.UsageError("give --variant or --all-variants, not both")
+    if all_variants:
+        names = variant_names(path)
+        return [load(path, variant=name) for name in names] or [load(path)]
+    return [load(path, variant=variant)]
+
+
+def each(
+    paths: tuple[Path, ...], variant: str | None, all_variants: bool, act: Callable[[Problem], None]
+) -> ExitCode:
+    """Act on every problem; a faulty one is reported and the others go on.
+
+    Returns
+    -------
+    ExitCode
+        Of the first error.
+    """
+    codes: list[ExitCode] = []
+
+    def problems() -> Iterator[Problem]:
+        for path in paths:
+            try:
+                yield from load(path, variant, all_variants)
+            except PlanMethodError as error:
+                codes.append(error.exit_code)
+                fail(error)
+
+    found = list(problems())
+    for problem in watched(found):
+        try:
+            act(problem)
+        except PlanMethodError as error:
+            codes.append(error.exit_code)
+            fail(error)
+    return codes[0] if codes else ExitCode.DONE
+
+
+def finish(code: ExitCode) -> None:
+    """End the command here if something failed."""
+    if code is not ExitCode.DONE:
+        sys.exit(code)
+
+
+def watched(found: list[Problem]) -> Iterator[Problem]:
+    """Yield problems, on a terminal with a bar when they are many (about a second of work)."""
+    if len(found) < MANY or not sys.stderr.isatty():
+        yield from found
+        return
+    with click.progressbar(found, label="planmethod", file=sys.stderr) as bar:
+        yield from bar
+
+
+def stem(problem: Problem) -> str:
+    """Return what the files of a problem are called."""
+    return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
+
+
+def warn(problem: Problem, said: str) -> None:
+    """Say what a user should know of a problem's results."""
+    click.echo(f"Warning: {problem.name}: {said}", err=True)
+
+
+def solution_of(problem: Problem, phi: Positions | None, ruler: float) -> Solution:
+    """Solve a problem, check the solution, and tell the doubts about it."""
+    from planmethod.plans.selfcheck import verify, warnings
+    from planmethod.plans.solution import Solution
+
+    solution = Solution(problem, positions=None if phi is None else phi.tolist(), ruler=ruler)
+    verify(solution)
+    for said in warnings(solution):
+        warn(problem, said)
+    return solution

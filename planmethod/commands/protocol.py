@@ -1,0 +1,51 @@
+"""Command ``protocol``: the construction told step by step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from planmethod.commands.output import put
+from planmethod.commands.problems import each, finish, guarded, solution_of, stem
+from planmethod.options import Positions, lang_option, problem_options, reading_options
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+
+
+@click.command()
+@problem_options
+@reading_options
+@click.option(
+    "-o",
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for a text file; to the terminal when absent.",
+)
+@click.option("--position", type=click.IntRange(min=1), default=1, help="Number of the position.")
+@lang_option
+@guarded
+def protocol(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: Positions | None,
+    ruler: float,
+    out: Path | None,
+    position: int,
+    lang: str,
+) -> None:
+    """Tell the construction step by step, as the explanatory note does."""
+    from planmethod.note.protocol import protocol as narrate
+
+    def tell(problem: Problem) -> None:
+        solution = solution_of(problem, phi, ruler)
+        count = len(solution.positions)
+        if position > count:
+            raise click.UsageError(f"--position {position}: {problem.name} has {count}")
+        text = narrate(solution, lang=lang, position=position - 1)
+        put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
+
+    finish(each(problems, variant, all_variants, tell))

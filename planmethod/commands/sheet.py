@@ -1,0 +1,57 @@
+"""Command ``sheet``: the framed sheet of the kinematic analysis."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from planmethod.commands.output import write_drawings
+from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.options import (
+    Positions,
+    format_option,
+    out_option,
+    problem_options,
+    reading_options,
+    stamp_option,
+)
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+
+
+@click.command()
+@problem_options
+@reading_options
+@out_option
+@format_option("svg,pdf")
+@click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
+@stamp_option
+@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
+@guarded
+def sheet(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: Positions | None,
+    ruler: float,
+    out: Path,
+    formats: tuple[str, ...],
+    paper: str | None,
+    stamp: dict[str, str],
+    dpi: int,
+) -> None:
+    """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
+    from planmethod.render.sheets.kinematics import kinematics_sheets
+
+    positions = None if phi is None else phi.tolist()
+
+    def draw(problem: Problem) -> None:
+        drawings = kinematics_sheets(
+            problem, paper=paper, positions=positions, ruler=ruler, fields=stamp
+        )
+        write_drawings(drawings, out, stem(problem), formats, dpi=dpi, author=stamp.get("author"))
+
+    finish(each(problems, variant, all_variants, draw))

@@ -1,0 +1,246 @@
+"""Command ``solve``: the numbers."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from planmethod.commands.output import bar, is_narrow, put_parts
+from planmethod.commands.problems import each, finish, guarded, solution_of, stem, warn
+from planmethod.errors import AssemblyError, ExitCode
+from planmethod.options import (
+    MOST_POSITIONS,
+    MOST_SWEPT,
+    Positions,
+    lang_option,
+    positions_option,
+    problem_options,
+    read_labels,
+    ruler_option,
+)
+
+if TYPE_CHECKING:
+    from planmethod.note.spreadsheet import Table
+    from planmethod.plans.many import Gaps, Swept
+    from planmethod.problem.model import Problem
+
+HINT = " To leave such positions empty, give --partial with --csv, --npz or --ask."
+
+MOST_SHOWN = 10_000
+"""Rows of a table on the terminal."""
+
+MOST_NUMBERS = 250_000_000
+"""Numbers of one problem in a file of arrays: 2 GB, which are in memory before they are written."""
+
+LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
+"""Numbers that take about a second to write."""
+
+
+@click.command()
+@problem_options
+@positions_option(MOST_SWEPT)
+@ruler_option
+@click.option("--json", "as_json", is_flag=True, help="One object, full precision, SI.")
+@click.option(
+    "--csv",
+    "csv_file",
+    is_flag=False,
+    flag_value="-",
+    metavar="[FILE]",
+    help="A row for each position; to the terminal without FILE.",
+)
+@click.option(
+    "--npz",
+    "npz_file",
+    metavar="FILE",
+    help="Arrays for NumPy, named as the columns of --csv (B.x, 2.omega), with phi_deg or s, reason "
+    "and reasons. Of several variants or problems each name begins with the variant or the "
+    "file: А:B.x.",
+)
+@click.option(
+    "--ask",
+    callback=read_labels,
+    metavar="LIST",
+    help="Only these results: v_E,omega_3,B,phi_2, or positions, velocities, accelerations.",
+)
+@click.option(
+    "--partial",
+    is_flag=True,
+    help="Leave impossible positions empty and say why (--csv, --npz, --ask).",
+)
+@lang_option
+@guarded
+def solve(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: Positions | None,
+    ruler: float,
+    as_json: bool,
+    csv_file: str | None,
+    npz_file: str | None,
+    ask: tuple[str, ...] | None,
+    partial: bool,
+    lang: str,
+) -> None:
+    """Compute positions, velocities, accelerations and the plans' segments."""
+    swept = npz_file is not None or ask is not None
+    _refuse_contradictions(as_json, csv_file, npz_file, ask)
+    if partial and not swept and csv_file is None:
+        raise click.UsageError("--partial goes with --csv, --npz or --ask")
+    if phi is not None and len(phi) > MOST_POSITIONS and not swept:
+        raise click.UsageError(
+            f"--phi: more than {MOST_POSITIONS} positions; so many only with --npz or --ask"
+        )
+    records: list[dict[str, Any]] = []
+    tables: list[Table] = []
+    sweeps: list[Swept] = []
+
+    def compute(problem: Problem) -> None:
+        if swept:
+            made = _sweep(problem, phi, ask, partial)
+            if npz_file is not None:
+                _refuse_huge(made)
+                sweeps.append(made)
+            elif csv_file is not None:
+                from planmethod.note.spreadsheet import swept_table
+
+                tables.append(swept_table(made, partial=partial))
+            else:
+                _show(made, lang)
+        elif csv_file is not None:
+            tables.append(_table(problem, phi, ruler, partial))
+        elif as_json:
+            from planmethod.note.record import record
+
+            records.append(record(solution_of(problem, phi, ruler, hint=HINT)))
+        else:
+            from planmethod.note.tables import result_tables
+
+            click.echo(result_tables(solution_of(problem, phi, ruler, hint=HINT), lang))
+
+    code = each(problems, variant, all_variants, compute)
+    if records:
+        import json
+
+        whole: Any = records[0] if len(records) == 1 else records
+        click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
+    if tables and csv_file is not None:
+        _write_text(tables, csv_file)
+    if npz_file is not None and code is ExitCode.DONE:  # one file: all of it or none
+        _write_arrays(sweeps, npz_file)
+    finish(code)
+
+
+def _refuse_contradictions(
+    as_json: bool, csv_file: str | None, npz_file: str | None, ask: tuple[str, ...] | None
+) -> None:
+    """Refuse options that do not go together, and files that are meant as problems."""
+    forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
+    given = [name for name, is_given in forms.items() if is_given]
+    if len(given) > 1:
+        raise click.UsageError(f"give {' or '.join(given)}, not both")
+    if as_json and ask is not None:
+        raise click.UsageError("--json is always whole; --ask goes with --csv, --npz or a table")
+    for name, file in (("--csv", csv_file), ("--npz", npz_file)):
+        if file is not None and file.lower().endswith(".toml"):
+            raise click.UsageError(f"{name} would write over the problem file {file}; put it last")
+    if npz_file in ("", "-"):
+        raise click.UsageError("--npz needs the name of a file")
+
+
+# Tables -----------------------------------------------------------------------------------------
+
+
+def _asked(problem: Problem, phi: Positions | None) -> Positions:
+    import numpy as np
+
+    return np.array(problem.drive.positions) if phi is None else phi
+
+
+def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool) -> Table:
+    """Return the rows of all results; a large table is checked here and solved when written."""
+    from planmethod.note.spreadsheet import large_table, solved_table
+    from planmethod.plans.many import BLOCK, examine
+
+    positions = _asked(problem, phi)
+    if len(positions) <= BLOCK and not partial:
+        return solved_table(solution_of(problem, phi, ruler, hint=HINT))
+    looked = examine(problem, positions)
+    _tell(problem, looked.gaps, looked.doubts, partial)
+    return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)
+
+
+def _tell(problem: Problem, gaps: Gaps, doubts: tuple[str, ...], partial: bool) -> None:
+    """Refuse positions without results, or tell of them; tell the doubts about the others."""
+    if gaps.count and not partial:
+        raise AssemblyError(gaps.refusal() + (HINT if len(gaps.reason) > 1 else ""))
+    if gaps.count:
+        warn(problem, gaps.warning())
+    for said in doubts:
+        warn(problem, said)
+
+
+def _write_text(tables: list[Table], file: str) -> None:
+    from planmethod.note.spreadsheet import csv_text
+
+    rows = sum(table.count for table in tables)
+    cells = sum(table.count * len(table.header) for table in tables)
+    with bar(rows, long=cells > LONG_TEXT and file != "-") as done:
+        put_parts(csv_text(tables, done=done), file)
+
+
+# Sweeps -----------------------------------------------------------------------------------------
+
+
+def _sweep(
+    problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
+) -> Swept:
+    from planmethod.plans.many import Swept
+    from planmethod.plans.results import UnknownResultError
+
+    try:
+        made = Swept(problem, _asked(problem, phi), ask)
+    except UnknownResultError as error:
+        raise click.UsageError(f"--ask: {problem.name}: {error}") from None
+    _tell(problem, made.gaps, made.doubts, partial)
+    return made
+
+
+def _refuse_huge(made: Swept) -> None:
+    numbers = len(made.names) * len(made.positions)
+    if numbers > MOST_NUMBERS:
+        most = MOST_NUMBERS // len(made.names)
+        raise click.UsageError(
+            f"--npz: {len(made.names)} results in {len(made.positions)} positions are {numbers} "
+            f"numbers, at most {MOST_NUMBERS} are written. Ask at most {most} positions, or fewer "
+            "results with --ask."
+        )
+
+
+def _show(made: Swept, lang: str) -> None:
+    from planmethod.note.spreadsheet import asked_text
+
+    if len(made.positions) > MOST_SHOWN:
+        raise click.UsageError(
+            f"a table of {len(made.positions)} rows is not for reading: give --csv FILE or --npz "
+            "FILE"
+        )
+    click.echo(asked_text(made, lang))
+
+
+def _write_arrays(sweeps: list[Swept], file: str) -> None:
+    """Write sweeps into one file; of several the names begin with the variant or the problem."""
+    from planmethod.note.npz import swept_arrays, write_arrays
+    from planmethod.render.output import opened
+
+    prefixes = _prefixes([made.problem for made in sweeps])
+    arrays = sum(len(made.names) for made in sweeps)
+    numbers = sum(len(made.names) * len(made.positions) for made in sweeps)
+    with opened(file) as target, bar(arrays, long=numbers > LONG_ARRAYS) as done:
+        for made, prefix in zip(sweeps, prefixes, strict=True):
+            write_arrays(target, swept_arrays(made, prefix))
+    click.echo(file)

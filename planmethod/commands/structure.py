@@ -1,0 +1,69 @@
+"""Command ``structure``: mobility, redundant constraints, Assur groups."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from planmethod.commands.output import is_narrow, write_drawings
+from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.options import (
+    format_option,
+    lang_option,
+    out_option,
+    problem_options,
+    stamp_option,
+)
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+
+
+@click.command()
+@problem_options
+@out_option
+@click.option("--json", "as_json", is_flag=True, help="The analysis as one object.")
+@format_option("svg")
+@click.option("--no-drawing", is_flag=True, help="Text only.")
+@click.option("--paper", metavar="FORMAT", help="A3, A2...; chosen to fit when absent.")
+@stamp_option
+@lang_option
+@guarded
+def structure(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    out: Path,
+    as_json: bool,
+    formats: tuple[str, ...],
+    no_drawing: bool,
+    paper: str | None,
+    stamp: dict[str, str],
+    lang: str,
+) -> None:
+    """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
+    from planmethod.mechanism.structure import analyse
+
+    def show(problem: Problem) -> None:
+        found = analyse(problem.mechanism)
+        if as_json:
+            import json
+
+            from planmethod.note.record import structure_record
+
+            head = {"schema": 1, "problem": problem.name}
+            whole = {**head, "structure": structure_record(found)}
+            click.echo(json.dumps(whole, ensure_ascii=is_narrow()))
+            return
+        from planmethod.note.structure_text import structure_text
+
+        click.echo(structure_text(problem.mechanism, found, lang))
+        if not no_drawing:
+            from planmethod.render.sheets.structure import structure_sheet
+
+            drawing = structure_sheet(problem, found, paper=paper, fields=stamp)
+            write_drawings([drawing], out, f"{stem(problem)}-structure", formats)
+
+    finish(each(problems, variant, all_variants, show))
