@@ -63,8 +63,19 @@ def _expanded(numbers: list[float], part: str, most: int) -> Positions:
         raise click.BadParameter(f"{part!r} gives {max(0, round(count))} positions")
     near = max(1, round(count))
     whole = near if abs(count - near) < 1e-9 * max(1.0, count) else int(count) + 1
-    found: Positions = start + step * np.arange(whole)
-    return found
+    return np.asarray(start + step * np.arange(whole), dtype=float)
+
+
+def read_labels(
+    ctx: click.Context, param: click.Parameter, value: str | None
+) -> tuple[str, ...] | None:
+    """Return the labels of results of a list with commas."""
+    if value is None:
+        return None
+    labels = tuple(dict.fromkeys(label.strip() for label in value.split(",") if label.strip()))
+    if not labels:
+        raise click.BadParameter("no result is named; v_E,omega_3 is expected")
+    return labels
 
 
 def read_ruler(ctx: click.Context, param: click.Parameter, value: float) -> float:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 
 if TYPE_CHECKING:
     from planmethod.options import Positions
@@ -109,13 +109,26 @@ def warn(problem: Problem, said: str) -> None:
     click.echo(f"Warning: {problem.name}: {said}", err=True)
 
 
-def solution_of(problem: Problem, phi: Positions | None, ruler: float) -> Solution:
-    """Solve a problem, check the solution, and tell the doubts about it."""
+def solution_of(
+    problem: Problem, phi: Positions | None, ruler: float, *, hint: str = ""
+) -> Solution:
+    """Solve a problem, check the solution, and tell the doubts about it.
+
+    Parameters
+    ----------
+    hint : str
+        What else can be asked where one of several positions is refused.
+    """
     from planmethod.plans.selfcheck import verify, warnings
     from planmethod.plans.solution import Solution
 
     solution = Solution(problem, positions=None if phi is None else phi.tolist(), ruler=ruler)
-    verify(solution)
+    try:
+        verify(solution)
+    except AssemblyError as error:
+        if len(solution.positions) < 2:
+            raise
+        raise AssemblyError(f"{error}{hint}") from error
     for said in warnings(solution):
         warn(problem, said)
     return solution

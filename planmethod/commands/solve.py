@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import functools
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +25,8 @@ from planmethod.options import (
 
 if TYPE_CHECKING:
     from planmethod.note.spreadsheet import Table
-    from planmethod.plans.many import Gaps, Swept
+    from planmethod.plans.many import Gaps
+    from planmethod.plans.swept import Swept
     from planmethod.problem.model import Problem
 
 HINT = " To leave such positions empty, give --partial with --csv, --npz or --ask."
@@ -56,9 +58,9 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
     "--npz",
     "npz_file",
     metavar="FILE",
-    help="Arrays for NumPy, named as the columns of --csv (B.x, 2.omega), with phi_deg or s, reason "
-    "and reasons. Of several variants or problems each name begins with the variant or the "
-    "file: А:B.x.",
+    help="Arrays for NumPy, named as the columns of --csv (B.x, 2.omega), and phi_deg or s, "
+    "reason, reasons. Of several variants or problems each name begins with that of the variant "
+    "or of the file: А:B.x.",
 )
 @click.option(
     "--ask",
@@ -101,6 +103,8 @@ def solve(
 
     def compute(problem: Problem) -> None:
         if swept:
+            if csv_file is None and npz_file is None:
+                _refuse_long(len(_asked(problem, phi)))
             made = _sweep(problem, phi, ask, partial)
             if npz_file is not None:
                 _refuse_huge(made)
@@ -189,7 +193,8 @@ def _write_text(tables: list[Table], file: str) -> None:
 
     rows = sum(table.count for table in tables)
     cells = sum(table.count * len(table.header) for table in tables)
-    with bar(rows, long=cells > LONG_TEXT and file != "-") as done:
+    seen = file != "-" or not sys.stdout.isatty()  # a bar within the table helps nobody
+    with bar(rows, long=cells > LONG_TEXT and seen) as done:
         put_parts(csv_text(tables, done=done), file)
 
 
@@ -199,8 +204,8 @@ def _write_text(tables: list[Table], file: str) -> None:
 def _sweep(
     problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
 ) -> Swept:
-    from planmethod.plans.many import Swept
     from planmethod.plans.results import UnknownResultError
+    from planmethod.plans.swept import Swept
 
     try:
         made = Swept(problem, _asked(problem, phi), ask)
@@ -208,6 +213,13 @@ def _sweep(
         raise click.UsageError(f"--ask: {problem.name}: {error}") from None
     _tell(problem, made.gaps, made.doubts, partial)
     return made
+
+
+def _refuse_long(rows: int) -> None:
+    if rows > MOST_SHOWN:
+        raise click.UsageError(
+            f"a table of {rows} rows is not for reading: give --csv FILE or --npz FILE"
+        )
 
 
 def _refuse_huge(made: Swept) -> None:
@@ -224,11 +236,6 @@ def _refuse_huge(made: Swept) -> None:
 def _show(made: Swept, lang: str) -> None:
     from planmethod.note.spreadsheet import asked_text
 
-    if len(made.positions) > MOST_SHOWN:
-        raise click.UsageError(
-            f"a table of {len(made.positions)} rows is not for reading: give --csv FILE or --npz "
-            "FILE"
-        )
     click.echo(asked_text(made, lang))
 
 
@@ -240,7 +247,28 @@ def _write_arrays(sweeps: list[Swept], file: str) -> None:
     prefixes = _prefixes([made.problem for made in sweeps])
     arrays = sum(len(made.names) for made in sweeps)
     numbers = sum(len(made.names) * len(made.positions) for made in sweeps)
-    with opened(file) as target, bar(arrays, long=numbers > LONG_ARRAYS) as done:
+
+    def named() -> Iterator[tuple[str, Any]]:
         for made, prefix in zip(sweeps, prefixes, strict=True):
-            write_arrays(target, swept_arrays(made, prefix))
+            for name, array in swept_arrays(made, prefix):
+                yield name, array
+                done(1)
+
+    with opened(file) as target, bar(arrays, long=numbers > LONG_ARRAYS) as done:
+        write_arrays(target, named())
     click.echo(file)
+
+
+def _prefixes(problems: list[Problem]) -> list[str]:
+    """Return what the names of every problem's arrays begin with."""
+    if len(problems) == 1:
+        return [""]
+    one_file = len({problem.name for problem in problems}) == 1
+    names = [(problem.variant if one_file else None) or stem(problem) for problem in problems]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise click.UsageError(
+            f"--npz: two problems are called {twice[0]}, their arrays would have the same names; "
+            "write them into two files"
+        )
+    return [f"{name}:" for name in names]

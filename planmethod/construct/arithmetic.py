@@ -133,12 +133,12 @@ def unit_vectors(degrees: Any) -> Any:
     degrees : float or ndarray of shape (n,), degrees
     """
     angle = np.asarray(degrees, dtype=float)
-    turn = np.remainder(angle, 360.0)
+    turn = np.fmod(angle, 360.0)
     quadrant = np.rint(turn / 90.0)
     rest = np.deg2rad(turn - 90.0 * quadrant)
     cosine, sine = np.cos(rest), np.sin(rest)
-    turns = np.array([1, 1j, -1, -1j, 1])
-    return turns[quadrant.astype(int)] * (cosine + 1j * sine)
+    turns = np.array([1, 1j, -1, -1j])
+    return turns[quadrant.astype(int) % 4] * (cosine + 1j * sine)
 
 
 class Float64(Exact):

@@ -29,7 +29,13 @@ Reals = npt.NDArray[np.float64]
 
 def plain(value: Number) -> Number:
     """Return a point or a number as it is, and of a line its direction as a unit vector."""
-    return value[1] / abs(value[1]) if isinstance(value, tuple) else value
+    if not isinstance(value, tuple):
+        return value
+    along = value[1]
+    span = abs(along)
+    if isinstance(span, Dual | np.ndarray | np.generic) or span != 0:
+        return along / span
+    return along * float("nan")  # mpmath divides by no zero
 
 
 def _causes(data: Mapping[str, Number], exact: Collection[str]) -> list[tuple[str, complex]]:

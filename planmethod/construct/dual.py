@@ -64,7 +64,10 @@ class Dual:
     def __abs__(self) -> Dual:
         size = np.abs(self.value)
         unit = np.conjugate(self.value) / np.where(size == 0, np.nan, size)
-        return Dual(size, None if self.slope is None else (self.slope * unit).real)
+        if self.slope is None:
+            return Dual(size)
+        # |x| has no slope at 0: what it can change by at most is the slope's own size.
+        return Dual(size, np.where(size == 0, np.abs(self.slope), (self.slope * unit).real))
 
     def conjugate(self) -> Dual:
         """Return the complex conjugate."""

@@ -124,8 +124,10 @@ def apply(
             span = abs(d)
             divisor = ar.nonzero(span)
             room = _half_chord(radius, span)
-            turn = (radius + 1j * side.value * ar.root(room)) / divisor
-            point = centre + d / divisor * (radius * turn)
+            half = ar.root(room)
+            turn = (radius + 1j * side.value * half) / divisor
+            # A tangent of no length: the foot is the source itself, and no line joins them.
+            point = ar.unless_zero(half, centre + d / divisor * (radius * turn), source)
             return ar.pricked(out, point), room / (divisor * divisor)
         case Similar(out, b, c, s, B, C, read_span, read_arm):
             side, span, arm = env[c] - env[b], env[C] - env[B], env[s] - env[B]

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.note.spreadsheet import driver_of
-from planmethod.plans.many import CHUNK, Swept, blocks
+from planmethod.plans.swept import Swept
 
 FIRST_DAY = (1980, 1, 1, 0, 0, 0)
 """Time of every member: the earliest that the format has."""
@@ -34,7 +34,7 @@ def swept_arrays(swept: Swept, prefix: str = "") -> Iterator[tuple[str, npt.NDAr
     """
     count = len(swept.positions)
     out = np.empty((len(swept.names), count))
-    for part in blocks(count, CHUNK):
+    for part in swept.parts():
         swept.fill(out[:, part], part)
     yield prefix + driver_of(swept.problem), swept.positions + 0.0
     for name, values in zip(swept.names, out, strict=True):

@@ -53,8 +53,13 @@ def rounded_to(value: float, sigma: float) -> str:
 
 
 def marked(drafting: Drafting, label: str, index: int) -> tuple[float, str]:
-    """Return a quantity's sigma in one position and its mark, `DRAWN` or nothing."""
-    spread = drafting.spreads[label]
+    """Return a quantity's sigma in one position and its mark, `DRAWN` or nothing.
+
+    What the drawing does not give, as the ω of a link that does not turn, has no error.
+    """
+    spread = drafting.spreads.get(label)
+    if spread is None:
+        return 0.0, ""
     return float(spread.sigma[index]), DRAWN if spread.drawn[index] else ""
 
 

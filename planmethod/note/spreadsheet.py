@@ -6,16 +6,19 @@ import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
 from planmethod.note.wording import wording
-from planmethod.plans.many import CHUNK, Gaps, Swept, blocks, common_scales
+from planmethod.plans.many import Gaps, blocks, common_scales
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Reals, Solution
 from planmethod.problem.model import Problem
+
+if TYPE_CHECKING:
+    from planmethod.plans.swept import Swept
 
 Rows = Sequence[Sequence[Any]]
 
@@ -128,10 +131,9 @@ def swept_table(swept: Swept, *, partial: bool) -> Table:
     """Return the rows of a sweep: ``position``, ``phi_deg`` or ``s``, and what was asked."""
 
     def made() -> Iterator[Rows]:
-        work = np.empty((len(swept.names), CHUNK))
-        for part in blocks(len(swept.positions), CHUNK):
+        for part in swept.parts():
             here = swept.positions[part]
-            values = swept.fill(work[:, : len(here)], part)
+            values = swept.fill(np.empty((len(swept.names), len(here))), part)
             able = ~np.isnan(values)
             spread = [_spread(row[full], full) for row, full in zip(values, able, strict=True)]
             yield _rows(part, here, spread, swept.gaps if partial else None)

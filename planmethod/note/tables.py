@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -16,9 +16,11 @@ from planmethod.note.plaintext import (
     given,
     heading,
     plain_text,
+    spoken,
     table,
     wrap,
 )
+from planmethod.note.sigmas import DRAWN, label_of, marked, sigma_text
 from planmethod.note.wording import Wording, wording
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Segment, Solution
@@ -28,10 +30,78 @@ FEW = 3
 """Most positions that are shown each with tables of its own."""
 
 
-def result_tables(solution: Solution, lang: str = "ru") -> str:
+class Sigmas:
+    """Cells of the drafting errors, none where they are not asked for.
+
+    Attributes
+    ----------
+    drawn : bool
+        Some cell that was made has the mark of a sigma found by random draws.
+    """
+
+    def __init__(self, solution: Solution, words: Wording, *, asked: bool = True) -> None:
+        self.solution, self.words, self.asked = solution, words, asked
+        self.drawn = False
+
+    def cell(self, label: str, index: int) -> list[str]:
+        """Return the error of a quantity as a row of one cell, or of none."""
+        if not self.asked:
+            return []
+        sigma, mark = marked(self.solution.drafting, label, index)
+        self.drawn = self.drawn or bool(mark)
+        return [spoken(sigma_text(sigma), self.words) + mark]
+
+    def header(self, header: Sequence[str], *after: int) -> tuple[str, ...]:
+        """Return a header with the columns of the errors behind those of the readings."""
+        wide: list[str] = []
+        for k, text in enumerate(header):
+            wide.append(text)
+            wide += [self.words.sigma] if self.asked and k in after else []
+        return tuple(wide)
+
+    def table(
+        self, header: Sequence[str], rows: Sequence[Sequence[str]], *, left: int = 1
+    ) -> list[str]:
+        """Return an aligned table; the digits of the errors stand under each other."""
+        if not self.asked:
+            return table(header, rows, left=left)
+        columns = [
+            _levelled(column) if head == self.words.sigma else list(column)
+            for head, *column in zip(header, *rows, strict=True)
+        ]
+        return table(header, list(zip(*columns, strict=True)), left=left)
+
+    def notes(self) -> list[str]:
+        """Return what the errors are, and what the mark of some of them means."""
+        if not self.asked:
+            return []
+        name = self.solution.profile.name
+        profile = self.words.profiles.get(name, name)
+        lines = wrap(self.words.sigma_note.format(profile=profile))
+        if self.drawn:
+            lines += wrap(self.words.drawn_note.format(count=self.solution.drafting.draws))
+        return lines
+
+
+def _levelled(cells: Sequence[str]) -> list[str]:
+    """Return cells with room for a mark where another cell of their column has one."""
+    some = any(cell.endswith(DRAWN) for cell in cells)
+    return [cell + " " if some and not cell.endswith(DRAWN) else cell for cell in cells]
+
+
+def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) -> str:
     """Return the results of a solution as aligned text of at most 100 columns.
 
     Up to three positions have tables of their own; more are rows of common tables.
+
+    Parameters
+    ----------
+    solution : Solution
+    lang : str
+        ``ru`` or ``en``.
+    sigma : bool
+        Show how far the drawing may be off beside every value that is read, and what contributes
+        most to it in each of a few positions.
 
     Raises
     ------
@@ -43,15 +113,24 @@ def result_tables(solution: Solution, lang: str = "ru") -> str:
     lines = wrap(name + variant)
     lines += wrap(words.formula.format(formula=solution.structure.formula), rest="  ")
     lines += wrap(f"{words.scales}: {'; '.join(scale_texts(solution, words))}", rest="  ")
+    sigmas = Sigmas(solution, words, asked=sigma)
     if len(solution.positions) > FEW:
-        lines += ["", *_many(solution, words)]
+        lines += ["", *_many(solution, words, sigmas)]
     else:
         for index in range(len(solution.positions)):
             lines += ["", *heading(position_line(solution, words, index)), ""]
-            lines += position_tables(solution, words, index)
+            lines += position_tables(solution, words, index, sigmas)
+            lines += _causes(solution, words, index) if sigma else []
     ruler = given(solution.hand.ruler, words)
-    lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note]
+    lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
     return "\n".join(lines)
+
+
+def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
+    from planmethod.note.causes import Causes
+
+    lines = Causes(Names(solution, words)).lines(index)
+    return ["", *lines] if lines else []
 
 
 def scale_texts(solution: Solution, words: Wording) -> list[str]:
@@ -83,15 +162,20 @@ def position_line(solution: Solution, words: Wording, index: int) -> str:
 # One position ----------------------------------------------------------------------------------
 
 
-def position_tables(solution: Solution, words: Wording, index: int) -> list[str]:
+def position_tables(
+    solution: Solution, words: Wording, index: int, sigmas: Sigmas | None = None
+) -> list[str]:
     """Return the tables of one position: points, links, sliding, segments of the plans."""
+    sigmas = sigmas or Sigmas(solution, words, asked=False)
+    points = _points(solution, words, index, sigmas)
     parts = [
-        (words.table_points, table(words.columns_points, _points(solution, words, index))),
-        (words.table_links, table(words.columns_links, _links(solution, words, index))),
+        (words.table_points, sigmas.table(sigmas.header(words.columns_points, 4, 6), points)),
+        (words.table_links, _link_tables(solution, words, index, sigmas)),
     ]
-    sliding = _sliding(solution, words, index)
+    sliding = _sliding(solution, words, index, sigmas)
     if sliding:
-        parts.append((words.table_sliding, table(words.columns_sliding, sliding)))
+        header = sigmas.header(words.columns_sliding, 2, 4, 6)
+        parts.append((words.table_sliding, sigmas.table(header, sliding)))
     titles = {
         PlanKind.POSITION: words.plan_position,
         PlanKind.VELOCITY: words.plan_velocity,
@@ -102,14 +186,13 @@ def position_tables(solution: Solution, words: Wording, index: int) -> list[str]
         title = words.table_segments.format(
             plan=titles[kind][:1].lower() + titles[kind][1:], scale=scale
         )
-        rows = _segments(solution, names, kind, index)
+        rows = _segments(solution, names, kind, index, sigmas)
         if kind is PlanKind.POSITION:
-            header = words.columns_lengths
-            lines = table(header, rows)
+            lines = sigmas.table(sigmas.header(words.columns_lengths, 2), rows)
         else:
             unit = words.units[UNIT[kind]]
-            header = tuple(text.format(unit=unit) for text in words.columns_vectors)
-            lines = table(header, rows, left=2)
+            header = sigmas.header([text.format(unit=unit) for text in words.columns_vectors], 3)
+            lines = sigmas.table(header, rows, left=2)
         if rows:
             parts.append((title, lines))
     lines = []
@@ -124,14 +207,16 @@ def moving_points(solution: Solution) -> list[str]:
     return [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
 
 
-def _points(solution: Solution, words: Wording, i: int) -> list[list[str]]:
+def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     for name in moving_points(solution):
         point, (v, a) = solution.points[name], solution.by_hand_results.points[name]
         place = point.place[i]
-        values = (abs(point.velocity[i]), v[i], abs(point.acceleration[i]), a[i])
-        x, y = (_place(float(value), words) for value in (place.real, place.imag))
-        rows.append([name, x, y, *(found(float(value), words) for value in values)])
+        row = [name, *(_place(float(value), words) for value in (place.real, place.imag))]
+        for symbol, vector, read in (("v", point.velocity, v), ("a", point.acceleration, a)):
+            row += [found(float(abs(vector[i])), words), found(float(read[i]), words)]
+            row += sigmas.cell(label_of(symbol, name), i)
+        rows.append(row)
     return rows
 
 
@@ -139,13 +224,25 @@ def _place(metres: float, words: Wording) -> str:
     return found(metres, words)
 
 
-def _links(solution: Solution, words: Wording, i: int) -> list[list[str]]:
+def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[str]:
+    """Return the table of the links; with errors it is one of ω and one of ε: both are wide."""
+    rows = _links(solution, words, i, sigmas)
+    if not sigmas.asked:
+        return table(words.columns_links, rows)
+    header = sigmas.header(words.columns_links, 3, 6)
+    one = sigmas.table(header[:6], [row[:6] for row in rows])
+    two = sigmas.table((header[0], *header[6:]), [[row[0], *row[6:]] for row in rows])
+    return [*one, "", *two]
+
+
+def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     for name, link in solution.links.items():
         omega, epsilon = solution.by_hand_results.links[name]
         row = [name, fixed(float(link.phi_deg[i]), words)]
-        for exact, read in ((link.omega[i], omega[i]), (link.epsilon[i], epsilon[i])):
-            row += [found(float(exact), words), found(float(read), words), _sense(exact, words)]
+        for symbol, exact, read in (("ω", link.omega[i], omega), ("ε", link.epsilon[i], epsilon)):
+            row += [found(float(exact), words), found(float(read[i]), words)]
+            row += [*sigmas.cell(label_of(symbol, name), i), _sense(exact, words)]
         rows.append(row)
     return rows
 
@@ -156,28 +253,37 @@ def _sense(value: float, words: Wording) -> str:
     return words.ccw if value > 0 else words.cw
 
 
-def _sliding(solution: Solution, words: Wording, i: int) -> list[list[str]]:
+def _sliding(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     hand = solution.by_hand_results.relatives
-    for relative, read in zip(solution.relatives, hand, strict=True):
+    told = solution.construction.kinematics.relatives.values()
+    for relative, read, named in zip(solution.relatives, hand, told, strict=True):
         row = [words.sliding_row.format(point=relative.point, of=relative.of, to=relative.to)]
         exact = (relative.velocity, relative.coriolis, relative.acceleration)
-        for vector, length in zip(exact, read, strict=True):
+        name = str(named.speed).removeprefix("v_")
+        for symbol, vector, length in zip(("v", "ak", "ar"), exact, read, strict=True):
             row += [found(abs(complex(vector[i])), words), found(float(length[i]), words)]
+            row += sigmas.cell(f"{symbol}_{name}", i)
         rows.append(row)
     return rows
 
 
-def _segments(solution: Solution, names: Names, kind: PlanKind, i: int) -> list[list[str]]:
+def _segments(
+    solution: Solution, names: Names, kind: PlanKind, i: int, sigmas: Sigmas
+) -> list[list[str]]:
     words, rows = names.words, []
     segments = solution.segments(kind)
+
+    def lengths(segment: Segment) -> list[str]:
+        return [*_lengths(segment, words, i), *sigmas.cell(f"{kind.value}.{segment.name}", i)]
+
     if kind is PlanKind.POSITION:
-        return [[_joined(s), *_lengths(s, words, i)] for s in segments]
+        return [[_joined(s), *lengths(s)] for s in segments]
     mu = solution.scales[kind].per_mm
     for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
         value = found(mu * float(segment.read[i]), words)
         name = names.segment(vector.tail, vector.head)
-        rows.append([plain_text(vector.symbol), name, *_lengths(segment, words, i), value])
+        rows.append([plain_text(vector.symbol), name, *lengths(segment), value])
     return rows
 
 
@@ -193,7 +299,7 @@ def _lengths(segment: Segment, words: Wording, i: int) -> list[str]:
 # Many positions --------------------------------------------------------------------------------
 
 
-def _many(solution: Solution, words: Wording) -> list[str]:
+def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
     """Return tables with a row for each position."""
     drive, hand = solution.problem.drive, solution.by_hand_results
     symbol = plain_text(f"φ_{{{drive.link}}}, °") if drive.is_crank else f"s, {words.units['m']}"
@@ -218,6 +324,12 @@ def _many(solution: Solution, words: Wording) -> list[str]:
     read_v += [column(f"ω_{{{k}}}", hand.links[k][0]) for k in links]
     read_a = [column(f"a_{{{p}}}", hand.points[p][1]) for p in points]
     read_a += [column(f"ε_{{{k}}}", hand.links[k][1]) for k in links]
+    errors = []
+    for symbol in "vωaε" if sigmas.asked else "":
+        for name in points if symbol in "va" else links:
+            label = label_of(symbol, name)
+            cells = [sigmas.cell(label, i)[0] for i in range(len(solution.positions))]
+            errors.append([plain_text(f"{symbol}_{{{name}}}"), *_levelled(cells)])
     lines: list[str] = []
     for title, columns in (
         (words.many_places, places),
@@ -225,6 +337,7 @@ def _many(solution: Solution, words: Wording) -> list[str]:
         (words.many_by_hand.format(title=words.many_velocities), read_v),
         (words.many_accelerations, a),
         (words.many_by_hand.format(title=words.many_accelerations), read_a),
+        (words.many_sigmas, errors),
     ):
         if columns:
             lines += [*([""] if lines else []), title, *columns_text([*lead, *columns], len(lead))]

@@ -159,6 +159,14 @@ def _judge(
     largest: dict[ResultKind, float] = {}
     for result, value, _, _ in rows:
         largest[result.kind] = max(float(abs(value)), largest.get(result.kind, 0.0))
+    # Where all moves evenly every acceleration is zero: it is small against what makes others.
+    turning = largest.get(ResultKind.OMEGA, 0.0)
+    speed, size = largest.get(ResultKind.VELOCITY, 0.0), largest.get(ResultKind.PLACE, 0.0)
+    for kind, natural in (
+        (ResultKind.EPSILON, turning**2),
+        (ResultKind.ACCELERATION, max(turning * speed, speed * speed / (size or math.inf))),
+    ):
+        largest[kind] = max(natural, largest.get(kind, 0.0))
     return tuple(_verdict(*row, largest[row[0].kind]) for row in rows), agreed
 
 

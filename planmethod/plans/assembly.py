@@ -133,7 +133,7 @@ def _try(
     return draft, program, evaluate(program, drive_data(problem, draft, positions), Float64())
 
 
-def _score(rule: Rule, trace: Trace) -> npt.NDArray[np.float64]:
+def _score(rule: Rule, draft: Draft, trace: Trace) -> npt.NDArray[np.float64]:
     """Return how well a closing satisfies a rule, m or m²: the larger the better, > 0 satisfied."""
 
     def at(name: str) -> npt.NDArray[np.complex128]:
@@ -154,7 +154,7 @@ def _score(rule: Rule, trace: Trace) -> npt.NDArray[np.float64]:
             left = ((end - start).conjugate() * (p - start)).imag / abs(end - start)
             return np.asarray(left if rule.where is Where.LEFT_OF else -left)
         case Where.NEAR:
-            return np.asarray(-abs(p - rule.at))
+            return np.asarray(-abs(p - (rule.at - draft.origin)))
         case _:
             assert_never(rule.where)
 
@@ -177,13 +177,16 @@ def _judge(
     both: list[tuple[Draft, Program, Trace]],
     positions: npt.NDArray[np.float64],
 ) -> int:
-    scores = [np.broadcast_to(_score(rule, trace), positions.shape) for _, _, trace in both]
+    scores = [
+        np.broadcast_to(_score(rule, draft, trace), positions.shape) for draft, _, trace in both
+    ]
     able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
     if not able.size:
         draft, program, trace = both[0]
         raise AssemblyError(explain(problem, draft, program, trace, positions, unit_scales=True))
     name = "phi" if problem.drive.is_crank else "s"
-    size = max(abs(point) for point in _places(problem, both, int(able[0])))
+    found = list(_places(problem, both, int(able[0])))[:-1]
+    size = max(abs(point - found[0]) for point in found)
     apart = abs(_at(both[0][2], rule.point, positions) - _at(both[1][2], rule.point, positions))
     # A dead position tells the closings of nothing: the next one that is asked does.
     distinct = able[apart[able] > TIE * size]
@@ -241,8 +244,8 @@ def _missing(group: AssurGroup, both: list[tuple[Draft, Program, Trace]]) -> Fau
     """Return the fault of a group whose closing nobody chose, with both ways to say it."""
     c = inner_point(group)
     places = []
-    for _, _, trace in both:
-        values = np.ravel(np.asarray(trace.value[PointName(c)], dtype=complex))
+    for draft, _, trace in both:
+        values = np.ravel(np.asarray(trace.value[PointName(c)], dtype=complex)) + draft.origin
         able = values[np.isfinite(values)]
         places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})" if able.size else "nowhere")
     return Fault(

@@ -41,6 +41,7 @@ def doubt(solution: Solution) -> Reals:
     largest value of its kind in the position. Positions far from any cancellation are not
     computed: their bound is given as ``16 u / SAFE**3``, which none of them reaches.
     """
+    solution.si  # noqa: B018 - what does not exist is told first
     bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
     for chosen in _blocks(_suspects(solution)):
         bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, chosen)
@@ -58,13 +59,23 @@ def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
     if count <= FEW:
         return np.arange(count)
     least = solution.margin
+    ends = _extent(solution)
     value = solution.si.value
     for step in solution.construction.program.steps:
         if isinstance(step, Join):
-            ends = np.maximum(np.abs(value[step.tail]), np.abs(value[step.head]))
             gap = np.abs(value[step.head] - value[step.tail])
-            least = np.minimum(least, gap / np.where(ends > 0, ends, 1.0))
+            least = np.minimum(least, gap / (ends or 1.0))
     return np.flatnonzero(~(least > SAFE))
+
+
+def _extent(solution: Solution) -> float:
+    """Return the size of what places are differences of: the longest length or distance given."""
+    draft = solution.construction.draft
+    lengths = [abs(v) for name, v in draft.numbers.items() if name.startswith(("l_", "x_", "y_"))]
+    lengths += [abs(place) for place in draft.places.values()]
+    if not solution.problem.drive.is_crank:
+        lengths.append(float(np.max(np.abs(solution.positions))))
+    return max(lengths)
 
 
 def _relative_reach(solution: Solution, chosen: npt.NDArray[np.intp]) -> Reals:
@@ -83,6 +94,7 @@ def _relative_reach(solution: Solution, chosen: npt.NDArray[np.intp]) -> Reals:
         spans = np.array([np.broadcast_to(found[name], size.shape) for name in names])
         some = size > 0
         if names and some.any():
+            spans = np.where(np.isnan(spans), np.inf, spans)
             worst[some] = np.fmax(worst[some], spans.max(axis=0)[some] / size[some])
     return worst
 

@@ -16,6 +16,9 @@ from planmethod.problem.model import Problem, Slide
 TINY = 1e-12
 """Share of a link's size below which an offset is rounding, not a dimension."""
 
+FAR = 10.0
+"""Distance from the origin, in sizes of a mechanism, from which places are counted from its own."""
+
 Choice = Mapping[tuple[str, ...], int]
 """Closing of each group that has two, by its links: +1 or -1."""
 
@@ -56,7 +59,10 @@ class Draft:
     numbers : dict
         Values of the Known numbers in their own units; the scales are added by the reading.
     places : dict
-        Places of the Given points, m.
+        Places of the Given points, m, counted from ``origin``.
+    origin : complex, m
+        Zero, but for a mechanism that stands far from the origin of its file: coordinates counted
+        from a place of its own keep the digits of its links.
     placed : dict of str to list of str
         Points of each link that the position plan has.
     axes : dict of str to LineName
@@ -73,12 +79,14 @@ class Draft:
     placed: dict[str, list[str]] = field(default_factory=dict)
     axes: dict[str, LineName] = field(default_factory=dict)
     mu_l: NumberName = field(init=False)
+    origin: complex = field(init=False)
     read: list[tuple[str, str]] = field(default_factory=list)
     _feet: int = 0
     _drawn: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.mu_l = self.b.known("mu_l")
+        self.origin = _origin(self.problem)
 
     # Numbers -------------------------------------------------------------------------------
 
@@ -118,7 +126,7 @@ class Draft:
     def size(self, link: str) -> float:
         """Return the extent of a link, m: what an offset is small against."""
         points = list(self.problem.bodies[link].points.values())
-        return max((abs(p - points[0]) for p in points), default=0.0) or 1.0
+        return max((abs(p - points[0]) for p in points), default=0.0)
 
     # Points and lines of the position plan ---------------------------------------------------
 
@@ -223,7 +231,7 @@ class Draft:
             return self.locate(slide.host, slide.through)
         name = f"{slide.label}:0"
         if name not in self.places:
-            self.places[name] = slide.base
+            self.places[name] = slide.base - self.origin
             return self.b.given(name)
         return PointName(name)
 
@@ -234,7 +242,26 @@ class Draft:
             return self.b.at_angle(base, None, self.known(f"angle_{slide.label}", slide.angle))
         if slide.towards is not None:
             return self.b.join(base, self.locate(slide.host, slide.towards))
+        from_x = self.angle_from_x(slide)
+        if from_x is not None:
+            return self.b.at_angle(base, None, self.known(f"angle_{slide.slider}", from_x))
         return self.turned(self.axis(slide.host), base, slide.angle, f"angle_{slide.slider}")
+
+    def angle_from_x(self, slide: Slide) -> float | None:
+        """Return the angle of a slide line from +x where its host does not turn, degrees.
+
+        The angle as the file gives it keeps digits that two angles in a row would lose. None where
+        the host turns, or where set squares draw the line along or across the host's own.
+        """
+        if slide.angle % 90 == 0 or slide.towards is not None or slide.host == FRAME:
+            return None
+        angle, link = slide.angle, slide.host
+        while link != FRAME:
+            carrier = self.problem.slides.get(link)
+            if carrier is None:
+                return None
+            angle, link = angle + carrier.angle, carrier.host
+        return angle
 
     def path(self, slide: Slide, known: str, point: str) -> Track:
         """Return the line that a point of one body of a prismatic pair follows on the other.
@@ -262,7 +289,11 @@ class Draft:
 
     def turn_with(self, slide: Slide, known: str, at: PointName) -> None:
         """Note the direction of the body that a prismatic pair turns together with ``known``."""
-        if known == slide.host:
+        from_x = self.angle_from_x(slide)
+        if known == slide.host and from_x is not None:
+            angle = self.known(f"angle_{slide.slider}", from_x)
+            self.axes[slide.slider] = self.b.at_angle(at, None, angle)
+        elif known == slide.host:
             self.axes[slide.slider] = (
                 self.b.parallel(at, self.line(slide))
                 if known == FRAME or self.placed.get(known)
@@ -280,6 +311,14 @@ class Draft:
         value = slide.offset + z_slider.imag - ((z_host - slide.base) * cis(-slide.angle)).imag
         size = max(self.size(slide.host), self.size(slide.slider))
         return value if abs(value) > TINY * size else 0.0
+
+
+def _origin(problem: Problem) -> complex:
+    """Return what places are counted from: zero, or a fixed place of a mechanism far from it."""
+    fixed = list(problem.bodies[FRAME].points.values())
+    fixed += [slide.base for slide in problem.slides.values() if slide.host == FRAME]
+    sizes = [abs(place - fixed[0]) for place in fixed] + [abs(m) for _, _, m in problem.lengths]
+    return fixed[0] if abs(fixed[0]) > FAR * max(sizes) else 0j
 
 
 def side(sign: float) -> Side:

@@ -330,8 +330,10 @@ def _items(solution: Solution) -> Iterable[Item]:
     kin = construction.kinematics
     for name, at in kin.velocity.named.items():
         place = PointName(at[1])
-        yield Item(f"x_{name}", (place,), _coordinate(place, mu[PlanKind.POSITION], "real"), False)
-        yield Item(f"y_{name}", (place,), _coordinate(place, mu[PlanKind.POSITION], "imag"), False)
+        origin, mu_l = construction.draft.origin, mu[PlanKind.POSITION]
+        for axis, part in (("x", "real"), ("y", "imag")):
+            take = _coordinate(place, mu_l, part, getattr(origin, part))
+            yield Item(f"{axis}_{name}", (place,), take, False)
         for letter, motion in (("v", kin.velocity), ("a", kin.acceleration)):
             ends = (motion.pole, motion.point[at])
             yield Item(f"{letter}_{name}", ends, _length(*ends, mu[motion.kind]), True)
@@ -369,8 +371,10 @@ def _length(tail: PointName, head: PointName, mu: float) -> Callable[[_Reading],
     return lambda reading: reading.known(tail, head) * mu
 
 
-def _coordinate(place: PointName, mu: float, part: str) -> Callable[[_Reading], Number]:
-    return lambda reading: getattr(reading.trace.value[place], part) * mu
+def _coordinate(
+    place: PointName, mu: float, part: str, origin: float
+) -> Callable[[_Reading], Number]:
+    return lambda reading: getattr(reading.trace.value[place], part) * mu + origin
 
 
 def _number(name: Name) -> Callable[[_Reading], Number]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,13 +11,19 @@ import numpy.typing as npt
 from planmethod.construct.evaluate import Trace, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
+    AtAngle,
+    Join,
+    LineName,
     MeetCircles,
     MeetLineCircle,
     MeetLines,
+    Parallel,
+    Perpendicular,
     PointName,
     Similar,
     Step,
     Touch,
+    operands,
 )
 from planmethod.plans.draft import Draft
 from planmethod.problem.model import Problem
@@ -61,12 +68,11 @@ def explain(
     index = int(bad[0])
     step = program.steps[int(first[index])]
     name, unit = ("phi", "deg") if problem.drive.is_crank else ("s", "m")
-    where = f"position {index + 1} ({name} = {positions[index]:g} {unit})"
-    more = (
-        f" The same holds at {bad.size - 1} more of {len(positions)} positions."
-        if (bad.size > 1)
-        else ""
-    )
+    where = f"position {index + 1} ({name} = {positions[index] + 0.0:.12g} {unit})"
+    alike = int((first == first[index]).sum()) - 1
+    more = f" The same holds at {alike} more of {len(positions)} positions." if alike else ""
+    if bad.size - 1 > alike:
+        more += f" Other steps fail at {bad.size - 1 - alike} positions."
     length = "m" if unit_scales else "mm"
 
     def real(key: Any) -> float:
@@ -77,17 +83,47 @@ def explain(
         value = np.asarray(trace.value[key], dtype=complex)
         return complex(value if value.ndim == 0 else value[index])
 
+    ends = _without_length(step, program, point)
+    if ends is not None:
+        p, q = ends
+        return (
+            f"Cannot go on at {where}: {p} and {q} coincide, so that the line {p}{q} has no "
+            "direction. The mechanism stands in a dead position there; ask another one." + more
+        )
     return _sentence(step, where, length, real, point) + more
+
+
+def _without_length(
+    step: Step, program: Program, point: Callable[[PointName], complex]
+) -> tuple[PointName, PointName] | None:
+    """Return two points that coincide and should have given a line of a step its direction."""
+    steps = {other.out: other for other in program.steps}
+    for name, kind in operands(step):
+        line = steps[name]
+        while kind is LineName and not isinstance(line, Join):
+            if not isinstance(line, Parallel | Perpendicular | AtAngle) or line.to is None:
+                break
+            line = steps[line.to]
+        if isinstance(line, Join) and point(line.tail) == point(line.head):
+            return line.tail, line.head
+    return None
 
 
 def _sentence(step: Step, where: str, unit: str, real: Any, point: Any) -> str:
     match step:
         case MeetCircles(out, a, r, b, q, _):
-            gap = abs(point(b) - point(a))
+            gap, one, two = abs(point(b) - point(a)), real(r), real(q)
+            arcs = f"arcs from {a} ({one:.4g} {unit}) and {b} ({two:.4g} {unit})"
+            if gap == 0 and one == two:
+                return (
+                    f"Cannot place {out} at {where}: {arcs} coincide, {a} and {b} being at one "
+                    "place. This dead position is a change point: the mechanism may go on either "
+                    "way. Ask another one."
+                )
+            miss = max(gap - one - two, abs(one - two) - gap)
             return (
-                f"Cannot place {out} at {where}: arcs from {a} ({real(r):.4g} {unit}) and {b} "
-                f"({real(q):.4g} {unit}) do not meet, |{a}{b}| = {gap:.4g} {unit}. "
-                f"Check l_{a}{out}, l_{b}{out}."
+                f"Cannot place {out} at {where}: {arcs} do not meet, |{a}{b}| = {gap:.4g} {unit}. "
+                f"Check l_{a}{out}, l_{b}{out}. The arcs miss by {miss:.4g} {unit}."
             )
         case MeetLineCircle(out, _, a, r, _):
             return (

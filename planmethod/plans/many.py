@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -25,17 +24,13 @@ from planmethod.plans.selfcheck import (
     warnings,
 )
 from planmethod.plans.solution import Reals, Solution
-from planmethod.plans.sweep import Sweep
 from planmethod.problem.model import Problem
 
 Codes = npt.NDArray[np.int16]
 Places = npt.NDArray[np.intp]
 
-BLOCK = 4096
+BLOCK = 2048
 """Positions that are solved in one go, with all their steps."""
-
-CHUNK = 16384
-"""Positions that are swept in one go."""
 
 SAMPLE = 1000
 """Positions that choose the scales of a large table, and that check a sweep."""
@@ -98,7 +93,8 @@ class Gaps:
 
     def refusal(self) -> str:
         """Return the message of a request that is refused for its first impossible position."""
-        return self.told[0] + self.more(self.count)
+        others = int(np.count_nonzero(self.reason > 0))
+        return self.sentences[0] + (f" Other steps fail at {others} positions." if others else "")
 
     def warning(self) -> str:
         """Return what is said of a request whose impossible positions stay empty."""
@@ -115,10 +111,21 @@ class Gaps:
 
 @dataclass(frozen=True, slots=True)
 class Examined:
-    """Positions that were looked at: those without results, and doubts about the others."""
+    """Positions that were looked at.
+
+    Attributes
+    ----------
+    gaps : Gaps
+        Positions without results.
+    doubts : tuple of str
+        Warnings about the others.
+    spoilt : tuple of str
+        Which gap is there only because rounding spoils the worst results; at most one sentence.
+    """
 
     gaps: Gaps
     doubts: tuple[str, ...]
+    spoilt: tuple[str, ...]
 
 
 def blocks(count: int, size: int = BLOCK) -> Iterator[slice]:
@@ -175,11 +182,13 @@ def examine(problem: Problem, positions: Reals, *, numbers: Places | None = None
             raise SelfCheckError(_renumbered(str(error), numbers[left])) from error
 
     def tell(index: int) -> str:
-        return _why(problem, float(positions[index]), int(numbers[index]))
+        return why(problem, float(positions[index]), int(numbers[index]))
 
     estimate[codes >= 0] = 0.0
+    gaps = Gaps.of(codes, tell)
+    kinds = sorted(set(gaps.reason[codes == _SPOILT].tolist()))
     doubts = _doubts(problem, positions, numbers, estimate)
-    return Examined(Gaps.of(codes, tell), tuple(doubts))
+    return Examined(gaps, tuple(doubts), tuple(gaps.sentences[k] for k in kinds))
 
 
 def _listed(positions: Reals) -> list[float]:
@@ -198,8 +207,8 @@ def _impossible(solution: Solution) -> Codes:
     return np.full(solution.positions.shape, -1, np.int16)
 
 
-def _why(problem: Problem, position: float, number: int) -> str:
-    """Return why one position has no results."""
+def why(problem: Problem, position: float, number: int) -> str:
+    """Return why one position has no results; its number, from 0, is for the message."""
     alone = Solution(problem, positions=[position])
     try:
         verify(alone)
@@ -241,70 +250,3 @@ def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKi
             for kind, (symbol, unit) in zip(PlanKind, units.items(), strict=True)
         }
     return Solution(problem, positions=_listed(positions[some])).scales
-
-
-class Swept:
-    """A sweep over positions that were looked at first.
-
-    Every position that a step fails in is found. The self-check of `selfcheck.verify` and the
-    doubts, which need all steps, see a thousand possible positions at most, evenly spread. Where
-    only some results are asked, what the others are spoilt by is no matter.
-
-    Parameters
-    ----------
-    problem : Problem
-    positions : ndarray of shape (n,)
-    asked : iterable of str, optional
-        Labels of results; everything when absent.
-
-    Attributes
-    ----------
-    sweep : Sweep
-    gaps : Gaps
-    doubts : tuple of str
-
-    Raises
-    ------
-    UnknownResultError, StructureError, ProblemError, AssemblyError, SelfCheckError
-    """
-
-    def __init__(
-        self, problem: Problem, positions: Reals, asked: Iterable[str] | None = None
-    ) -> None:
-        labels = None if asked is None else tuple(asked)
-        self.problem, self.positions = problem, positions
-        self.sweep = Sweep(problem, labels)
-        gaps = Gaps.of(self._failed(), self._why)
-        some = evenly(np.flatnonzero(gaps.reason < 0))
-        looked = examine(problem, positions[some], numbers=some)
-        self.gaps = gaps if labels is not None else gaps.joined(some, looked.gaps)
-        self._found = len(gaps.told)
-        self.doubts = looked.doubts
-
-    @cached_property
-    def names(self) -> tuple[str, ...]:
-        """Names of the rows."""
-        return tuple(row.name for row in self.sweep.rows)
-
-    def _failed(self) -> Codes:
-        failed = np.empty(self.positions.shape, np.int16)
-        work = np.empty((len(self.sweep.rows), CHUNK))
-        for part in blocks(len(self.positions), CHUNK):
-            here = self.positions[part]
-            self.sweep.run(here, out=work[:, : len(here)], failed=failed[part])
-        return failed
-
-    def _why(self, index: int) -> str:
-        position = float(self.positions[index])
-        return self.sweep.explain(position, number=index + 1) or _why(self.problem, position, index)
-
-    def fill(self, out: npt.NDArray[np.float64], part: slice) -> npt.NDArray[np.float64]:
-        """Fill a buffer of shape (k, m) with the results of a part of the positions.
-
-        NaN where a result does not exist, and no negative zeros.
-        """
-        self.sweep.run(self.positions[part], out=out)
-        if len(self.gaps.told) > self._found:
-            out[:, self.gaps.reason[part] >= self._found] = np.nan
-        out += 0.0
-        return out

@@ -24,7 +24,7 @@ def has_two_closings(group: AssurGroup) -> bool:
 def place_frame(draft: Draft) -> None:
     """Take the fixed points as given."""
     for point, place in draft.problem.bodies[FRAME].points.items():
-        draft.places[point] = place
+        draft.places[point] = place - draft.origin
         draft.b.given(point)
         draft.mark_placed(point)
 

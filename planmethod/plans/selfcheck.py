@@ -54,7 +54,7 @@ def warnings(solution: Solution) -> list[str]:
 
 def _place(solution: Solution, i: int) -> str:
     name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
-    return f"position {i + 1} ({name} = {solution.positions[i]:.10g} {unit})"
+    return f"position {i + 1} ({name} = {solution.positions[i]:.12g} {unit})"
 
 
 def _nature(solution: Solution, i: int) -> str:
@@ -112,7 +112,7 @@ def verify(solution: Solution) -> None:
             length = abs(body.points[q] - body.points[p])
             turn = 1j * motion.epsilon - motion.omega**2
             checks = (
-                ("length", np.abs(place) - length, np.full(place.shape, length)),
+                ("length", np.abs(place) - length, np.maximum(length, _largest(solution, "place"))),
                 ("velocity", v - 1j * motion.omega * place, _largest(solution, "velocity")),
                 ("acceleration", a - turn * place, _largest(solution, "acceleration")),
             )
@@ -121,8 +121,7 @@ def verify(solution: Solution) -> None:
 
 
 def _between(solution: Solution, p: str, q: str) -> Complexes:
-    points = solution.points
-    return np.asarray(points[q].place - points[p].place, dtype=complex)
+    return _difference(solution, PointName(p), PointName(q))
 
 
 def _difference(solution: Solution, p: PointName, q: PointName) -> Complexes:

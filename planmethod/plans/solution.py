@@ -200,6 +200,10 @@ class Solution:
         """Return a number of a trace as an ndarray of shape (n,)."""
         return self._real_column(trace.value[name])
 
+    def place(self, name: PointName) -> Complexes:
+        """Return the place of a point in the file's coordinates, m, ndarray of shape (n,)."""
+        return self.complexes(self.si, name) + self.construction.draft.origin
+
     # Results ---------------------------------------------------------------------------------
 
     @cached_property
@@ -215,7 +219,7 @@ class Solution:
         result: dict[str, PointMotion] = {}
         for name, (link, place) in kin.velocity.named.items():
             result[name] = PointMotion(
-                self.complexes(self.si, PointName(place)),
+                self.place(PointName(place)),
                 self.complexes(self.si, kin.velocity.point[link, place]),
                 self.complexes(self.si, kin.acceleration.point[link, place]),
             )

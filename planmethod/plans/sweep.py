@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -113,7 +112,7 @@ class Sweep:
         self.varied = tuple(varied)
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
         written = write(self.program, fixed, (self.driver, *self.varied))
-        self.rows, refs, depends = _rows(chosen, written)
+        self.rows, refs, depends = _rows(chosen, written, construction.draft.origin)
         self._refs, self._written = refs, written
         self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
         self._straight: Straight | None = None
@@ -177,10 +176,11 @@ class Sweep:
             columns = [np.broadcast_to(value, shape) if value.ndim else value for value in extra]
             self._blocks.run([np.broadcast_to(angle, shape), *columns], out, failed)
             return out
+        wide = [np.broadcast_to(value, (shape[0], (value.shape or (1,))[-1])) for value in extra]
         for i in range(shape[0]):
             columns = [
-                np.broadcast_to(value, shape)[i] if value.shape[-1:] != (1,) else value[i, 0]
-                for value in (np.atleast_2d(value) for value in extra)
+                value[i, 0] if value.shape[1] == 1 else np.broadcast_to(value, shape)[i]
+                for value in wide
             ]
             here = np.broadcast_to(angle, shape)[i]
             self._blocks.run([here, *columns], out[:, i], None if failed is None else failed[i])
@@ -193,12 +193,15 @@ class Sweep:
         if self._straight is None:
             self._straight = straight(self._written.tape, self._refs, self._written.guards)
         buffer = bytearray(8 * len(self._refs) * count)
-        columns = [np.broadcast_to(value, (count,)).tolist() for value in extra]
+        columns = [
+            (value if value.shape == (count,) else np.broadcast_to(value, (count,))).tolist()
+            for value in (angle, *extra)
+        ]
         try:
-            self._straight([angle.tolist(), *columns], buffer)
+            self._straight(columns, buffer)
         except (ImpossibleError, ArithmeticError, ValueError):
             return None
-        return np.frombuffer(buffer).reshape(count, -1).T
+        return np.frombuffer(buffer).reshape(count, len(self._refs)).T
 
     def table(
         self, positions: npt.ArrayLike, parameters: Mapping[str, npt.ArrayLike] | None = None
@@ -295,13 +298,16 @@ SUFFIX: Mapping[ResultKind, tuple[str, ...]] = {
 
 
 def _rows(
-    chosen: Sequence[Result], written: Written
+    chosen: Sequence[Result], written: Written, origin: complex
 ) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
     rows: list[Row] = []
     refs: list[Ref] = []
     depends: list[frozenset[int]] = []
     for result in chosen:
         parts = list(_parts(result, written))
+        if result.kind is ResultKind.PLACE:
+            here = zip(parts, (origin.real, origin.imag), strict=True)
+            parts = [written.tape.add(part, at) for part, at in here]
         suffixes = SUFFIX[result.kind]
         names = [f"{result.of}.{suffix}" for suffix in suffixes] or [result.label]
         rows += [Row(name, result.label) for name in names]
@@ -317,10 +323,7 @@ def _parts(result: Result, written: Written) -> Iterator[Ref]:
         along: Symbol = value[1]
         if result.kind is ResultKind.DIRECTION:
             x, y = along.re, 0.0 if along.im is None else along.im
-            if type(x) is float and type(y) is float:
-                yield math.degrees(math.atan2(y, x))
-            else:
-                yield tape.mul(180.0 / math.pi, tape.make("atan2", y, x))
+            yield tape.make("degrees", tape.make("atan2", y, x))
             return
         value = along / abs(along)
     yield value.re

@@ -215,8 +215,11 @@ class _Placement:
         start, end = (self.placed.get(name) for name in form.line)
         if start is None or end is None:
             return None
-        x = (a * a - b * b + d * d) / (2 * d)
-        y = math.sqrt(max(0.0, a * a - x * x))
+        x = (d + (a - b) * ((a + b) / d)) / 2
+        small, big = min(a, b), max(a, b)
+        gap = d - big
+        room = (small - gap) * (small + gap) * ((d + (big - small)) / d) * ((d + (big + small)) / d)
+        y = math.sqrt(max(0.0, room)) / 2
         fits = [
             place
             for place in (p + complex(x, y) * along, p + complex(x, -y) * along)

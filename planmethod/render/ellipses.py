@@ -12,6 +12,7 @@ import numpy as np
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.wording import wording
+from planmethod.plans.drafting import SHORT
 from planmethod.plans.model import PlanKind
 from planmethod.plans.scaling import extent, own_scale, plan_extent
 from planmethod.plans.solution import Reals, Solution
@@ -20,6 +21,12 @@ from planmethod.render.style import PENS
 
 SIGMAS = 2
 """Half axes of an ellipse, in sigmas: it holds 86 % of what is drawn."""
+
+ENLARGED = (5, 2, 1)
+"""How many times the ellipses of a scheme are enlarged, to show beside the signs of its joints."""
+
+CLUTTER = 0.25
+"""Part of a scheme that an enlarged ellipse may be across."""
 
 TAG = "ellipse"
 
@@ -31,10 +38,12 @@ class Ellipses:
     """Ellipses of one view, and what the view has to say about them.
 
     ``strained`` tells that some are dashed, ``too_large`` that some are larger than the view,
-    ``undefined`` that first order gives no ellipse somewhere.
+    ``undefined`` that first order gives no ellipse somewhere; ``enlarged`` is how many times the
+    ellipses are larger than the view.
     """
 
     strokes: tuple[Stroke, ...] = ()
+    enlarged: int = 1
     strained: bool = False
     too_large: bool = False
     undefined: bool = False
@@ -79,34 +88,36 @@ def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
     """Return the ellipses of a view's moving points in one position.
 
     What is thinner than the pen is not drawn, nor what is larger than the view itself: there the
-    drawing does not say where the point is. Dashed are points whose every reading had to be found
-    by random draws.
+    drawing does not say where the point is. Dashed are those where first order does not hold.
     """
+    common, scheme = solution.scales[kind].per_mm, kind is PlanKind.POSITION
     # A plan near a dead position is drawn smaller, and its ellipses with it.
-    if kind is PlanKind.POSITION:
-        share, size = 1.0, extent(solution, kind)
-        per_mm = solution.scales[kind].per_mm
-    else:
-        per_mm = own_scale(solution, kind, index).per_mm
-        share, size = solution.scales[kind].per_mm / per_mm, plan_extent(solution, kind, index)
+    per_mm = common if scheme else own_scale(solution, kind, index).per_mm
+    share = common / per_mm
+    size = extent(solution, kind) if scheme else plan_extent(solution, kind, index)
     largest = max(size) / per_mm
+    places = {point: place * share for point, place in _places(solution, kind, index)}
+    found = {point: solution.drafting.ellipse(point, index) * share**2 for point in places}
+    known = {point: each for point, each in found.items() if np.isfinite(each).all()}
+    across = {point: 2 * SIGMAS * half_axes(each)[0] for point, each in known.items()}
+    shown = [point for point in known if across[point] <= largest]
+    widest = max((across[point] for point in shown), default=0.0)
+    enlarged = next(k for k in ENLARGED if k == 1 or k * widest <= CLUTTER * largest)
+    enlarged = enlarged if scheme else 1
     strokes: list[Stroke] = []
-    too_large = undefined = False
-    for point, place in _places(solution, kind, index):
-        covariance = solution.drafting.ellipse(point, index) * share**2
-        if not np.isfinite(covariance).all():
-            undefined = True
-            continue
-        across = 2 * SIGMAS * half_axes(covariance)[0]
-        too_large = too_large or across > largest
-        if not PENS[Pen.THIN].width < across <= largest:
-            continue
-        pen = Pen.THIN if _holds(solution, point, index) else Pen.HIDDEN
-        stroke = ellipse(place * share, covariance, pen)
-        if not any(_alike(stroke, other) for other in strokes):
-            strokes.append(stroke)
-    strained = any(stroke.pen is Pen.HIDDEN for stroke in strokes)
-    return Ellipses(tuple(strokes), strained, too_large, undefined)
+    for point in shown:
+        if across[point] * enlarged > PENS[Pen.THIN].width:
+            pen = Pen.THIN if _holds(solution, kind, point, index) else Pen.HIDDEN
+            stroke = ellipse(places[point], known[point] * enlarged**2, pen)
+            if not any(_alike(stroke, other) for other in strokes):
+                strokes.append(stroke)
+    return Ellipses(
+        tuple(strokes),
+        enlarged,
+        strained=any(stroke.pen is Pen.HIDDEN for stroke in strokes),
+        too_large=len(shown) < len(known),
+        undefined=len(known) < len(found),
+    )
 
 
 def _places(solution: Solution, kind: PlanKind, index: int) -> Iterator[tuple[PointName, complex]]:
@@ -123,19 +134,23 @@ def _places(solution: Solution, kind: PlanKind, index: int) -> Iterator[tuple[Po
         yield point, complex(solution.complexes(solution.paper, point)[index])
 
 
-def _holds(solution: Solution, point: PointName, index: int) -> bool:
-    """Tell whether first order holds at a point: something taken from it is believed.
+def _holds(solution: Solution, kind: PlanKind, point: PointName, index: int) -> bool:
+    """Tell whether first order holds at a point.
 
-    A segment may be found by random draws only because it is short; its end is then known no worse
-    for it, as another segment from there tells.
+    It does where anything taken from the point is believed. A segment that is not believed only
+    because it is short says nothing of its ends.
     """
     drafting = solution.drafting
-    drawn = [
-        bool(drafting.spreads[label].drawn[index])
-        for label, item in drafting.items.items()
-        if point in item.needs
-    ]
-    return not drawn or not all(drawn)
+    lengths = {f"{kind.value}.{s.name}": float(s.exact[index]) for s in solution.segments(kind)}
+    failed = False
+    for label, item in drafting.items.items():
+        if point not in item.needs:
+            continue
+        if not drafting.spreads[label].drawn[index]:
+            return True
+        sigma = float(np.sqrt(drafting.covariance([label], index)[0, 0]))
+        failed = failed or not item.length or lengths.get(label, 0.0) >= SHORT * sigma
+    return not failed
 
 
 def _alike(one: Stroke, two: Stroke) -> bool:
@@ -151,11 +166,13 @@ def ellipse_inscription(solution: Solution, kind: PlanKind, indices: Sequence[in
     profile = words.profiles.get(name, name)
     if not any(view.strokes or view.too_large or view.undefined for view in shown):
         return [f"эллипсы погрешности {SIGMAS}σ тоньше линий ({profile})"]
-    lines = [f"эллипсы погрешности: {SIGMAS}σ, {profile}"]
+    enlarged = max(view.enlarged for view in shown)
+    size = f"{SIGMAS}σ, увеличены {enlarged}:1" if enlarged > 1 else f"{SIGMAS}σ"
+    lines = [f"эллипсы погрешности: {size}, {profile}"]
     if any(view.strained for view in shown):
         lines.append("штриховые: первый порядок не верен")
-    large, undefined = any(v.too_large for v in shown), any(v.undefined for v in shown)
-    if large or undefined:
-        which = (["больше плана"] if large else []) + (["неопределённые"] if undefined else [])
-        lines.append(f"эллипсы {' и '.join(which)} не показаны")
+    if any(view.too_large for view in shown):
+        lines.append("эллипсы больше плана не показаны")
+    if any(view.undefined for view in shown):
+        lines.append("неопределённые эллипсы не показаны")
     return lines

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -335,16 +336,22 @@ def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
                 size, other, value = map(said, step.sources)
                 lines.append(f"copyto({step.into[0]}, {value})")
                 lines.append(f"copyto({step.into[0]}, {other}, where={size} == 0.0)")
+            case "degrees":
+                (angle,), (into,) = map(said, step.sources), step.into
+                lines.append(f"multiply({angle}, {180.0 / math.pi!r}, {into})")
+                # One place for both ends of the half turn; NaN hides none.
+                lines.append(f"if not least({into}) > -180.0: ")
+                lines[-1] += f"copyto({into}, 180.0, where={into} <= -180.0)"
             case kind:
                 lines.append(f"{kind}({', '.join(map(said, step.sources))}, {step.into[0]})")
-    text = "\n".join(f"    {line}" for line in lines)
+    text = "\n".join(f"    {line}" for line in lines or ["pass"])
     used = sorted(set(_names(text)))
     head = []
     for letter, source in (("x", "inputs"), ("o", "out"), ("b", "buffers")):
         head += [f"    {name} = {source}[{name[1:]}]" for name in used if name[0] == letter]
     source = "def run(inputs, out, buffers, turn, fail):\n" + "\n".join(head) + "\n" + text + "\n"
     namespace: dict[str, Any] = {f"{kind}": ufunc for kind, ufunc in UFUNC.items()}
-    namespace |= {"least": np.minimum.reduce, "copyto": np.copyto}
+    namespace |= {"multiply": np.multiply, "least": np.minimum.reduce, "copyto": np.copyto}
     namespace |= {name: np.asarray(value) for value, name in constants.items()}
     exec(compile(source, "<plan>", "exec"), namespace)  # source of our own making only
     made: Callable[..., None] = namespace["run"]

@@ -98,6 +98,7 @@ class _Lines:
                 if (node := self.tape.nodes[number]).kind == "input"
             }
         )
+        inputs = inputs or [0]  # constants only: as many times as there are positions
         names = ", ".join(f"x{number}" for number in inputs)
         columns = ", ".join(f"inputs[{number}]" for number in inputs)
         each = f"for {names} in " + (columns if len(inputs) == 1 else f"zip({columns})")
@@ -144,6 +145,10 @@ class _Lines:
                 sign = ">" if kind == "max" else "<"
                 named = [self._named(ref) for ref in refs]
                 return f"{named[0]} if {named[0]} {sign} {named[1]} else {named[1]}"
+            case "degrees":
+                angle = self._named(refs[0])
+                whole = f"{angle} * {180.0 / math.pi!r}"
+                return f"180.0 if {angle} <= {-math.pi!r} else {whole}"
             case "at_zero":
                 return f"{said[1]} if {said[0]} == 0.0 else {said[2]}"
             case _:  # cosd, sind

@@ -15,7 +15,8 @@ class Node(NamedTuple):
     """One operation on earlier nodes and constants.
 
     ``input`` has the number of the input as its only operand; ``cosd`` and ``sind`` take degrees;
-    ``at_zero`` has three operands (size, other, value): the other where the size is zero.
+    ``at_zero`` has three operands (size, other, value): the other where the size is zero;
+    ``degrees`` of an angle in radians are in (-180, 180].
     """
 
     kind: str
@@ -38,6 +39,8 @@ FOLD: dict[str, Callable[..., float]] = {
     "sqrt": math.sqrt,
     "min": min,
     "max": max,
+    "atan2": math.atan2,
+    "degrees": lambda angle: 180.0 if angle <= -math.pi else angle * (180.0 / math.pi),
     "at_zero": lambda size, other, value: other if size == 0.0 else value,
 }
 """What an operation does to constants."""

@@ -135,6 +135,21 @@ class Wording:
 
     # Drafting errors
     profiles: Mapping[str, str]
+    sigma: str
+    sigma_note: str
+    drawn_note: str
+    many_sigmas: str
+    table_causes: str
+    worst_result: str
+    cause_given: str
+    cause_angle: str
+    cause_line: str
+    cause_lay_off: str
+    cause_meet: str
+    cause_arc: str
+    cause_touch: str
+    cause_similar: str
+    cause_read: str
 
     # Structure
     structure_title: str

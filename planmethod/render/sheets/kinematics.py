@@ -163,12 +163,22 @@ def _sense(value: float) -> int:
     return 0 if value == 0 else (1 if value > 0 else -1)
 
 
-def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> list[str]:
+def _as_long(text: str, value: float, sigma: float) -> str:
+    """Return an exact value with no fewer decimals than its error has."""
+    longer = rounded_to(value, sigma) if value and sigma else text
+    return longer if len(longer.partition(".")[2]) > len(text.partition(".")[2]) else text
+
+
+def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple[Cell, Cell]:
     """Return what was read on the drawing, to the place of its error, and the error."""
     hand, which = solution.by_hand_results, symbol in "aε"
     read = float((hand.links if symbol in "ωε" else hand.points)[name][which][index])
     sigma, mark = marked(solution.drafting, label_of(symbol, name), index)
-    return [russian(rounded_to(abs(read), sigma)), russian(sigma_text(sigma)) + mark]
+    turns = symbol in "ωε"
+    return (
+        Cell(russian(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
+        Cell(russian(sigma_text(sigma)) + mark, 0 if turns else None),
+    )
 
 
 def result_columns(
@@ -185,18 +195,20 @@ def result_columns(
         peak = solution_peak(solution, symbol)
         shown = [float(numbers[i]) for i in indices]
         shown = [0.0 if is_nothing(value, peak) else value for value in shown]
-        texts = [russian(text) for text in alike([abs(value) for value in shown])]
+        texts = alike([abs(value) for value in shown])
         turns = symbol in "ωε"
-        senses = [_sense(value) if turns else None for value in shown]
+        errors = [(0.0, "") for _ in shown]
+        if sigma:
+            errors = [marked(solution.drafting, label_of(symbol, name), i) for i in indices]
+        cells = []
+        for text, value, (error, mark) in zip(texts, shown, errors, strict=True):
+            written = russian(_as_long(text, abs(value), error))
+            if error and not alone:
+                written += f" ± {russian(sigma_text(error))}{mark}"
+            cells.append(Cell(written, _sense(value) if turns else None))
         if sigma and alone:
-            texts += _sigma_rows(solution, symbol, name, indices[0])
-            senses += [0 if turns else None] * 2
-        elif sigma:
-            for k, i in enumerate(indices):
-                error, mark = marked(solution.drafting, label_of(symbol, name), i)
-                texts[k] += f" ± {russian(sigma_text(error))}{mark}" if error else ""
-        cells = tuple(map(Cell, texts, senses))
-        return TableColumn(f"{symbol}_{{{name}}}", cells, unit=UNITS_RU[unit])
+            cells += _sigma_rows(solution, symbol, name, indices[0])
+        return TableColumn(f"{symbol}_{{{name}}}", tuple(cells), unit=UNITS_RU[unit])
 
     points, links = asked_points(solution), asked_links(solution)
     motions = [solution.points[name] for name in points]
@@ -246,12 +258,10 @@ def _results(
     )
     if not sigma:
         return table
-    name = solution.profile.name
-    profile = wording("ru").profiles.get(name, name)
-    said = f"σ — среднее квадратическое отклонение построения («{profile}»)."
+    words, name = wording("ru"), solution.profile.name
+    said = words.sigma_note.format(profile=words.profiles.get(name, name))
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
-        count = solution.drafting.draws
-        said += f" {DRAWN} Первый порядок здесь не верен, σ найдена розыгрышем {count} чертежей."
+        said += " " + words.drawn_note.format(count=solution.drafting.draws)
     return Column([table, paragraph(said, min(height, 3.5), table.width)], gap=3.0)
 
 

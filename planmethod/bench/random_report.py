@@ -1,0 +1,78 @@
+"""Sections of the document that are about error alone: random mechanisms, drafting errors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planmethod.bench.drawn import DRAWS, Compared
+from planmethod.bench.random_run import BOUNDS, POSITIONS, Tally
+from planmethod.bench.report import Table, number, table
+
+
+def random_section(tally: Tally, branches: tuple[int, int]) -> Table:
+    """Return what came of random mechanisms and of crank-rockers."""
+    total = tally.results
+    shares = []
+    names = [f"up to {bound:g}" for bound in BOUNDS] + [f"above {BOUNDS[-1]:g}"]
+    for name, count in zip(names, tally.within, strict=True):
+        shares.append((name, f"{count:,}".replace(",", " "), f"{100 * count / total:.4f} %"))
+    looked, wrong = branches
+    lines = [
+        "## Random mechanisms",
+        "",
+        f"{tally.mechanisms} mechanisms of one to three dyads of all kinds, {POSITIONS} positions "
+        f"each ({tally.positions} in all, {tally.impossible} of them impossible with a step "
+        "named). Every result is judged by a referee of 40 digits; its reach is taken to first "
+        "order.",
+        "",
+        f"- exceptions: {len(tally.exceptions)}; results that are NaN without a reason: "
+        f"{tally.unexplained}; positions where float64 and the referee do not find the same "
+        f"results to exist: {tally.disagreed};",
+        f"- random crank-rockers on a wrong branch: {wrong} of {looked} positions.",
+        "",
+        *table(("error in units of κ·u", "results", "share"), shares),
+        "",
+        "The largest multiples. Each is a result that does not depend on a badly conditioned step "
+        "through which the plan nevertheless finds it: a group that follows a nearly dead one and "
+        "turns as if that were not there.",
+        "",
+        *table(
+            ("seed", "position", "result", "κ of the result", "error in units of κ·u"),
+            [
+                (str(seed), f"{at:g}", label, number(kappa), f"{multiple:.3g}")
+                for multiple, seed, at, label, kappa in tally.worst
+            ],
+        ),
+    ]
+    if tally.exceptions:
+        lines += ["", *(f"- {error}" for error in tally.exceptions)]
+    return lines
+
+
+def drafting_section(rows: Sequence[Compared]) -> Table:
+    """Return first-order drafting errors beside random sheets."""
+    return [
+        "## Drafting errors: first order against random sheets",
+        "",
+        f"Sigma by first order over the standard deviation of {DRAWS} random sheets, least and "
+        "most over all quantities of a problem that are longer than three sigmas. *Given up*: "
+        "quantities whose first order is not believed, because a step is not ten of its own sigmas "
+        "away from being impossible; *short*: quantities below three sigmas. Both have the sigma "
+        "of the random sheets.",
+        "",
+        *table(
+            ("problem", "hand", "compared", "least", "most", "given up", "short"),
+            [
+                (
+                    row.problem,
+                    row.profile,
+                    str(row.compared),
+                    f"{row.least:.3f}",
+                    f"{row.most:.3f}",
+                    str(row.given_up),
+                    str(row.short),
+                )
+                for row in rows
+            ],
+        ),
+    ]
