@@ -1,7 +1,8 @@
 """The graphical plan method of the theory of mechanisms (метод планов).
 
-Public names: `load` and `loads` read a problem file, `solve` computes it, `draw` makes its sheets.
-They are imported when they are first asked for, so that ``import planmethod`` costs nothing.
+Public names: `load` and `loads` read a problem file, `solve` computes it, `Sweep` computes many
+positions of it, `draw` makes its sheets. They are imported when they are first asked for, so that
+``import planmethod`` costs nothing.
 """
 
 from __future__ import annotations
@@ -11,16 +12,18 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from planmethod.plans.solution import Solution as Solution
+    from planmethod.plans.sweep import Sweep as Sweep
     from planmethod.problem import Problem as Problem
     from planmethod.problem import load as load
     from planmethod.problem import loads as loads
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw
 
-__all__ = ["Problem", "Solution", "draw", "load", "loads", "solve"]
+__all__ = ["Problem", "Solution", "Sweep", "draw", "load", "loads", "solve"]
 
 _HOMES = {
     "Problem": ("planmethod.problem", "Problem"),
     "Solution": ("planmethod.plans.solution", "Solution"),
+    "Sweep": ("planmethod.plans.sweep", "Sweep"),
     "draw": ("planmethod.render.sheets.kinematics", "kinematics_sheets"),
     "load": ("planmethod.problem", "load"),
     "loads": ("planmethod.problem", "loads"),
@@ -28,18 +31,30 @@ _HOMES = {
 
 
 def solve(
-    problem: Problem, *, positions: Sequence[float] | None = None, ruler: float = 0.5
+    problem: Problem,
+    *,
+    positions: Sequence[float] | None = None,
+    ruler: float | None = None,
+    profile: str = "board",
 ) -> Solution:
     """Solve a problem, in the file's positions or in others (degrees, m for a slider).
+
+    Parameters
+    ----------
+    ruler : float, mm, optional
+        Step of the ruler with which the hand reads the plans; the profile's when absent.
+    profile : str
+        How well the hand draws: ``cad``, ``board`` or ``coarse``.
 
     Raises
     ------
     PlanMethodError
         When the mechanism cannot be analysed or assembled.
     """
+    from planmethod.construct.drafting import PROFILES
     from planmethod.plans.solution import Solution
 
-    return Solution(problem, positions=positions, ruler=ruler)
+    return Solution(problem, positions=positions, ruler=ruler, profile=PROFILES[profile])
 
 
 def __getattr__(name: str) -> Any:

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from planmethod.construct.drafting import Profile
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 Positions: TypeAlias = "npt.NDArray[np.float64]"
@@ -78,9 +80,9 @@ def read_labels(
     return labels
 
 
-def read_ruler(ctx: click.Context, param: click.Parameter, value: float) -> float:
+def read_ruler(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
     """Return the ruler step, which is a number."""
-    if value != value:  # NaN passes every range
+    if value is not None and value != value:  # NaN passes every range
         raise click.BadParameter("nan is not a step of a ruler")
     return value
 
@@ -140,6 +142,34 @@ def ruler_option(command: F) -> F:
     )(command)
 
 
+def hand_options(command: F) -> F:
+    """Add the ruler and the profile of the hand; `drawn_by` makes one of them."""
+    command = click.option(
+        "--profile",
+        type=click.Choice(["cad", "board", "coarse"]),
+        default="board",
+        show_default=True,
+        help="How well the plans are drawn: with CAD, on a board, in haste.",
+    )(command)
+    return click.option(
+        "--ruler",
+        type=click.FloatRange(min=0.0, min_open=True, max=50.0),
+        callback=read_ruler,
+        metavar="MM",
+        help="Ruler step with which the plans are read; that of the profile (board: 0.5 mm).",
+    )(command)
+
+
+def drawn_by(profile: str, ruler: float | None) -> Profile:
+    """Return the hand of a profile, with another ruler if one is given."""
+    from dataclasses import replace
+
+    from planmethod.construct.drafting import PROFILES
+
+    hand = PROFILES[profile]
+    return hand if ruler is None else replace(hand, ruler=ruler)
+
+
 def positions_option(most: int) -> Callable[[F], F]:
     """Add the positions of the driver, so many at the most."""
     return click.option(
@@ -152,7 +182,7 @@ def positions_option(most: int) -> Callable[[F], F]:
 
 def reading_options(command: F) -> F:
     """Add the options that say where and how the plans are read."""
-    return positions_option(MOST_POSITIONS)(ruler_option(command))
+    return positions_option(MOST_POSITIONS)(hand_options(command))
 
 
 def out_option(command: F) -> F:

@@ -73,6 +73,8 @@ def test_the_package_alone_imports_nothing(tmp_path: Path) -> None:
         (("solve", EX3), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("solve", EX3, "--json"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("solve", EX3, "--csv"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
+        (("solve", EX3, "--npz", "ex3.npz"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
+        (("solve", EX3, "--ask", "v_E"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("protocol", EX3), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("structure", EX3, "--no-drawing"), set(), {*ALL, *FONTS}),
         (("structure", EX3, "--json"), set(), {*ALL, *FONTS} - {"numpy"}),

@@ -67,7 +67,7 @@ def _errors(axes: object, readings: Sequence[Reading], rivals: Sequence[Rival]) 
     axes.set_ylabel("largest error, parts of the largest value")
     axes.set_ylim(1e-55, 1)
     axes.grid(True, which="major", color="0.85", linewidth=0.6)
-    axes.legend(fontsize=8, loc="center right")
+    axes.legend(fontsize=8, loc="lower left")
     axes.set_title("Speed against error", fontsize=11)
 
 

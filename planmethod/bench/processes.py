@@ -85,7 +85,7 @@ def commands(*, runs: int = 5) -> list[Command]:
 def _looked_at(arguments: list[str]) -> tuple[tuple[str, ...], int, float]:
     """Return what one run of a command imports and how large it gets."""
     said = run_python(
-        "import contextlib, io, resource, sys\n"
+        "import contextlib, io, sys\n"
         f"sys.argv = ['planmethod', *{arguments!r}]\n"
         "from planmethod.cli import main\n"
         "with contextlib.redirect_stdout(io.StringIO()):\n"
@@ -93,11 +93,11 @@ def _looked_at(arguments: list[str]) -> tuple[tuple[str, ...], int, float]:
         "        main()\n"
         "    except SystemExit:\n"
         "        pass\n"
-        "peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024\n"
+        f"{PEAK}\n"
         f"print(*(name for name in {WATCHED!r} if name in sys.modules))\n"
         "print(len(sys.modules), peak)\n"
     )
-    names, _, numbers = said.rpartition("\n")
+    names, _, numbers = said.rpartition("\n") if "\n" in said else ("", "", said)
     modules, peak = numbers.split()
     return tuple(names.split()), int(modules), float(peak)
 
@@ -119,6 +119,14 @@ def warm_sheets() -> list[tuple[str, Timing, Timing]]:
     ]
 
 
+PEAK = (
+    "from pathlib import Path\n"
+    "status = Path('/proc/self/status')\n"
+    "lines = status.read_text().splitlines() if status.exists() else []\n"
+    "peak = max((int(s.split()[1]) / 1024 for s in lines if s.startswith('VmHWM')), default=0.0)"
+)
+"""Lines that find the peak of a process itself, MB; what was before it started is not its own."""
+
 MEMORY = (
     ("interpreter and NumPy", "import numpy"),
     ("sweep of 10⁴ positions", "sweep(10_000)"),
@@ -131,7 +139,6 @@ MEMORY = (
 def memory() -> list[tuple[str, float]]:
     """Return (what, peak megabytes), each in a process of its own."""
     head = (
-        "import resource\n"
         "import numpy as np\n"
         "from planmethod.bench.scenes import slotted\n"
         "from planmethod.bench.speed import turn\n"
@@ -142,5 +149,5 @@ def memory() -> list[tuple[str, float]]:
         "    from planmethod.plans.solution import Solution\n"
         "    Solution(slotted(), positions=turn(n)).points\n"
     )
-    tail = "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)\n"
+    tail = f"{PEAK}\nprint(peak)\n"
     return [(name, float(run_python(f"{head}{act}\n{tail}"))) for name, act in MEMORY]

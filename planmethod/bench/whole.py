@@ -45,7 +45,7 @@ def make(
         say("hard cases")
         sections.append(hard_section())
     if "random" in wanted and count:
-        sections.append(_random(count, say, quick=quick))
+        sections.append(_random(count, say))
     if "drafting" in wanted and problems:
         from planmethod.bench.drawn import compare_all
         from planmethod.bench.random_report import drafting_section
@@ -54,12 +54,14 @@ def make(
         sections.append(drafting_section(compare_all(list(problems))))
     if figure:
         command = "planmethod bench" + (" --quick" if quick else "")
-        command += " problems/*/*.toml" if problems else ""
+        if problems:
+            names = sorted({problem.name for problem in problems})
+            command += " " + (" ".join(names) if len(names) < 4 else "problems/*/*.toml")
         return report.document(sections, figure=f"{report.NAME}.png", command=command), figure
     return "\n".join(line for section in sections for line in [*section, ""]), figure
 
 
-def _random(count: int, say: Callable[[str], None], *, quick: bool) -> Table:
+def _random(count: int, say: Callable[[str], None]) -> Table:
     from planmethod.bench.random_report import random_section
     from planmethod.bench.random_run import Tally, run, wrong_branches
 
@@ -68,4 +70,4 @@ def _random(count: int, say: Callable[[str], None], *, quick: bool) -> Table:
         if tally.mechanisms % 1000 == 0:
             say(f"random mechanisms, {tally.mechanisms} of {count}")
     say("branches of crank-rockers")
-    return random_section(tally, wrong_branches(200 if quick else 3000))
+    return random_section(tally, wrong_branches(min(count, 3000)))

@@ -13,6 +13,7 @@ import click
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 
 if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
     from planmethod.options import Positions
     from planmethod.plans.solution import Solution
     from planmethod.problem.model import Problem
@@ -110,19 +111,21 @@ def warn(problem: Problem, said: str) -> None:
 
 
 def solution_of(
-    problem: Problem, phi: Positions | None, ruler: float, *, hint: str = ""
+    problem: Problem, phi: Positions | None, hand: Profile, *, hint: str = ""
 ) -> Solution:
     """Solve a problem, check the solution, and tell the doubts about it.
 
     Parameters
     ----------
+    hand : Profile
+        Who draws the plans.
     hint : str
         What else can be asked where one of several positions is refused.
     """
     from planmethod.plans.selfcheck import verify, warnings
     from planmethod.plans.solution import Solution
 
-    solution = Solution(problem, positions=None if phi is None else phi.tolist(), ruler=ruler)
+    solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=hand)
     try:
         verify(solution)
     except AssemblyError as error:

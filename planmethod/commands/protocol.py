@@ -9,7 +9,13 @@ import click
 
 from planmethod.commands.output import put
 from planmethod.commands.problems import each, finish, guarded, solution_of, stem
-from planmethod.options import Positions, lang_option, problem_options, reading_options
+from planmethod.options import (
+    Positions,
+    drawn_by,
+    lang_option,
+    problem_options,
+    reading_options,
+)
 
 if TYPE_CHECKING:
     from planmethod.problem.model import Problem
@@ -32,7 +38,8 @@ def protocol(
     variant: str | None,
     all_variants: bool,
     phi: Positions | None,
-    ruler: float,
+    ruler: float | None,
+    profile: str,
     out: Path | None,
     position: int,
     lang: str,
@@ -41,7 +48,7 @@ def protocol(
     from planmethod.note.protocol import protocol as narrate
 
     def tell(problem: Problem) -> None:
-        solution = solution_of(problem, phi, ruler)
+        solution = solution_of(problem, phi, drawn_by(profile, ruler))
         count = len(solution.positions)
         if position > count:
             raise click.UsageError(f"--position {position}: {problem.name} has {count}")

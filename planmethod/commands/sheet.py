@@ -11,6 +11,7 @@ from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import (
     Positions,
+    drawn_by,
     format_option,
     out_option,
     problem_options,
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 @format_option("svg,pdf")
 @click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
 @stamp_option
+@click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
+@click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @guarded
 def sheet(
@@ -36,11 +39,14 @@ def sheet(
     variant: str | None,
     all_variants: bool,
     phi: Positions | None,
-    ruler: float,
+    ruler: float | None,
+    profile: str,
     out: Path,
     formats: tuple[str, ...],
     paper: str | None,
     stamp: dict[str, str],
+    errors: bool,
+    sigma: bool,
     dpi: int,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
@@ -50,7 +56,13 @@ def sheet(
 
     def draw(problem: Problem) -> None:
         drawings = kinematics_sheets(
-            problem, paper=paper, positions=positions, ruler=ruler, fields=stamp
+            problem,
+            paper=paper,
+            positions=positions,
+            profile=drawn_by(profile, ruler),
+            fields=stamp,
+            errors=errors,
+            sigma=sigma,
         )
         write_drawings(drawings, out, stem(problem), formats, dpi=dpi, author=stamp.get("author"))
 

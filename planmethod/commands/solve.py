@@ -16,16 +16,18 @@ from planmethod.options import (
     MOST_POSITIONS,
     MOST_SWEPT,
     Positions,
+    drawn_by,
+    hand_options,
     lang_option,
     positions_option,
     problem_options,
     read_labels,
-    ruler_option,
 )
 
 if TYPE_CHECKING:
     from planmethod.note.spreadsheet import Table
     from planmethod.plans.many import Gaps
+    from planmethod.plans.solution import Solution
     from planmethod.plans.swept import Swept
     from planmethod.problem.model import Problem
 
@@ -44,7 +46,7 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
 @click.command()
 @problem_options
 @positions_option(MOST_SWEPT)
-@ruler_option
+@hand_options
 @click.option("--json", "as_json", is_flag=True, help="One object, full precision, SI.")
 @click.option(
     "--csv",
@@ -73,6 +75,22 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
     is_flag=True,
     help="Leave impossible positions empty and say why (--csv, --npz, --ask).",
 )
+@click.option("--sigma", is_flag=True, help="Show the drafting errors in the tables.")
+@click.option(
+    "--covariance",
+    "covariance_file",
+    metavar="FILE",
+    help="Drafting errors together: the covariance of every two quantities, CSV; - for the "
+    "terminal.",
+)
+@click.option(
+    "--referee",
+    type=click.IntRange(16, 1000),
+    is_flag=False,
+    flag_value=50,
+    metavar="[DIGITS]",
+    help="Judge every result by a reading in so many digits (50), which needs mpmath.",
+)
 @lang_option
 @guarded
 def solve(
@@ -80,17 +98,32 @@ def solve(
     variant: str | None,
     all_variants: bool,
     phi: Positions | None,
-    ruler: float,
+    ruler: float | None,
+    profile: str,
     as_json: bool,
     csv_file: str | None,
     npz_file: str | None,
     ask: tuple[str, ...] | None,
     partial: bool,
+    sigma: bool,
+    covariance_file: str | None,
+    referee: int | None,
     lang: str,
 ) -> None:
     """Compute positions, velocities, accelerations and the plans' segments."""
     swept = npz_file is not None or ask is not None
     _refuse_contradictions(as_json, csv_file, npz_file, ask)
+    told = swept or csv_file is not None
+    if told and (sigma or referee is not None):
+        raise click.UsageError("--sigma and --referee go with the tables of a terminal or --json")
+    if covariance_file is not None and (told or as_json):
+        raise click.UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
+    if covariance_file is not None and covariance_file.lower().endswith(".toml"):
+        raise click.UsageError(f"--covariance would write over {covariance_file}; put it last")
+    hand = drawn_by(profile, ruler)
+    if referee is not None:
+        _need_mpmath()
+    drawn: list[Solution] = []
     if partial and not swept and csv_file is None:
         raise click.UsageError("--partial goes with --csv, --npz or --ask")
     if phi is not None and len(phi) > MOST_POSITIONS and not swept:
@@ -116,15 +149,29 @@ def solve(
             else:
                 _show(made, lang)
         elif csv_file is not None:
-            tables.append(_table(problem, phi, ruler, partial))
+            tables.append(_table(problem, phi, hand.ruler, partial))
         elif as_json:
             from planmethod.note.record import record
 
-            records.append(record(solution_of(problem, phi, ruler, hint=HINT)))
+            solution = solution_of(problem, phi, hand, hint=HINT)
+            records.append(record(solution))
+            if referee is not None:
+                from planmethod.note.referee import referee_record
+
+                judged = referee_record(solution, referee)
+                for entry, verdict in zip(records[-1]["positions"], judged, strict=True):
+                    entry["referee"] = verdict
+        elif covariance_file is not None:
+            drawn.append(solution_of(problem, phi, hand, hint=HINT))
         else:
             from planmethod.note.tables import result_tables
 
-            click.echo(result_tables(solution_of(problem, phi, ruler, hint=HINT), lang))
+            solution = solution_of(problem, phi, hand, hint=HINT)
+            click.echo(result_tables(solution, lang, sigma=sigma))
+            if referee is not None:
+                from planmethod.note.referee import referee_tables
+
+                click.echo("\n" + referee_tables(solution, referee, lang))
 
     code = each(problems, variant, all_variants, compute)
     if records:
@@ -132,11 +179,24 @@ def solve(
 
         whole: Any = records[0] if len(records) == 1 else records
         click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
+    if drawn and covariance_file is not None:
+        from planmethod.note.covariance import covariance_text
+
+        put_parts([covariance_text(drawn)], covariance_file)
     if tables and csv_file is not None:
         _write_text(tables, csv_file)
     if npz_file is not None and code is ExitCode.DONE:  # one file: all of it or none
         _write_arrays(sweeps, npz_file)
     finish(code)
+
+
+def _need_mpmath() -> None:
+    try:
+        import mpmath  # noqa: F401
+    except ImportError:
+        raise click.UsageError(
+            "--referee needs mpmath: pip install 'planmethod[referee]'"
+        ) from None
 
 
 def _refuse_contradictions(
@@ -172,7 +232,7 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
 
     positions = _asked(problem, phi)
     if len(positions) <= BLOCK and not partial:
-        return solved_table(solution_of(problem, phi, ruler, hint=HINT))
+        return solved_table(solution_of(problem, phi, drawn_by("board", ruler), hint=HINT))
     looked = examine(problem, positions)
     _tell(problem, looked.gaps, looked.doubts, partial)
     return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)

@@ -28,7 +28,7 @@ from planmethod.construct.steps import (
 from planmethod.note.given import asked_links, asked_points
 from planmethod.note.naming import Names
 from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
-from planmethod.note.sigmas import label_of, rounded_to, sigma_text
+from planmethod.note.sigmas import label_of, marked, rounded_to, sigma_text
 from planmethod.plans.build import measured_segments
 from planmethod.plans.drafting import SHORT
 from planmethod.plans.model import PlanKind
@@ -101,9 +101,9 @@ class Causes:
             found += [("ω", name, s.links[name].omega), ("ε", name, s.links[name].epsilon)]
         known = []
         for symbol, name, values in found:
-            spread, value = s.drafting.spreads[label_of(symbol, name)], float(values[index])
-            sigma = float(spread.sigma[index])
-            if not spread.drawn[index] and 0.0 < SHORT * sigma <= abs(value):
+            value = float(values[index])
+            sigma, mark = marked(s.drafting, label_of(symbol, name), index)
+            if not mark and 0.0 < SHORT * sigma <= abs(value):
                 known.append((symbol, name, value, sigma))
         return max(known, key=lambda each: each[3] / abs(each[2]), default=None)
 

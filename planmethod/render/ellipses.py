@@ -25,6 +25,9 @@ SIGMAS = 2
 ENLARGED = (5, 2, 1)
 """How many times the ellipses of a scheme are enlarged, to show beside the signs of its joints."""
 
+READABLE = 0.5
+"""Part of a view that an ellipse may be across: a larger one only hides the plan."""
+
 CLUTTER = 0.25
 """Part of a scheme that an enlarged ellipse may be across."""
 
@@ -37,7 +40,7 @@ _CORNERS = 64
 class Ellipses:
     """Ellipses of one view, and what the view has to say about them.
 
-    ``strained`` tells that some are dashed, ``too_large`` that some are larger than the view,
+    ``strained`` tells that some are dashed, ``too_large`` that some are larger than half of it,
     ``undefined`` that first order gives no ellipse somewhere; ``enlarged`` is how many times the
     ellipses are larger than the view.
     """
@@ -87,22 +90,22 @@ def ellipse(centre: complex, covariance: Reals, pen: Pen = Pen.THIN) -> Stroke:
 def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
     """Return the ellipses of a view's moving points in one position.
 
-    What is thinner than the pen is not drawn, nor what is larger than the view itself: there the
-    drawing does not say where the point is. Dashed are those where first order does not hold.
+    What is thinner than the pen is not drawn, nor what is larger than half of the view: there the
+    drawing hardly says where the point is. Dashed are those where first order does not hold.
     """
     common, scheme = solution.scales[kind].per_mm, kind is PlanKind.POSITION
     # A plan near a dead position is drawn smaller, and its ellipses with it.
     per_mm = common if scheme else own_scale(solution, kind, index).per_mm
     share = common / per_mm
     size = extent(solution, kind) if scheme else plan_extent(solution, kind, index)
-    largest = max(size) / per_mm
+    size_mm = max(size) / per_mm
     places = {point: place * share for point, place in _places(solution, kind, index)}
     found = {point: solution.drafting.ellipse(point, index) * share**2 for point in places}
     known = {point: each for point, each in found.items() if np.isfinite(each).all()}
     across = {point: 2 * SIGMAS * half_axes(each)[0] for point, each in known.items()}
-    shown = [point for point in known if across[point] <= largest]
+    shown = [point for point in known if across[point] <= READABLE * size_mm]
     widest = max((across[point] for point in shown), default=0.0)
-    enlarged = next(k for k in ENLARGED if k == 1 or k * widest <= CLUTTER * largest)
+    enlarged = next(k for k in ENLARGED if k == 1 or k * widest <= CLUTTER * size_mm)
     enlarged = enlarged if scheme else 1
     strokes: list[Stroke] = []
     for point in shown:
@@ -172,7 +175,7 @@ def ellipse_inscription(solution: Solution, kind: PlanKind, indices: Sequence[in
     if any(view.strained for view in shown):
         lines.append("штриховые: первый порядок не верен")
     if any(view.too_large for view in shown):
-        lines.append("эллипсы больше плана не показаны")
+        lines.append("эллипсы больше половины плана не показаны")
     if any(view.undefined for view in shown):
         lines.append("неопределённые эллипсы не показаны")
     return lines

@@ -39,13 +39,17 @@ def lettered(
 ) -> Picture:
     """Return a picture of items with their labels in free places around them.
 
-    ``clear`` is what the labels keep clear of though it is not drawn.
+    ``clear`` is what the labels keep clear of though it is not drawn, as long as there is room.
     """
     left, low, right, high = ink_bounds(items)
-    for room in ROOMS:
-        bounds = (left - room, low - room, right + room, high + room)
-        placed = place_labels(labels, [*items, *clear], bounds)
-        if all(label.free for label in placed):
-            break
+    for hidden in (clear, ()) if clear else ((),):
+        for room in ROOMS:
+            bounds = (left - room, low - room, right + room, high + room)
+            placed = place_labels(labels, [*items, *hidden], bounds)
+            if all(label.free for label in placed):
+                break
+        else:
+            continue
+        break
     whole = [*items, *(item for label in placed for item in label.items())]
     return Picture(tuple(whole), ink_bounds(whole))

@@ -171,7 +171,7 @@ def test_slopes_are_those_of_finite_differences(name: str) -> None:
                     change = abs(complex(np.ravel(one - ends[1][out])[0])) / (2 * h)
                     moved[out] = moved.get(out, 0.0) + change
     exact = evaluate(program, data, Float64()).value
-    for out, total in moved.items():
+    for out, total in moved.items():  # type: ignore[assignment]
         size = abs(complex(np.ravel(exact[out])[0]))
         mine = float(found[out][0]) if np.size(found[out]) else 0.0
         assert mine - size == pytest.approx(total, rel=1e-5, abs=1e-6 * (size + 1e-9)), out

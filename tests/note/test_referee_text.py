@@ -10,7 +10,10 @@ from planmethod.plans.accuracy import examine
 from planmethod.plans.solution import Solution
 
 
-@pytest.mark.parametrize(("lang", "word", "value"), [("ru", "арбитр", "15,4767088364120"), ("en", "referee", "15.4767088364120")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("lang", "word", "value"),
+    [("ru", "арбитр", "15,4767088364120"), ("en", "referee", "15.4767088364120")],
+)
 def test_every_moving_result_stands_beside_the_referee(lang: str, word: str, value: str) -> None:
     text = referee_tables(Solution(problem_of("linkages/ex3")), 50, lang)
     assert word in text and value in text

@@ -263,11 +263,12 @@ def _schedule(
 
     for number in needed:
         kind, refs = tape.nodes[number]
+        sources = [
+            place[ref] if type(ref) is int else float(ref) for ref in refs if kind != "input"
+        ]
         if kind == "input":
             place[number] = f"x{refs[0]}"
-            continue
-        sources = [place[ref] if type(ref) is int else float(ref) for ref in refs]
-        if kind in ("cosd", "sind"):
+        elif kind in ("cosd", "sind"):
             if number in place:  # made together with its partner
                 pass
             else:
@@ -290,7 +291,7 @@ def _schedule(
         for watching in watch.get(number, ()):
             limit = guards[watching].limit
             steps.append(_Step("guard", [place[number], watching, limit], []))
-        if last[number] < 0 and number not in rows and kind not in ("cosd", "sind"):
+        if last[number] < 0 and number not in rows and kind not in ("input", "cosd", "sind"):
             release(number)
     for row, ref in enumerate(results):
         if type(ref) is int and rows[ref] != row:
@@ -343,7 +344,8 @@ def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
                 lines.append(f"if not least({into}) > -180.0: ")
                 lines[-1] += f"copyto({into}, 180.0, where={into} <= -180.0)"
             case kind:
-                lines.append(f"{kind}({', '.join(map(said, step.sources))}, {step.into[0]})")
+                into = f"out={step.into[0]}" if kind in ("min", "max") else step.into[0]
+                lines.append(f"{kind}({', '.join(map(said, step.sources))}, {into})")
     text = "\n".join(f"    {line}" for line in lines or ["pass"])
     used = sorted(set(_names(text)))
     head = []

@@ -123,11 +123,12 @@ class _Lines:
             return
         if node.kind in ("input", "cosd", "sind"):
             self.text[number] = told
-            return
-        self.text[number] = f"t{number}"
-        self.lines.append(f"t{number} = {told}")
+        else:
+            self.text[number] = f"t{number}"
+            self.lines.append(f"t{number} = {told}")
         if number in self.watch:
-            self.lines.append(f"if not t{number} > {self.watch[number]!r}: raise ImpossibleError")
+            limit = self.watch[number]
+            self.lines.append(f"if not {self.text[number]} > {limit!r}: raise ImpossibleError")
 
     def _expression(self, number: int) -> str:
         kind, refs = self.tape.nodes[number]
@@ -169,11 +170,11 @@ class _Lines:
             k = len(self.angles)
             self.lines += [
                 f"r{k} = remainder({degrees}, 90.0)",
-                f"q{k} = int(({degrees} - r{k}) / 90.0) & 3",
+                f"q{k} = ({degrees} - r{k}) / 90.0 % 4.0",
                 f"r{k} *= {math.pi / 180!r}",
                 f"c{k} = cos(r{k}); s{k} = sin(r{k})",
-                f"if q{k}: c{k}, s{k} = (-s{k}, c{k}) if q{k} == 1 else "
-                f"(-c{k}, -s{k}) if q{k} == 2 else (s{k}, -c{k})",
+                f"if q{k}: c{k}, s{k} = (-s{k}, c{k}) if q{k} == 1.0 else "
+                f"(-c{k}, -s{k}) if q{k} == 2.0 else (s{k}, -c{k})",
             ]
             self.angles[ref] = f"c{k} s{k}"
         return self.angles[ref]

@@ -153,11 +153,10 @@ class Symbolic(Exact):
     """
 
     tape: Tape = field(default_factory=Tape)
-    sizes: dict[frozenset[Ref], Ref] = field(default_factory=dict)
+    sizes: dict[frozenset[tuple[type, Ref]], Ref] = field(default_factory=dict)
 
-    def _key(self, value: Symbol) -> frozenset[Ref]:
-        a, b = value._parts()
-        return frozenset((self.tape.bare(a), self.tape.bare(b)))
+    def _key(self, value: Symbol) -> frozenset[tuple[type, Ref]]:
+        return frozenset((type(ref), ref) for ref in map(self.tape.bare, value._parts()))
 
     def note(self, vector: Symbol, size: Symbol) -> None:
         """Note how long a vector is."""

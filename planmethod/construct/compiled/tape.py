@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 Ref: TypeAlias = int | float
 """Operand: the number of a node (int), or a constant (float)."""
@@ -46,6 +46,15 @@ FOLD: dict[str, Callable[..., float]] = {
 """What an operation does to constants."""
 
 
+def same(a: Ref, b: Ref) -> bool:
+    """Tell whether two operands are the same: node 2 is not the constant 2.0, although 2 == 2.0."""
+    return type(a) is type(b) and a == b
+
+
+def _key(kind: str, operands: tuple[Ref, ...]) -> tuple[Any, ...]:
+    return kind, *((type(operand), operand) for operand in operands)
+
+
 @dataclass
 class Tape:
     """Operations in order, each made once.
@@ -55,17 +64,17 @@ class Tape:
     """
 
     nodes: list[Node] = field(default_factory=list)
-    _made: dict[Node, int] = field(default_factory=dict)
+    _made: dict[tuple[Any, ...], int] = field(default_factory=dict)
 
     def make(self, kind: str, *operands: Ref) -> Ref:
         """Return a node for an operation, an earlier one of the same if there is."""
         if kind in FOLD and all(type(operand) is float for operand in operands):
             return FOLD[kind](*operands)
-        node = Node(kind, operands)
-        number = self._made.get(node)
+        key = _key(kind, operands)
+        number = self._made.get(key)
         if number is None:
-            number = self._made[node] = len(self.nodes)
-            self.nodes.append(node)
+            number = self._made[key] = len(self.nodes)
+            self.nodes.append(Node(kind, operands))
         return number
 
     def input(self, number: int) -> Ref:
@@ -91,7 +100,7 @@ class Tape:
         """Return a - b; of a sum less one of its terms, the other term."""
         if b == 0.0 and type(b) is float:
             return a
-        if a == b and type(a) is type(b):
+        if same(a, b):
             return 0.0
         if a == 0.0 and type(a) is float:
             return self.neg(b)
@@ -99,17 +108,17 @@ class Tape:
             return self.add(a, self.nodes[int(b)].operands[0])
         if self._is(a, "add"):
             one, two = self.nodes[int(a)].operands
-            if b in (one, two) and type(b) is type(one if b == one else two):
-                return two if b == one else one
+            if same(b, one) or same(b, two):
+                return two if same(b, one) else one
         if self._is(b, "add"):
             one, two = self.nodes[int(b)].operands
-            if a in (one, two) and type(a) is type(one if a == one else two):
-                return self.neg(two if a == one else one)
-        if self._is(a, "sub") and b == self.nodes[int(a)].operands[0] and type(b) is int:
+            if same(a, one) or same(a, two):
+                return self.neg(two if same(a, one) else one)
+        if self._is(a, "sub") and same(b, self.nodes[int(a)].operands[0]):
             return self.neg(self.nodes[int(a)].operands[1])
         if self._is(a, "neg"):
             return self.neg(self.add(self.nodes[int(a)].operands[0], b))
-        turned = self._made.get(Node("sub", (b, a)))
+        turned = self._made.get(_key("sub", (b, a)))
         if turned is not None:
             return self.make("neg", turned)
         return self.make("sub", a, b)

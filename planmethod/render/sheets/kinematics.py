@@ -259,7 +259,7 @@ def _results(
     if not sigma:
         return table
     words, name = wording("ru"), solution.profile.name
-    said = words.sigma_note.format(profile=words.profiles.get(name, name))
+    said = f"±σ — погрешность построения (СКО), {words.profiles.get(name, name)}."
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
         said += " " + words.drawn_note.format(count=solution.drafting.draws)
     return Column([table, paragraph(said, min(height, 3.5), table.width)], gap=3.0)

@@ -1,0 +1,35 @@
+"""Drafting errors together: the covariance matrix as a spreadsheet (ковариационная матрица)."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+from planmethod.plans.solution import Solution
+
+
+def covariance_text(solutions: list[Solution]) -> str:
+    """Return the covariance of every pair of quantities, as CSV.
+
+    A row for each quantity of each position: problem, variant, position (from 1), quantity, its
+    sigma, and its covariance with every quantity in the order of the header. Quantities are in SI
+    units, segments (``velocity.p-b``) in millimetres of the plan; all to first order.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    before: list[str] | None = None
+    for solution in solutions:
+        drafting = solution.drafting
+        labels = list(drafting.items)
+        header = ["problem", "variant", "position", "quantity", "sigma", *labels]
+        if header != before:
+            writer.writerow(header)
+        before = header
+        problem = solution.problem
+        for i in range(len(solution.positions)):
+            matrix = drafting.covariance(labels, i)
+            for k, label in enumerate(labels):
+                sigma = float(matrix[k, k]) ** 0.5
+                told = [problem.name, problem.variant or "", i + 1, label, sigma]
+                writer.writerow([*told, *matrix[k].tolist()])
+    return text.getvalue()

@@ -1,0 +1,182 @@
+"""Sheets that show drafting errors: ellipses and sigmas, and nothing of them when not asked."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from decimal import ROUND_HALF_EVEN, Decimal
+
+import pytest
+from test_sheets import MANY, marks, texts
+from worked import SIX, problem_of
+
+from planmethod.construct.drafting import PROFILES
+from planmethod.errors import LayoutError
+from planmethod.note.given import asked_links, asked_points
+from planmethod.plans.scaling import Views
+from planmethod.plans.solution import Solution
+from planmethod.render.drawing import Drawing, Stroke
+from planmethod.render.ellipses import TAG
+from planmethod.render.frame import FORMATS
+from planmethod.render.sheets.kinematics import kinematics_sheets, result_columns
+
+
+def count_ellipses(sheet: Drawing) -> int:
+    return sum(isinstance(item, Stroke) and item.tag == TAG for item in sheet.items)
+
+
+@pytest.mark.parametrize("many", [False, True])
+@pytest.mark.parametrize("name", SIX)
+def test_the_lint_has_nothing_to_say(name: str, many: bool) -> None:
+    positions = MANY[name] if many else None
+    for errors, sigma in ((True, True), (True, False), (False, True)):
+        sheets = kinematics_sheets(
+            problem_of(name), positions=positions, errors=errors, sigma=sigma
+        )
+        assert marks(sheets) == []
+        assert all((count_ellipses(sheet) > 0) == errors for sheet in sheets)
+        for sheet in sheets:
+            shown = texts(sheet)
+            assert shown.count("эллипсы погрешности") == (3 if errors else 0)
+            assert ("погрешность построения" in shown) == sigma
+
+
+@pytest.mark.parametrize("profile", ["cad", "coarse"])
+@pytest.mark.parametrize("name", SIX)
+def test_the_lint_has_nothing_to_say_of_other_profiles(name: str, profile: str) -> None:
+    sheets = kinematics_sheets(problem_of(name), errors=True, sigma=True, profile=PROFILES[profile])
+    assert marks(sheets) == []
+
+
+@pytest.mark.parametrize("many", [False, True])
+@pytest.mark.parametrize("paper", ["A3", "A2", "A1"])
+@pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "levers/task12", "press/press"])
+def test_the_table_stays_inside_of_every_format(name: str, paper: str, many: bool) -> None:
+    positions = MANY[name] if many else None
+    try:
+        sheets = kinematics_sheets(
+            problem_of(name), paper=paper, positions=positions, errors=True, sigma=True
+        )
+    except LayoutError:
+        with pytest.raises(LayoutError):  # the views alone are too large for it
+            kinematics_sheets(problem_of(name), paper=paper, positions=positions)
+        return
+    left, low, right, high = FORMATS[paper].inner
+    assert marks(sheets) == []
+    tables = 0
+    for sheet in sheets:
+        lines = [item for item in sheet.items if isinstance(item, Stroke) and item.tag == "table"]
+        tables += sum(line.closed for line in lines)
+        for point in (point for line in lines for point in line.points):
+            assert left < point.real < right
+            assert low < point.imag < high
+    assert tables >= 1
+
+
+# Nothing changes without the options --------------------------------------------------------------
+
+
+@pytest.mark.parametrize("many", [False, True])
+@pytest.mark.parametrize("name", SIX)
+def test_nothing_of_it_without_the_options(
+    name: str, many: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The display list is the same whatever the profile, and drafting errors are not asked for."""
+    positions = MANY[name] if many else None
+    plain = kinematics_sheets(problem_of(name), positions=positions)
+    same_ruler = replace(PROFILES["coarse"], ruler=PROFILES["board"].ruler)
+    monkeypatch.setattr(Solution, "drafting", property(lambda _: pytest.fail("asked")))
+    again = kinematics_sheets(problem_of(name), positions=positions, profile=same_ruler)
+    off = kinematics_sheets(problem_of(name), positions=positions, errors=False, sigma=False)
+    for one, two, three in zip(plain, again, off, strict=True):
+        assert one.items == two.items == three.items
+
+
+def test_the_profile_brings_its_ruler() -> None:
+    problem = problem_of("linkages/ex3")
+    asked = kinematics_sheets(problem, ruler=1.0)
+    assert kinematics_sheets(problem, profile=PROFILES["coarse"])[0].items == asked[0].items
+    assert kinematics_sheets(problem)[0].items == kinematics_sheets(problem, ruler=0.5)[0].items
+
+
+# What the table says ------------------------------------------------------------------------------
+
+
+def rounded(sigma: float) -> Decimal:
+    """Round an error as GOST does it: two digits when it begins with 1 or 2, else one."""
+    value = Decimal(repr(sigma))
+    place = value.adjusted()
+    lead = value.scaleb(-place)
+    digits = Decimal(1).scaleb(place - (1 if lead < Decimal("2.95") else 0))
+    return (value / digits).quantize(Decimal(1), ROUND_HALF_EVEN) * digits
+
+
+def number(text: str) -> Decimal:
+    return Decimal(re.sub(r"[*\s]", "", text).replace(",", "."))
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_rows_of_a_single_position(name: str) -> None:
+    solution = Solution(problem_of(name), views=Views.for_paper("A2", 1))
+    columns = {column.head: column.cells for column in result_columns(solution, [0], sigma=True)}
+    plain = {column.head: column.cells for column in result_columns(solution, [0])}
+    assert [cell.text for cell in columns.pop("")] == ["точно", "снято", "±σ"]
+    assert list(columns) == list(plain)
+    labels = [("v", "v", p) for p in asked_points(solution)]
+    labels += [("ω", "omega", k) for k in asked_links(solution)]
+    labels += [("a", "a", p) for p in asked_points(solution)]
+    labels += [("ε", "epsilon", k) for k in asked_links(solution)]
+    for symbol, word, what in labels:
+        exact, read, error = columns[f"{symbol}_{{{what}}}"]
+        assert exact == plain[f"{symbol}_{{{what}}}"][0]
+        spread = solution.drafting.spreads[f"{word}_{what}"]
+        sigma = float(spread.sigma[0])
+        hand = solution.by_hand_results
+        values = (hand.points if symbol in "va" else hand.links)[what]
+        value = abs(float(values[symbol in "aε"][0]))
+        assert error.text.endswith("*") == bool(spread.drawn[0])
+        if sigma == 0.0:
+            assert error.text == "0"
+            continue
+        assert number(error.text) == rounded(sigma)
+        unit = Decimal(1).scaleb(rounded(sigma).normalize().adjusted())
+        assert abs(number(read.text) - Decimal(value)) <= unit / 2
+        # As many decimals as the error has, so that they stand under each other.
+        assert len(read.text.partition(",")[2]) == len(error.text.rstrip("*").partition(",")[2])
+
+
+def test_values_of_many_positions_have_their_errors_beside_them() -> None:
+    name = "linkages/ex3"
+    solution = Solution(problem_of(name), positions=MANY[name], views=Views.for_paper("A1", 12))
+    indices = range(12)
+    columns = {c.head: c.cells for c in result_columns(solution, indices, sigma=True)}
+    plain = {c.head: c.cells for c in result_columns(solution, indices)}
+    assert list(columns) == list(plain)
+    drafting = solution.drafting
+    for i in indices:
+        value, _, error = columns["a_{E}"][i].text.partition(" ± ")
+        spread = drafting.spreads["a_E"]
+        decimals = {len(each.partition(",")[2]) for each in (error.rstrip("*"), value)}
+        assert value == plain["a_{E}"][i].text or len(decimals) == 1
+        exact = abs(complex(solution.points["E"].acceleration[i]))
+        assert abs(float(number(value)) - exact) <= 0.5 * float(rounded(float(spread.sigma[i])))
+        assert number(error) == rounded(float(spread.sigma[i]))
+        assert error.endswith("*") == bool(spread.drawn[i])
+        assert columns["ω_{3}"][i].sense == plain["ω_{3}"][i].sense
+        assert columns["v_{B}"][i].text == "3,200"  # computed, not read: it has no error
+    assert any(cell.text.endswith("*") for cell in columns["a_{E}"])
+
+
+def test_an_exact_value_has_no_fewer_digits_than_its_error() -> None:
+    solution = Solution(problem_of("linkages/ex3"), profile=PROFILES["cad"])
+    for column in result_columns(solution, [0], sigma=True)[1:]:
+        exact, _, error = column.cells
+        assert len(exact.text.partition(",")[2]) >= len(error.text.partition(",")[2])
+
+
+def test_what_the_mark_means_is_told_where_it_is() -> None:
+    name = "linkages/ex3"
+    for sheet in kinematics_sheets(problem_of(name), positions=MANY[name], sigma=True):
+        shown = re.sub(r"\s+", " ", texts(sheet))
+        starred = re.search(r"\d\*(\s|$)", texts(sheet)) is not None
+        assert ("розыгрышем 4000 чертежей" in shown) == starred
