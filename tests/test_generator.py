@@ -5,9 +5,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from generator import random_problem
 from newton import NotClosedError, differentiate, residual, solve
 
+from planmethod.bench.generator import random_problem
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.mechanism.structure import analyse
 from planmethod.problem import loads

@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from generator import random_problem
 from worked import PROBLEMS, ROOT, every_file, path_of, problem_of
 
+from planmethod.bench.generator import random_problem
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.problem import load, loads, variant_names
 from planmethod.render.backends import render

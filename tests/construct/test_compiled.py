@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from generator import random_problem
 from worked import every_file
 
+from planmethod.bench.generator import random_problem
 from planmethod.construct.compiled import blocks as blocks_module
 from planmethod.construct.compiled import straight as straight_module
 from planmethod.construct.compiled.blocks import Blocks

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from generator import random_problem
 from worked import problem_of
 
+from planmethod.bench.generator import random_problem
 from planmethod.note.plaintext import WIDTH, width
 from planmethod.note.protocol import protocol
 from planmethod.plans.solution import Solution

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from generator import random_problem
 from worked import SIX, exact_values, problem_of
 
+from planmethod.bench.generator import random_problem
 from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Solution

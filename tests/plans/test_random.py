@@ -8,10 +8,10 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 import pytest
-from generator import random_problem
 from newton import Motion, Pose
 from newton import solve as newton
 
+from planmethod.bench.generator import random_problem
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import MeetCircles, MeetLineCircle, MeetLines, PointName, Touch
 from planmethod.mechanism.model import FRAME

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import pytest
-from generator import random_problem
 from worked import every_file, path_of
 
+from planmethod.bench.generator import random_problem
 from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError
 from planmethod.plans.results import UnknownResultError

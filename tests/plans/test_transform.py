@@ -9,10 +9,10 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 import pytest
-from generator import random_problem
 from moved import Move
 from worked import SIX, problem_of
 
+from planmethod.bench.generator import random_problem
 from planmethod.plans.model import PlanKind
 from planmethod.plans.selfcheck import verify
 from planmethod.plans.solution import Solution
