@@ -159,15 +159,25 @@ def _judge(
     largest: dict[ResultKind, float] = {}
     for result, value, _, _ in rows:
         largest[result.kind] = max(float(abs(value)), largest.get(result.kind, 0.0))
-    # Where all moves evenly every acceleration is zero: it is small against what makes others.
-    turning = largest.get(ResultKind.OMEGA, 0.0)
-    speed, size = largest.get(ResultKind.VELOCITY, 0.0), largest.get(ResultKind.PLACE, 0.0)
+    _add_natural(largest)
+    return tuple(_verdict(*row, largest[row[0].kind]) for row in rows), agreed
+
+
+def _add_natural(largest: dict[ResultKind, float]) -> None:
+    """Raise the largest of each kind to what it would be if all did not move evenly.
+
+    Where links do not turn, or turn evenly, angular velocities or accelerations are zero by
+    nature: they are small against what speeds and sizes would make of them.
+    """
+    speed, size = (largest.get(kind, 0.0) for kind in (ResultKind.VELOCITY, ResultKind.PLACE))
+    turning = max(largest.get(ResultKind.OMEGA, 0.0), speed / size if size else 0.0)
     for kind, natural in (
+        (ResultKind.OMEGA, turning),
         (ResultKind.EPSILON, turning**2),
-        (ResultKind.ACCELERATION, max(turning * speed, speed * speed / (size or math.inf))),
+        (ResultKind.ACCELERATION, turning * speed),
+        (ResultKind.SLIDING, speed),
     ):
         largest[kind] = max(natural, largest.get(kind, 0.0))
-    return tuple(_verdict(*row, largest[row[0].kind]) for row in rows), agreed
 
 
 def _verdict(result: Result, value: Number, error: float, span: float, largest: float) -> Verdict:
