@@ -10,7 +10,7 @@ import numpy.typing as npt
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
 from planmethod.plans.assembly import drive_data
-from planmethod.plans.results import ResultKind, results_of
+from planmethod.plans.results import NOTHING, ResultKind, results_of
 from planmethod.plans.solution import Reals, Solution
 
 MULTIPLE = 16
@@ -82,7 +82,7 @@ def _relative_reach(solution: Solution, chosen: npt.NDArray[np.intp]) -> Reals:
     data = drive_data(solution.problem, solution.construction.draft, solution.positions)
     data["phi" if solution.problem.drive.is_crank else "s"] = solution.positions[chosen]
     found = reach(solution.construction.program, data, SCALES)
-    results = results_of(solution.construction).all
+    results = [r for r in results_of(solution.construction).all if r.name != NOTHING]
     worst = np.ones(len(chosen))
     largest = dict.fromkeys(JUDGED, np.zeros(len(chosen)))
     for kind in JUDGED:

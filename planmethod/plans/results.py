@@ -112,6 +112,9 @@ class Results:
         return found
 
 
+NOTHING = "0"
+"""Name of the number zero, which nothing in a problem can be called."""
+
 WHOLE = {
     "positions": (ResultKind.PLACE, ResultKind.DIRECTION),
     "velocities": (ResultKind.VELOCITY, ResultKind.OMEGA, ResultKind.SLIDING),
@@ -125,6 +128,7 @@ def results_of(construction: Construction) -> Results:
     """Return every result of a construction."""
     draft = _beside(construction.draft)
     kin = construction.kinematics
+    still = draft.known(NOTHING, 0.0)  # of links that never turn, or turn evenly
     found: list[Result] = []
     for name, (link, place) in kin.velocity.named.items():
         found += [
@@ -136,10 +140,9 @@ def results_of(construction: Construction) -> Results:
         axis = draft.axis(link)
         found.append(Result(f"phi_{link}", ResultKind.DIRECTION, axis, link))
         found.append(Result(f"u_{link}", ResultKind.UNIT, axis, link))
-        if link in kin.omega:
-            found.append(Result(f"omega_{link}", ResultKind.OMEGA, kin.omega[link], link))
-        if link in kin.epsilon:
-            found.append(Result(f"epsilon_{link}", ResultKind.EPSILON, kin.epsilon[link], link))
+        omega, epsilon = kin.omega.get(link, still), kin.epsilon.get(link, still)
+        found.append(Result(f"omega_{link}", ResultKind.OMEGA, omega, link))
+        found.append(Result(f"epsilon_{link}", ResultKind.EPSILON, epsilon, link))
     for sliding in kin.relatives.values():
         found.append(Result(sliding.speed, ResultKind.SLIDING, sliding.speed, sliding.point))
     return Results(draft.b.program(), draft.numbers, tuple(found))

@@ -12,7 +12,6 @@ import numpy as np
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.wording import wording
-from planmethod.plans.drafting import SHORT
 from planmethod.plans.model import PlanKind
 from planmethod.plans.scaling import extent, own_scale, plan_extent
 from planmethod.plans.solution import Reals, Solution
@@ -143,6 +142,8 @@ def _holds(solution: Solution, kind: PlanKind, point: PointName, index: int) -> 
     It does where anything taken from the point is believed. A segment that is not believed only
     because it is short says nothing of its ends.
     """
+    from planmethod.plans.drafting import SHORT
+
     drafting = solution.drafting
     lengths = {f"{kind.value}.{s.name}": float(s.exact[index]) for s in solution.segments(kind)}
     failed = False
