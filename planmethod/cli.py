@@ -55,6 +55,10 @@ def main() -> None:
     gc.set_threshold(100_000)
     try:
         cli()
+    except SystemExit as end:
+        # click says 1 where a reader closed the pipe: that is no finding.
+        closed = "PacifyFlushWrapper" in type(sys.stdout).__name__
+        sys.exit(ExitCode.DONE if closed and end.code == 1 else end.code)
     except BrokenPipeError:
         sys.exit(ExitCode.DONE)
     except OSError as error:

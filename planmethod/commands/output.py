@@ -66,13 +66,19 @@ def write_drawings(
 
 def is_narrow() -> bool:
     """Tell whether the terminal's encoding has only some of the letters."""
-    return not (sys.stdout.encoding or "").lower().startswith("utf")
+    encoding = getattr(sys.stdout, "encoding", None)  # there may be no terminal at all
+    return not (encoding or "").lower().startswith("utf")
+
+
+def is_terminal(stream: object) -> bool:
+    """Tell whether somebody reads a stream as it is written; a closed one is None."""
+    return stream is not None and bool(getattr(stream, "isatty", bool)())
 
 
 @contextlib.contextmanager
 def bar(length: int, *, long: bool) -> Iterator[Callable[[int], None]]:
     """Show on a terminal how far a long work is; what it gives is told of every part done."""
-    if not long or not sys.stderr.isatty():
+    if not long or not is_terminal(sys.stderr):
         yield lambda done: None
         return
     with click.progressbar(length=length, label="planmethod", file=sys.stderr) as shown:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ def finish(code: ExitCode) -> None:
 
 def watched(found: list[Problem]) -> Iterator[Problem]:
     """Yield problems, on a terminal with a bar when they are many (about a second of work)."""
-    if len(found) < MANY or not sys.stderr.isatty():
+    if len(found) < MANY or not is_terminal(sys.stderr):
         yield from found
         return
     with click.progressbar(found, label="planmethod", file=sys.stderr) as bar:

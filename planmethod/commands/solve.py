@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from planmethod.commands.output import bar, is_narrow, put_parts
+from planmethod.commands.output import bar, is_narrow, is_terminal, put_parts
 from planmethod.commands.problems import each, finish, guarded, solution_of, stem, warn
 from planmethod.errors import AssemblyError, ExitCode
 from planmethod.options import (
@@ -253,7 +253,7 @@ def _write_text(tables: list[Table], file: str) -> None:
 
     rows = sum(table.count for table in tables)
     cells = sum(table.count * len(table.header) for table in tables)
-    seen = file != "-" or not sys.stdout.isatty()  # a bar within the table helps nobody
+    seen = file != "-" or not is_terminal(sys.stdout)  # a bar within the table helps nobody
     with bar(rows, long=cells > LONG_TEXT and seen) as done:
         put_parts(csv_text(tables, done=done), file)
 

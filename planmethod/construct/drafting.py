@@ -118,16 +118,21 @@ class Pencil:
         """Return a length as it is laid off, and how far beside the line; of nothing, nothing."""
         beside = self.error(out, self.profile.point) * 1j
         off = length + self.error(out, self.profile.lay_off) + beside
-        return self.unless_zero(length, off, length)
+        return self.unless_zero(self.drawn_at_all(length), off, length)
 
     def read(self, out: str, length: Number) -> Number:
-        """Return a length as it is read."""
-        return self.rounded(out, length + self.error(out, self.profile.measure))
+        """Return a length as it is read; what is not there at all is read by nobody."""
+        seen = self.rounded(out, length + self.error(out, self.profile.measure))
+        return self.unless_zero(self.drawn_at_all(length), seen, length)
 
     def reread(self, out: str, length: Number) -> Number:
         """Return the read length over the drawn one; 1 of a length that is zero."""
         one = length * 0.0 + 1.0
         return self.unless_zero(length, self.read(out, length) / self.nonzero(length), one)
+
+    def drawn_at_all(self, length: Number) -> Number:
+        """Return 0 where a length is surely nothing, whatever the errors before it, else 1."""
+        raise NotImplementedError
 
     def nonzero(self, value: Number) -> Number:
         """Return the value with NaN in place of zero."""
@@ -162,6 +167,14 @@ class Propagated(Pencil, Duals):
         self.of.append(out)
         return Dual(np.zeros(1), slope)
 
+    def drawn_at_all(self, length: Number) -> Number:
+        """Return 0 where a length is zero and no error changes it."""
+        value = as_dual(length)
+        fixed = np.asarray(value.value) == 0
+        if value.slope is not None:
+            fixed = fixed & np.all(value.slope == 0, axis=0)
+        return Dual(np.where(fixed, 0.0, 1.0))
+
     def rounded(self, out: str, length: Number) -> Number:
         """Return a length with the error of rounding, which is spread evenly over a step."""
         return as_dual(length) + self.error(out, self.profile.ruler / math.sqrt(12.0))
@@ -181,6 +194,10 @@ class Counted(Pencil, Float64):
         """Count an error and return none."""
         self.causes += 1
         return 0.0
+
+    def drawn_at_all(self, length: Number) -> Number:
+        """Return 1: whatever it is, its errors are counted."""
+        return 1.0
 
     def rounded(self, out: str, length: Number) -> Number:
         """Count the rounding and return the length."""
@@ -211,6 +228,10 @@ class Sampled(Pencil, Float64):
     def error(self, out: str, sigma: float) -> npt.NDArray[np.float64]:
         """Return normal errors."""
         return np.asarray(self._random.normal(0.0, sigma, self.draws))
+
+    def drawn_at_all(self, length: Number) -> Number:
+        """Return 0 if a length is zero on every sheet."""
+        return 1.0 if np.any(length) else 0.0
 
     def rounded(self, out: str, length: Number) -> Number:
         """Return the length rounded to the step of the ruler."""

@@ -17,6 +17,14 @@ def number(value: float) -> str:
     return russian(trimmed(value))
 
 
+def coordinate(value: float, problem: Problem) -> str:
+    """Return a given coordinate as rich text, with the digits that the mechanism needs."""
+    size = max((length for _, _, length in problem.lengths), default=abs(value))
+    if abs(float(trimmed(value)) - value) <= 1e-6 * size:
+        return number(value)
+    return russian(trimmed(value, 15))
+
+
 def point_name(point: str) -> str:
     """Return a point's name as rich text: S2 gives ``S_{2}``."""
     return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
@@ -42,11 +50,11 @@ def given(problem: Problem, positions: Sequence[float] | None = None) -> list[st
             lines += _distances(body, named)
     for point, place in problem.bodies[FRAME].points.items():
         if place != 0:
-            lines += _coordinates(point, place)
+            lines += _coordinates(point, place, problem)
     carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
     for guide, (through, base, angle) in problem.guides.items():
         if through is None:
-            lines += _guide(guide, base, angle)
+            lines += _guide(guide, base, angle, problem)
         elif guide in carried:
             lines.append(f"{guide} через {point_name(through)}")
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
@@ -101,17 +109,18 @@ def _carried(problem: Problem, slide: Slide) -> list[str]:
     return [f"∠({line}, {_line(*axis)}) = {number(slide.angle)}°"] if slide.angle % 180 else []
 
 
-def _coordinates(name: str, place: complex) -> list[str]:
-    return [f"x_{{{name}}} = {number(place.real)} м", f"y_{{{name}}} = {number(place.imag)} м"]
+def _coordinates(name: str, place: complex, problem: Problem) -> list[str]:
+    x, y = (coordinate(value, problem) for value in (place.real, place.imag))
+    return [f"x_{{{name}}} = {x} м", f"y_{{{name}}} = {y} м"]
 
 
-def _guide(name: str, base: complex, angle: float) -> list[str]:
+def _guide(name: str, base: complex, angle: float, problem: Problem) -> list[str]:
     """Return where a guide is: by one coordinate when it runs along an axis."""
     if angle % 180 == 90:
-        return [f"x_{{{name}}} = {number(base.real)} м"]
+        return [f"x_{{{name}}} = {coordinate(base.real, problem)} м"]
     if angle % 180 == 0:
-        return [f"y_{{{name}}} = {number(base.imag)} м"]
-    return [*_coordinates(name, base), f"∠({name}) = {number(angle)}°"]
+        return [f"y_{{{name}}} = {coordinate(base.imag, problem)} м"]
+    return [*_coordinates(name, base, problem), f"∠({name}) = {number(angle)}°"]
 
 
 def asked_points(solution: Solution) -> list[str]:

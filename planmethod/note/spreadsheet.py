@@ -160,8 +160,8 @@ def _rows(part: slice, positions: Reals, cells: list[list[Any]], gaps: Gaps | No
     columns: list[Sequence[Any]] = [range(part.start + 1, part.stop + 1)]
     columns += [(positions + 0.0).tolist(), *cells]
     if gaps is not None:
-        sentences = gaps.sentences
-        columns.append([sentences[k] if k >= 0 else "" for k in gaps.reason[part].tolist()])
+        kinds = gaps.kinds
+        columns.append([kinds[k] if k >= 0 else "" for k in gaps.reason[part].tolist()])
     return list(zip(*columns, strict=True))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -212,7 +213,7 @@ def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[
     for name in moving_points(solution):
         point, (v, a) = solution.points[name], solution.by_hand_results.points[name]
         place = point.place[i]
-        row = [name, *(_place(float(value), words) for value in (place.real, place.imag))]
+        row = [name, *(_place(solution, float(x), words) for x in (place.real, place.imag))]
         for symbol, vector, read in (("v", point.velocity, v), ("a", point.acceleration, a)):
             row += [found(float(abs(vector[i])), words), found(float(read[i]), words)]
             row += sigmas.cell(label_of(symbol, name), i)
@@ -220,8 +221,13 @@ def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[
     return rows
 
 
-def _place(metres: float, words: Wording) -> str:
-    return found(metres, words)
+def _place(solution: Solution, metres: float, words: Wording) -> str:
+    """Return a coordinate; far from the origin with the digits that tell points apart."""
+    draft = solution.construction.draft
+    if draft.origin == 0:
+        return found(metres, words)
+    size = max(length for _, _, length in solution.problem.lengths)
+    return spoken(f"{metres:.{max(0, 4 - math.floor(math.log10(size)))}f}", words)
 
 
 def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[str]:
@@ -315,7 +321,9 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
     places = []
     for name in moving_points(solution):
         place = solution.points[name].place
-        places += [column(f"x_{{{name}}}", place.real), column(f"y_{{{name}}}", place.imag)]
+        for axis, values in (("x", place.real), ("y", place.imag)):
+            told = [_place(solution, float(value), words) for value in values]
+            places.append([plain_text(f"{axis}_{{{name}}}"), *told])
     v = [column(f"v_{{{p}}}", np.abs(solution.points[p].velocity)) for p in points]
     v += [column(f"ω_{{{k}}}", solution.links[k].omega) for k in links]
     a = [column(f"a_{{{p}}}", np.abs(solution.points[p].acceleration)) for p in points]

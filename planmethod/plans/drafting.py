@@ -22,6 +22,12 @@ from planmethod.plans.build import measured_segments
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Complexes, Reals, Solution, plain
 
+PLAN_OF = {
+    **dict.fromkeys(("velocity", "v", "omega"), PlanKind.VELOCITY),
+    **dict.fromkeys(("acceleration", "a", "epsilon", "ak", "ar"), PlanKind.ACCELERATION),
+}
+"""Plan that a quantity is taken from, by the beginning of its label."""
+
 Key = TypeVar("Key", bound=str)
 
 DRAWS = 4000
@@ -220,6 +226,10 @@ class Drafting:
             for step in {step for name in item.needs for step in self._ancestors[name]}:
                 doubtful = doubtful | self._strained.get(step, never)
             sigmas[label], drawn[label] = sigma, doubtful
+        for label in self.items:
+            absent = self._absent(label)
+            sigmas[label] = np.where(absent, 0.0, sigmas[label])
+            drawn[label] = drawn[label] & ~absent
         for i in np.flatnonzero(np.any(list(drawn.values()), axis=0)):
             sampled = self.sample(int(i))
             for label, doubtful in drawn.items():
@@ -228,11 +238,27 @@ class Drafting:
                     sigmas[label][i] = (high - low) / 2
         return {label: Spread(sigmas[label], drawn[label]) for label in self.items}
 
+    def _absent(self, label: str) -> npt.NDArray[np.bool_]:
+        """Tell the positions whose plan has no vector: nobody draws it, and nothing is off."""
+        head = label.split(".")[0].split("_")[0]
+        kind = PLAN_OF.get(head)
+        if kind is None:
+            return np.zeros(self.solution.positions.shape, dtype=bool)
+        plan = self.solution.construction.plan(kind)
+        lengths = [
+            np.abs(
+                self.solution.complexes(self.solution.paper, v.head)
+                - self.solution.complexes(self.solution.paper, v.tail)
+            )
+            for v in plan.vectors
+        ]
+        return np.asarray(np.max([np.zeros(self.solution.positions.shape), *lengths], axis=0) == 0)
+
     def sample(
         self, index: int, *, draws: int | None = None, seed: int | None = None
     ) -> dict[str, Reals]:
         """Return every quantity of one position from random sheets: arrays of shape (draws,)."""
-        count = draws or self.draws
+        count = self.draws if draws is None else draws
         seed = (self.seed if seed is None else seed) * 1_000_003 + index
         pencil = Sampled(self.profile, self._free, count, seed)
         _, taken = self._take(pencil, np.array([index]))
@@ -256,22 +282,30 @@ class Drafting:
         UnknownItemError
         """
         asked = list(labels)
-        unknown = [label for label in asked if label not in self.items]
+        self._check(asked)
+        rows = np.array([self._first.slopes[label][:, index] for label in asked])
+        return np.asarray(rows @ rows.T, dtype=float)
+
+    def _check(self, labels: list[str]) -> None:
+        unknown = [label for label in labels if label not in self.items]
         if unknown:
             raise UnknownItemError(
                 f"a drawing does not give {', '.join(unknown)}. Known: {', '.join(self.items)}."
             )
-        rows = np.array([self._first.slopes[label][:, index] for label in asked])
-        return np.asarray(rows @ rows.T, dtype=float)
 
     def ellipse(self, point: PointName, index: int) -> Reals:
         """Return the covariance of a point on its plan, mm², ndarray of shape (2, 2)."""
+        if point not in self._first.points:
+            raise UnknownItemError(
+                f"no plan has a point {point}. Known: {', '.join(sorted(self._first.points))}."
+            )
         slope = self._first.points[point][:, index]
         rows = np.array([slope.real, slope.imag])
         return np.asarray(rows @ rows.T, dtype=float)
 
     def causes(self, label: str, index: int = 0) -> list[tuple[str, float]]:
         """Return the steps by their share of a quantity's variance, the largest first."""
+        self._check([label])
         slope = self._first.slopes[label][:, index] ** 2
         shares: dict[str, float] = {}
         for step, part in zip(self._first.strokes, slope, strict=True):

@@ -39,6 +39,15 @@ _SPOILT = np.iinfo(np.int16).max
 """Code of a position whose steps exist and whose results rounding spoils."""
 
 
+_AT, _THE = re.compile(r" at position \d+ \([^)]*\)"), re.compile(r"position \d+ \([^)]*\)")
+
+
+def _general(reason: str) -> str:
+    """Return a reason without what is true of its own position only."""
+    text = _THE.sub("this position", _AT.sub("", reason))
+    return re.sub(r", \|\w+\| = .*", ".", re.sub(r" \(margin [^)]*\)", "", text))
+
+
 @dataclass(frozen=True, slots=True)
 class Gaps:
     """Positions without results, and why.
@@ -90,6 +99,11 @@ class Gaps:
         return tuple(
             text + self.more(int(count)) for text, count in zip(self.told, counts, strict=True)
         )
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Reasons without the numbers of one position: they hold for every position of a kind."""
+        return tuple(_general(text) for text in self.told)
 
     def refusal(self) -> str:
         """Return the message of a request that is refused for its first impossible position."""

@@ -62,7 +62,9 @@ class Sweep:
         Labels of results (``v_E``, ``omega_3``), or ``positions``, ``velocities``,
         ``accelerations``, ``units``; everything when absent.
     varied : sequence of str
-        Known numbers that `run` will be given: ``l_BC``, ``omega_1``; see `parameters`.
+        Known numbers that `run` will be given: ``l_BC``, ``omega_1``; see `parameters`. They are
+        numbers of the construction: a third point keeps its coordinates along and across its link
+        (``x_D``, ``y_D``) when a length of the link is varied, and a length must stay positive.
     dtype : dtype
         float64; float32 is for pictures only.
 
@@ -88,6 +90,10 @@ class Sweep:
         dtype: npt.DTypeLike = np.float64,
     ) -> None:
         self.problem = problem
+        if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
+            raise SweepError(f"a sweep is float64 or float32, not {np.dtype(dtype).name}")
+        asked = (asked,) if isinstance(asked, str) else asked
+        varied = (varied,) if isinstance(varied, str) else varied
         structure = analyse(problem.mechanism)
         construction = build(problem, structure, choose_closings(problem, structure))
         results = results_of(construction)
@@ -153,6 +159,11 @@ class Sweep:
         -------
         ndarray of shape (k, n), or (k, v, n) for variants
             NaN where a step that the result depends on is impossible.
+
+        Raises
+        ------
+        SweepError
+            When the shapes do not go together.
         """
         angle = np.asarray(positions, dtype=self._blocks.dtype)
         alone = not self.varied and not parameters and angle.ndim == 1
@@ -164,9 +175,7 @@ class Sweep:
         if set(parameters) != set(self.varied):
             raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
         extra = [np.asarray(parameters[name], dtype=self._blocks.dtype) for name in self.varied]
-        shape = np.broadcast_shapes(angle.shape, *(value.shape for value in extra))
-        if len(shape) not in (1, 2):
-            raise SweepError(f"positions and parameters make an array of shape {shape}")
+        shape = self._shape(angle, extra, out, failed)
         if out is None:
             quick = len(shape) == 1 and shape[0] <= FEW and failed is None
             if quick and (found := self._in_line(angle, extra, shape[0])) is not None:
@@ -185,6 +194,33 @@ class Sweep:
             here = np.broadcast_to(angle, shape)[i]
             self._blocks.run([here, *columns], out[:, i], None if failed is None else failed[i])
         return out
+
+    def _shape(
+        self, angle: Array, extra: list[Array], out: Array | None, failed: Array | None
+    ) -> tuple[int, ...]:
+        """Return the shape of the positions with their parameters, the buffers being of it."""
+        try:
+            shape = np.broadcast_shapes(angle.shape, *(value.shape for value in extra))
+        except ValueError:
+            told = ", ".join(f"{n} {v.shape}" for n, v in zip(self.varied, extra, strict=True))
+            raise SweepError(
+                f"positions of shape {angle.shape} do not go with parameters of shape {told}"
+            ) from None
+        if len(shape) not in (1, 2):
+            raise SweepError(
+                f"positions and parameters make an array of shape {shape}; positions are of shape "
+                "(n,), parameters of shape (n,), (v, 1) or one number"
+            )
+        for name, buffer, wanted in (
+            ("out", out, (len(self.rows), *shape)),
+            ("failed", failed, shape),
+        ):
+            if buffer is not None and getattr(buffer, "shape", None) != wanted:
+                given = getattr(buffer, "shape", type(buffer).__name__)
+                raise SweepError(f"{name} must be an array of shape {wanted}, got {given}")
+        if failed is not None and not np.issubdtype(failed.dtype, np.signedinteger):
+            raise SweepError(f"failed must be of a signed integer type, got {failed.dtype}")
+        return shape
 
     def _in_line(self, angle: Array, extra: list[Array], count: int) -> Array | None:
         """Run few positions as one line of Python; None where a step is impossible."""
@@ -211,8 +247,8 @@ class Sweep:
         return {row.name: values for row, values in zip(self.rows, found, strict=True)}
 
     def reason(self, guard: int) -> str:
-        """Return the step behind a guard's number."""
-        return str(self._written.guards[guard].step)
+        """Return the step behind a guard's number; empty for -1, which no guard has."""
+        return "" if guard < 0 else str(self._written.guards[guard].step)
 
     def explain(self, position: float, *, number: int = 1) -> str:
         """Return why a position is impossible, in the words and numbers of the drawing.
@@ -227,6 +263,8 @@ class Sweep:
         str
             Empty if every step that the sweep needs exists there.
         """
+        if not np.isfinite(position):
+            return f"Position {number} is not a number ({position})."
         at = np.array([position], dtype=float)
         trace = evaluate(self.program, {**self.constants, self.driver: at}, Float64())
         if failing(self.program, trace, 1)[0] < 0:

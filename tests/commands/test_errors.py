@@ -5,17 +5,26 @@ from __future__ import annotations
 import csv
 import io
 import json
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
-from worked import path_of, problem_of
+from worked import ROOT, path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
+from planmethod.construct.steps import PointName
+from planmethod.note.tables import result_tables
+from planmethod.plans.drafting import UnknownItemError
 from planmethod.plans.solution import Solution
+from planmethod.plans.sweep import Sweep, SweepError
+from planmethod.problem import load, loads
 
 EX3 = str(path_of("linkages/ex3"))
 
@@ -133,3 +142,97 @@ def test_sections_of_the_benchmark_by_themselves() -> None:
 def test_a_missing_problem_of_the_benchmark(tmp_path: Path) -> None:
     told = run("bench", str(tmp_path / "none.toml"), "--only", "drafting")
     assert told.exit_code == 3
+
+
+def test_a_pipe_closed_between_two_tables_is_no_finding() -> None:
+    words = ("solve", str(path_of("levers/six-link")), "--phi", "150,150.1,150.2", "--referee")
+    with subprocess.Popen(
+        [sys.executable, str(ROOT / "cli.py"), *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+    ) as running:
+        assert running.stdout is not None and running.stderr is not None
+        running.stdout.read(10)
+        running.stdout.close()
+        said = running.stderr.read().decode()
+        assert running.wait(timeout=60) == 0
+    assert said == ""
+
+
+def test_a_mechanism_at_rest_has_no_drafting_errors_in_its_plans() -> None:
+    text = path_of("linkages/ex3").read_text("utf-8").replace("omega = 50", "omega = 0", 1)
+    solution = Solution(loads(text, name="still"))
+    for label, spread in solution.drafting.spreads.items():
+        if not label.startswith(("position", "x_", "y_")):
+            assert spread.sigma[0] == 0 and not spread.drawn[0], label
+
+
+def test_sigma_does_not_jump_where_a_vector_vanishes() -> None:
+    problem = load(path_of("levers/task12-variants"))
+    at, beside = (Solution(problem, positions=[phi]).drafting for phi in (270.0, 270.0 + 1e-7))
+    for label, spread in at.spreads.items():
+        other = beside.spreads[label]
+        if not (spread.drawn[0] or other.drawn[0]) and spread.sigma[0] > 0:
+            assert spread.sigma[0] == pytest.approx(other.sigma[0], rel=0.05, abs=1e-9), label
+
+
+def test_far_from_the_origin_everything_comes_out_the_same() -> None:
+    text = path_of("linkages/ex3").read_text("utf-8")
+    text = text.replace("A = [0.0, 0.0]", "A = [131072.0, -65536.0]", 1)
+    text = text.replace("C = [0.0, -0.11]", "C = [131072.0, -65536.11]", 1)
+    near, far = Solution(problem_of("linkages/ex3")), Solution(loads(text, name="far"))
+    shift = 131072 - 65536j
+    for name, motion in near.points.items():
+        assert abs(far.points[name].place[0] - shift - motion.place[0]) < 1e-10
+        assert abs(far.points[name].velocity[0] - motion.velocity[0]) < 1e-9
+        assert abs(far.points[name].acceleration[0] - motion.acceleration[0]) < 1e-6
+    assert "131072,09128" in result_tables(far)
+
+
+def test_threads_may_share_a_sweep() -> None:
+    sweep = Sweep(problem_of("linkages/ex3"), ["v_E"])
+    turns = [np.linspace(a, a + 360, 50_001) for a in (0, 13)]
+    turns += [np.random.default_rng(k).uniform(0, 360, 50_001) for k in range(3)]
+    alone = [sweep.run(turn) for turn in turns]
+    for _ in range(4):
+        with ThreadPoolExecutor(4) as pool:
+            together = list(pool.map(sweep.run, turns))
+        assert all(np.array_equal(a, b) for a, b in zip(alone, together, strict=True))
+
+
+def test_an_angle_of_a_guide_can_be_varied() -> None:
+    problem = problem_of("linkages/ex3")
+    sweep = Sweep(problem, ["v_E"], varied=["angle_x-x"])
+    phi = np.linspace(0, 90, 100)
+    plain = Sweep(problem, ["v_E"]).run(phi)
+    for angle in (0.0, np.zeros(100), np.zeros(1)):
+        assert np.allclose(sweep.run(phi, {"angle_x-x": angle}), plain, rtol=1e-12, atol=1e-12)
+    both = sweep.run(phi, {"angle_x-x": np.array([[0.0], [5.0]])})
+    assert np.allclose(both[:, 0], plain) and not np.allclose(both[:, 1], plain)
+
+
+def test_what_a_sweep_does_not_take() -> None:
+    sweep = Sweep(problem_of("linkages/ex3"), "v_E")
+    phi = np.linspace(0, 90, 50)
+    for out in (np.zeros((1, 50)), np.zeros((2, 1)), [0.0]):
+        with pytest.raises(SweepError, match=r"out must be an array of shape \(2, 50\)"):
+            sweep.run(phi, out=out)  # type: ignore[arg-type]
+    with pytest.raises(SweepError, match="failed must be an array"):
+        sweep.run(phi, failed=np.zeros(3, np.int16))
+    with pytest.raises(SweepError, match="failed must be of a signed integer type"):
+        sweep.run(phi, failed=np.zeros(50))  # type: ignore[arg-type]
+    with pytest.raises(SweepError, match="float64 or float32, not int64"):
+        Sweep(problem_of("linkages/ex3"), dtype=np.int64)
+    with pytest.raises(SweepError, match="positions are of shape"):
+        sweep.run(20.0)
+    assert "is not a number" in sweep.explain(float("nan"))
+    assert sweep.reason(-1) == ""
+
+
+def test_what_a_drawing_does_not_have() -> None:
+    drafting = Solution(problem_of("linkages/ex3")).drafting
+    with pytest.raises(UnknownItemError, match="no plan has a point Q"):
+        drafting.ellipse(PointName("Q"), 0)
+    with pytest.raises(UnknownItemError, match="does not give Q"):
+        drafting.causes("Q")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -66,7 +67,7 @@ class Blocks:
         self.dtype, self.block = np.dtype(dtype), block
         self._steps, self._buffers = _schedule(tape, self.results, self.guards, self.dtype)
         self._code = _line(self._steps, len(self.results))
-        self._angle = _Angle(block, self.dtype)
+        self._own = threading.local()  # each thread turns angles with arrays of its own
 
     @property
     def operations(self) -> int:
@@ -88,6 +89,9 @@ class Blocks:
             Filled with the number of the first guard that does not hold, or -1.
         """
         count = out.shape[1]
+        angle = getattr(self._own, "angle", None)
+        if angle is None:
+            angle = self._own.angle = _Angle(self.block, self.dtype)
         buffers = [np.empty(min(self.block, count), self.dtype) for _ in range(self._buffers)]
         with np.errstate(all="ignore"):
             for start in range(0, count, self.block):
@@ -100,7 +104,7 @@ class Blocks:
                     [column[start:stop] if column.ndim else column for column in inputs],
                     rows,
                     here,
-                    self._angle,
+                    angle,
                     lambda guard, margin, missed=missed: missed.setdefault(
                         guard, ~(margin > self.guards[guard].limit)
                     ),
@@ -128,6 +132,11 @@ class _Angle:
         self.spare: list[Array] = []
 
     def __call__(self, degrees: Array, cosine: Array, sine: Array) -> None:
+        if degrees.ndim == 0:  # one angle for all positions
+            unit = complex(unit_vectors(float(degrees)))
+            cosine.fill(unit.real)
+            sine.fill(unit.imag)
+            return
         few = len(degrees) <= 64 or self.dtype != np.float64
         if few or not self._by_table(degrees, cosine, sine):
             self._each(degrees, cosine, sine)
