@@ -18,7 +18,7 @@ from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.plans.assembly import drive_data
-from planmethod.plans.results import Result, ResultKind, results_of
+from planmethod.plans.results import NOTHING, Result, ResultKind, results_of
 from planmethod.plans.solution import Solution
 from planmethod.plans.sweep import Sweep
 from planmethod.problem.model import Problem
@@ -196,7 +196,11 @@ def _read(solution: Solution, arithmetic: Any) -> dict[Any, Number]:
 
 def _trace_error(problem: Problem, solution: Solution, position: float, arithmetic: Any) -> float:
     """Return the largest error of a result in units of the largest result of its kind."""
-    results = [r for r in results_of(solution.construction).all if r.kind not in LINES]
+    results = [
+        r
+        for r in results_of(solution.construction).all
+        if r.kind not in LINES and r.name != NOTHING
+    ]
     right = _right(problem, results, position)
     found = _read(solution, arithmetic)
     worst = 0.0
