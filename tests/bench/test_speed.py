@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -73,7 +74,7 @@ def test_the_document_has_its_tables_and_figure() -> None:
     text = report.document(sections, figure="f.png", command="planmethod bench")
     assert "| planmethod, sweep |" in text and "![time against error" in text
     lines = text.splitlines()
-    for head, rule in zip(lines, lines[1:], strict=False):
+    for head, rule in itertools.pairwise(lines):
         if rule.startswith("| ---"):
             assert head.count("|") == rule.count("|")
     steps = [row[1] for row in scenes]
