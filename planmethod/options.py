@@ -89,12 +89,14 @@ def read_ruler(ctx: click.Context, param: click.Parameter, value: float | None) 
 
 def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
     """Return the output formats of a list with commas, each known."""
-    from planmethod.render.backends import BACKENDS
+    from planmethod.render.backends import BACKENDS, DXF_NEEDS, is_absent
 
     names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
     for name in names:
         if name not in BACKENDS:
             raise click.BadParameter(f"{name!r} is not one of {', '.join(BACKENDS)}")
+        if is_absent(name):
+            raise click.UsageError(DXF_NEEDS, ctx)
     if not names:
         raise click.BadParameter(f"no format given; choose from {', '.join(BACKENDS)}")
     return names
@@ -218,10 +220,21 @@ def format_option(default: str) -> Callable[[F], F]:
             callback=read_formats,
             default=default,
             show_default=True,
-            help="svg,pdf,png.",
+            help="svg,pdf,png,dxf.",
         )(command)
 
     return add
+
+
+def dxf_text_option(command: F) -> F:
+    """Add the kind of letters in a DXF."""
+    return click.option(
+        "--dxf-text",
+        type=click.Choice(["text", "strokes"]),
+        default="text",
+        show_default=True,
+        help="Letters of DXF: text, or outlines that look the same everywhere.",
+    )(command)
 
 
 def lang_option(command: F) -> F:

@@ -495,7 +495,7 @@ def test_the_paper_may_be_named_in_cyrillic() -> None:
 def test_an_unknown_format_is_told_with_the_known_ones() -> None:
     refused = run("sheet", EX1, "--format", "svg,dwg")
     assert refused.exit_code == 2
-    assert "'dwg' is not one of svg, pdf, png" in refused.output.replace("\n", " ")
+    assert "'dwg' is not one of svg, pdf, png, dxf" in refused.output.replace("\n", " ")
     refused = run("sheet", EX1, "--paper", "A9")
     assert "Unknown paper format 'A9'. Choose one of: A4, A3, A2, A1" in refused.output
 

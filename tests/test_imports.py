@@ -70,6 +70,11 @@ def test_the_package_alone_imports_nothing(tmp_path: Path) -> None:
             {"numpy", "shapely", "matplotlib"},
             {"mpmath", "ezdxf", "svgwrite", "reportlab", "scipy"},
         ),
+        (
+            ("sheet", EX3, "--format", "dxf"),
+            {"numpy", "shapely", "ezdxf"},
+            {"matplotlib", "mpmath", "svgwrite", "reportlab", "scipy", "PIL"},
+        ),
         (("solve", EX3), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("solve", EX3, "--json"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("solve", EX3, "--csv"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),

@@ -5,8 +5,9 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import click
 
@@ -44,13 +45,16 @@ def write_drawings(
     *,
     dpi: int = 100,
     author: str | None = None,
+    dxf_text: Literal["text", "strokes"] = "text",
 ) -> None:
     """Write drawings as ``stem.svg``, ``stem-2.svg``...; files appear only when all are made."""
     from planmethod.render.backends import render
     from planmethod.render.backends.canvas import Options
     from planmethod.render.output import write
 
-    options = Options(dpi=dpi) if author is None else Options(dpi=dpi, author=author)
+    options = Options(dpi=dpi, dxf_text=dxf_text)
+    if author is not None:
+        options = replace(options, author=author)
     files = {
         out / (f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"): render(
             drawing, fmt, options=options

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
@@ -12,6 +12,7 @@ from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import (
     Positions,
     drawn_by,
+    dxf_text_option,
     format_option,
     out_option,
     problem_options,
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 @click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
 @click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
+@dxf_text_option
 @guarded
 def sheet(
     problems: tuple[Path, ...],
@@ -48,6 +50,7 @@ def sheet(
     errors: bool,
     sigma: bool,
     dpi: int,
+    dxf_text: Literal["text", "strokes"],
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
     from planmethod.render.sheets.kinematics import kinematics_sheets
@@ -64,6 +67,14 @@ def sheet(
             errors=errors,
             sigma=sigma,
         )
-        write_drawings(drawings, out, stem(problem), formats, dpi=dpi, author=stamp.get("author"))
+        write_drawings(
+            drawings,
+            out,
+            stem(problem),
+            formats,
+            dpi=dpi,
+            author=stamp.get("author"),
+            dxf_text=dxf_text,
+        )
 
     finish(each(problems, variant, all_variants, draw))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
 from planmethod.commands.output import is_narrow, write_drawings
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import (
+    dxf_text_option,
     format_option,
     lang_option,
     out_option,
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 @out_option
 @click.option("--json", "as_json", is_flag=True, help="The analysis as one object.")
 @format_option("svg")
+@dxf_text_option
 @click.option("--no-drawing", is_flag=True, help="Text only.")
 @click.option("--paper", metavar="FORMAT", help="A3, A2...; chosen to fit when absent.")
 @stamp_option
@@ -38,6 +40,7 @@ def structure(
     out: Path,
     as_json: bool,
     formats: tuple[str, ...],
+    dxf_text: Literal["text", "strokes"],
     no_drawing: bool,
     paper: str | None,
     stamp: dict[str, str],
@@ -64,6 +67,6 @@ def structure(
             from planmethod.render.sheets.structure import structure_sheet
 
             drawing = structure_sheet(problem, found, paper=paper, fields=stamp)
-            write_drawings([drawing], out, f"{stem(problem)}-structure", formats)
+            write_drawings([drawing], out, f"{stem(problem)}-structure", formats, dxf_text=dxf_text)
 
     finish(each(problems, variant, all_variants, show))

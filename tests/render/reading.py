@@ -12,7 +12,9 @@ import zlib
 from cmath import exp, phase, sqrt
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from io import StringIO
 from math import cos, hypot, pi, radians, sin, tau
+from typing import Any
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"
@@ -193,12 +195,90 @@ def read_pdf(data: bytes) -> Page:
 
 
 def _cubic(start: complex, values: list[float]) -> list[complex]:
-    c1, c2, end = complex(*values[:2]), complex(*values[2:4]), complex(*values[4:])
+    c1, c2, end = _flat(values), complex(*values[2:4]), complex(*values[4:])
     places = [k / 16 for k in range(17)]
     return [
         start * (1 - t) ** 3 + 3 * c1 * t * (1 - t) ** 2 + 3 * c2 * t**2 * (1 - t) + end * t**3
         for t in places
     ]
+
+
+def read_dxf(data: bytes) -> Page:
+    """Read the model space of a DXF, blocks taken apart; a dashed line is one whole line."""
+    import ezdxf
+
+    library: Any = ezdxf
+    document = library.read(StringIO(data.decode("utf-8")))
+    assert document.units == 4, "millimetres"
+    width, height = document.header["$LIMMAX"]
+    page = Page(width, height, [])
+    for entity in document.modelspace():
+        parts = entity.virtual_entities() if entity.dxftype() == "INSERT" else [entity]
+        for part in parts:
+            own = part.dxf.layer
+            layer = document.layers.get(entity.dxf.layer if own == "0" else own)
+            item = _dxf_item(part)
+            if isinstance(item, Path):
+                if part.dxftype() == "CIRCLE" and part.dxf.lineweight == 0:
+                    continue  # the rim of a disc, for the object snap
+                weight = part.dxf.lineweight
+                item.width = (
+                    0.0 if item.filled else (weight if weight >= 0 else layer.dxf.lineweight) / 100
+                )
+                rgb = part.rgb or layer.rgb or (0, 0, 0)
+                item.grey = 1.0 if part.dxftype() == "WIPEOUT" else rgb[0] / 255
+            page.items.append(item)
+    return page
+
+
+def _flat(point: Any) -> complex:
+    return complex(point[0], point[1])
+
+
+def _dxf_item(part: Any) -> Path | Run:
+    kind, dxf = part.dxftype(), part.dxf
+    match kind:
+        case "TEXT":
+            assert dxf.halign == 5, "fitted"
+            em = dxf.height * 2048 / 1493
+            way = _flat(dxf.align_point) - _flat(dxf.insert)
+            angle = phase(way) * 180 / pi
+            assert abs((angle - dxf.rotation + 180) % 360 - 180) < 1e-6
+            return Run(_flat(dxf.insert), em, angle, part.plain_text())
+        case "LINE":
+            corners = [_flat(dxf.start), _flat(dxf.end)]
+            return Path(corners, [], 1)
+        case "LWPOLYLINE":
+            corners = [complex(x, y) for x, y in part.get_points("xy")]
+            return Path(corners, [], 1, part.closed)
+        case "CIRCLE" | "ARC":
+            start, end = (0.0, 360.0) if kind == "CIRCLE" else (dxf.start_angle, dxf.end_angle)
+            turn = radians((end - start) % 360.0 or 360.0)
+            along = [
+                _flat(dxf.center) + dxf.radius * exp(1j * (radians(start) + turn * k / 64))
+                for k in range(65)
+            ]
+            return Path([], along, 1, kind == "CIRCLE")
+        case "SOLID":
+            a, b, c, d = (_flat(point) for point in part.vertices())
+            return Path([a, b, c, d], [], 1, True, True)
+        case "WIPEOUT":
+            corners = [_flat(point) for point in part.boundary_path_wcs()]
+            if corners[0] == corners[-1]:
+                corners.pop()
+            return Path(corners, corners if len(corners) > 16 else [], 1, True, True)
+        case "HATCH":
+            path = Path([], [], len(part.paths), True, True)
+            for boundary in part.paths:
+                if hasattr(boundary, "vertices"):
+                    path.corners += [complex(x, y) for x, y, _ in boundary.vertices]
+                    continue
+                (arc,) = boundary.edges
+                assert arc.end_angle - arc.start_angle == 360.0
+                centre = _flat(arc.center)
+                path.along += [centre + arc.radius * exp(1j * tau * k / 64) for k in range(65)]
+            return path
+    raise AssertionError(f"{kind} is not expected")
 
 
 def turned_box(

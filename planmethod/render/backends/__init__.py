@@ -30,8 +30,26 @@ def _png(options: Options) -> Canvas:
     return PngCanvas(options)
 
 
+def _dxf(options: Options) -> Canvas:
+    if is_absent("dxf"):
+        raise OutputError(DXF_NEEDS)
+    from planmethod.render.backends.dxf import DxfCanvas
+
+    return DxfCanvas(options)
+
+
+DXF_NEEDS = "DXF needs ezdxf: pip install 'planmethod[dxf]'"
+
+
+def is_absent(fmt: str) -> bool:
+    """Return whether a format cannot be written for want of a library, without importing it."""
+    from importlib.util import find_spec
+
+    return fmt == "dxf" and find_spec("ezdxf") is None
+
+
 BACKENDS: Mapping[str, Callable[[Options], Canvas]] = MappingProxyType(
-    {"svg": _svg, "pdf": _pdf, "png": _png}
+    {"svg": _svg, "pdf": _pdf, "png": _png, "dxf": _dxf}
 )
 """Output formats by the suffix of their files. A canvas draws one sheet."""
 
@@ -44,14 +62,14 @@ def render(drawing: Drawing, fmt: str, *, options: Options | None = None) -> byt
     drawing
         The display list.
     fmt
-        A key of `BACKENDS`: ``"svg"``, ``"pdf"`` or ``"png"``.
+        A key of `BACKENDS`: ``"svg"``, ``"pdf"``, ``"png"`` or ``"dxf"``.
     options
         Resolution and the like; the defaults when absent.
 
     Raises
     ------
     OutputError
-        There is no such format, or the picture would be too large for it.
+        There is no such format, the picture would be too large for it, or its library is absent.
     """
     make = BACKENDS.get(fmt)
     if make is None:

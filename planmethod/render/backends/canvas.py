@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import isfinite
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol, assert_never
+from typing import Literal, Protocol, assert_never
 
 from planmethod.errors import PlanMethodError
 from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
@@ -16,11 +16,12 @@ class Options:
     """Wishes that only some formats can grant.
 
     ``dpi`` is the resolution of a raster picture, dots to the inch; ``author`` goes into the
-    properties of the file.
+    properties of the file. ``dxf_text`` says whether the letters of a DXF are text or outlines.
     """
 
     dpi: float = 100.0
     author: str = "planmethod"
+    dxf_text: Literal["text", "strokes"] = "text"
 
 
 class Canvas(Protocol):

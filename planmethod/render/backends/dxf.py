@@ -1,0 +1,439 @@
+"""DXF (R2010) for CAD programs: one drawing unit is one millimetre of paper, y up.
+
+What a draughtsman would pick is one entity: a side of a plan is a line from end to end, a dashed
+line is whole and its line type dashes it, a joint and an arrowhead are blocks. The meaning of an
+item is its layer, and its width, dashes and grey are those of the layer wherever they can be.
+"""
+
+from __future__ import annotations
+
+import re
+from cmath import exp, phase
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from io import StringIO
+from itertools import pairwise
+from math import acos, ceil, degrees, pi, radians, sqrt, tau
+from types import MappingProxyType
+from typing import Any
+
+import ezdxf
+from ezdxf.enums import TextEntityAlignment
+from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
+
+from planmethod.render.backends.canvas import Options
+from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.lettering import LETTERING
+from planmethod.render.style import ARROW, PENS, PenStyle, sweep
+
+_LIBRARY: Any = ezdxf  # its types are of the parts only
+
+FONT = "DejaVuSans.ttf"
+"""Font of the text style: it has the widths and the signs of the sheets' lettering."""
+
+TEXT_STYLE = "SHEET"
+
+LINE_TYPES: Mapping[Pen, str] = MappingProxyType(
+    {Pen.AXIS: "GOST_DASHDOT", Pen.HIDDEN: "GOST_DASHED"}
+)
+
+LAYERS: Mapping[str, Pen] = MappingProxyType(
+    {
+        "MAIN": Pen.MAIN,
+        "THIN": Pen.THIN,
+        "FRAME": Pen.FRAME,
+        "AXIS": Pen.AXIS,
+        "HIDDEN": Pen.HIDDEN,
+        "HATCHING": Pen.HATCH,
+        "PALE": Pen.PALE,
+        "LINKS": Pen.MAIN,
+        "SYMBOLS": Pen.MAIN,
+        "MASKS": Pen.THIN,
+        "PLAN_VECTORS": Pen.THIN,
+        "PLAN_ARROWS": Pen.THIN,
+        "PLAN_FIGURES": Pen.THIN,
+        "ERRORS": Pen.THIN,
+        "TABLES": Pen.THIN,
+        "TITLE_BLOCK": Pen.FRAME,
+        "TEXT": Pen.THIN,
+    }
+)
+"""Layers, and the pen whose width, dashes and grey they have."""
+
+_OF_PEN = {pen: name for name, pen in reversed(tuple(LAYERS.items()))}
+_OF_TAG = {
+    "stamp": "TITLE_BLOCK",
+    "margin": "TITLE_BLOCK",
+    "table": "TABLES",
+    "ellipse": "ERRORS",
+    "similar": "PLAN_FIGURES",
+    "pole": "PLAN_FIGURES",
+    "absolute": "PLAN_VECTORS",
+    "relative": "PLAN_VECTORS",
+    "normal": "PLAN_VECTORS",
+    "tangential": "PLAN_VECTORS",
+    "coriolis": "PLAN_VECTORS",
+    "sliding": "PLAN_VECTORS",
+}
+
+_WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it stands for
+_LETTER_WITHIN = 2e-4  # the same for the outlines of letters, in parts of h
+_SMOOTH = radians(20.0)
+_NOT_TEXT = re.compile("[\x00-\x1f\x7f-\x9f]")
+_VERBS = re.compile("([MLQZ])([^MLQZ]*)")
+
+
+def layer_of(tag: str, pen: Pen) -> str:
+    """Return the layer of a line with this tag and pen."""
+    if tag.startswith("part-of:"):
+        return "TEXT"  # the bar over a letter
+    if tag.startswith("link ") and pen is Pen.MAIN:
+        return "LINKS"
+    return _OF_TAG.get(tag, _OF_PEN[pen])
+
+
+def line_weight(pen: Pen) -> int:
+    """Return the width of a pen in hundredths of a millimetre, the nearest that DXF has."""
+    wanted = PENS[pen].width * 100.0
+    return min(VALID_DXF_LINEWEIGHTS, key=lambda weight: abs(weight - wanted))
+
+
+def _grey(style: PenStyle) -> int:
+    return round(255 * style.grey) * 0x010101
+
+
+def _escaped(text: str) -> str:
+    """Return a text that a CAD program shows as it stands: no codes in it."""
+    return _clean(text).replace("^", "^ ").replace("%%", "%%%%%%")
+
+
+def _clean(text: str) -> str:
+    return _NOT_TEXT.sub("�", text)
+
+
+@contextmanager
+def _no_clock() -> Iterator[None]:
+    """Keep the time and chance out of what the library writes: same drawing, same bytes."""
+    options = _LIBRARY.options
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        options.write_fixed_meta_data_for_testing = before
+
+
+class DxfCanvas:
+    """Canvas that writes DXF."""
+
+    def __init__(self, options: Options) -> None:
+        self._author = options.author
+        self._outlined = options.dxf_text == "strokes"
+        self._document: Any = None
+        self._space: Any = None
+        # An item whose meaning the next one tells: the shaft of an arrow, the inside of a joint.
+        self._held: Stroke | Disc | None = None
+
+    def open(self, width: float, height: float, title: str) -> None:
+        """Begin a sheet: layers, line types and the text style."""
+        with _no_clock():
+            document = _LIBRARY.new("R2010", units=4)  # millimetres
+        self._document = document
+        self._space = document.modelspace()
+        header = document.header
+        header["$LTSCALE"] = 1.0
+        header["$LWDISPLAY"] = 1
+        header["$EXTMIN"], header["$EXTMAX"] = (0.0, 0.0, 0.0), (width, height, 0.0)
+        self._space.reset_extents((0.0, 0.0, 0.0), (width, height, 0.0))
+        self._space.reset_limits((0.0, 0.0), (width, height))
+        header.custom_vars.append("Title", _clean(title))
+        header.custom_vars.append("Author", _clean(self._author))
+        document.set_modelspace_vport(height * 1.05, center=(width / 2, height / 2))
+        document.set_wipeout_variables(frame=0)
+        # Else the library adds them in the order of a set, which is another in every process.
+        for name in ("ACDBPLACEHOLDER", "LAYOUT", "WIPEOUT", "WIPEOUTVARIABLES"):
+            document.classes.add_class(name)
+        for pen, name in LINE_TYPES.items():
+            dashes = PENS[pen].dashes
+            assert dashes is not None
+            pattern = [dashes.stroke, -dashes.gap]
+            if dashes.dot:
+                side = (dashes.gap - dashes.dot) / 2.0
+                pattern = [dashes.stroke, -side, dashes.dot, -side]
+            whole = dashes.stroke + dashes.gap
+            document.linetypes.add(name, [whole, *pattern], description="GOST 2.303")
+        for name, pen in LAYERS.items():
+            layer = document.layers.add(
+                name,
+                color=7,
+                lineweight=line_weight(pen),
+                linetype=LINE_TYPES.get(pen, "Continuous"),
+            )
+            if PENS[pen].grey:
+                layer.dxf.true_color = _grey(PENS[pen])
+        document.styles.add(TEXT_STYLE, font=FONT)
+
+    # Attributes -----------------------------------------------------------------------------------
+
+    def _by_layer(self, layer: str, pen: Pen) -> dict[str, Any]:
+        """Return the attributes of a line; only what its layer does not say is said."""
+        own: dict[str, Any] = {"layer": layer}
+        return {**own, **_unlike(LAYERS[layer], pen)}
+
+    # Verbs ----------------------------------------------------------------------------------------
+
+    def stroke(self, item: Stroke) -> None:
+        """Draw a line or polyline, once the next item tells whether it is an arrow's shaft."""
+        self._let_go()
+        if PENS[item.pen].dashes and len(set(item.points)) < 2:
+            return
+        if len(item.points) == 2 and not item.closed and PENS[item.pen].dashes is None:
+            self._held = item
+        else:
+            self._line(item)
+
+    def arc(self, item: Arc) -> None:
+        """Draw a circle or an arc; a circle around its own white inside is a joint."""
+        turn = sweep(item)
+        if turn <= 0.0:
+            return
+        held = self._held
+        if (
+            isinstance(held, Disc)
+            and turn >= tau
+            and held.centre == item.centre
+            and held.radius == item.radius
+        ):
+            self._held = None
+            name = self._joint(item.radius, item.pen)
+            place = (item.centre.real, item.centre.imag)
+            self._space.add_blockref(name, place, dxfattribs={"layer": "SYMBOLS"})
+            return
+        self._let_go()
+        _add_arc(self._space, item, turn, self._by_layer(layer_of(item.tag, item.pen), item.pen))
+
+    def fill(self, item: Fill | Disc) -> None:
+        """Fill an area: an arrowhead as a block, white as a wipeout, else as a solid hatch."""
+        if isinstance(item, Fill) and item.ink is Ink.BLACK and (head := _arrowhead(item.points)):
+            self._arrow(item, *head)
+            return
+        self._let_go()
+        if isinstance(item, Disc) and item.ink is Ink.WHITE:
+            self._held = item
+        elif item.ink is Ink.WHITE:
+            assert isinstance(item, Fill)
+            self._mask(item.points)
+        else:
+            layer = _OF_TAG.get(item.tag, "SYMBOLS")
+            hatch = self._space.add_hatch(color=256, dxfattribs={"layer": layer})
+            if isinstance(item, Disc):
+                x, y = item.centre.real, item.centre.imag
+                hatch.paths.add_edge_path().add_arc((x, y), item.radius, 0.0, 360.0)
+                # What an object snap finds.
+                thin = {"layer": layer, "lineweight": 0}
+                self._space.add_circle((x, y), item.radius, dxfattribs=thin)
+            else:
+                hatch.paths.add_polyline_path(_pairs(item.points), is_closed=True)
+
+    def text(self, item: Text) -> None:
+        """Draw a run of letters: as text fitted to its width, or as outlines."""
+        self._let_go()
+        layer = _OF_TAG.get(item.tag, "TEXT")
+        along = exp(1j * radians(item.angle))
+        if self._outlined:
+            start = 0.0
+            for char in item.text:
+                name = self._letter(char)
+                if name:
+                    at = item.at + along * start
+                    self._space.add_blockref(
+                        name,
+                        (at.real, at.imag),
+                        dxfattribs={
+                            "layer": layer,
+                            "xscale": item.height,
+                            "yscale": item.height,
+                            "zscale": item.height,
+                            "rotation": item.angle,
+                        },
+                    )
+                start += LETTERING.width(char, item.height)
+            return
+        bare = item.text.strip()
+        lead = len(item.text) - len(item.text.lstrip())
+        at = item.at + along * LETTERING.width(item.text[:lead], item.height)
+        end = at + along * LETTERING.width(bare, item.height)
+        # Fitted: with another font the run keeps its length.
+        self._space.add_text(
+            _escaped(bare),
+            height=item.height,
+            rotation=item.angle % 360.0,
+            dxfattribs={"layer": layer, "style": TEXT_STYLE},
+        ).set_placement(
+            (at.real, at.imag), (end.real, end.imag), align=TextEntityAlignment.FIT
+        ).dxf.rotation = item.angle % 360.0
+
+    def close(self) -> bytes:
+        """Return the file, the same bytes for the same drawing."""
+        self._let_go()
+        stream = StringIO()
+        with _no_clock():
+            self._document.write(stream)
+        return stream.getvalue().encode("utf-8", errors="replace")
+
+    # Parts ----------------------------------------------------------------------------------------
+
+    def _let_go(self) -> None:
+        """Draw the held item as what it is by itself."""
+        held, self._held = self._held, None
+        if isinstance(held, Stroke):
+            self._line(held)
+        elif isinstance(held, Disc):
+            self._mask(_circle(held.centre, held.radius))
+
+    def _mask(self, outline: Sequence[complex]) -> None:
+        """Hide what lies under an area, whatever the colour of the screen."""
+        self._space.add_wipeout(_pairs(outline)).dxf.layer = "MASKS"
+
+    def _line(self, item: Stroke) -> None:
+        attributes = self._by_layer(layer_of(item.tag, item.pen), item.pen)
+        if len(item.points) == 2 and item.points[0] != item.points[1]:
+            (a, b) = _pairs(item.points)
+            self._space.add_line(a, b, dxfattribs=attributes)
+            return
+        if PENS[item.pen].dashes and _is_smooth(item.points):
+            attributes["flags"] = 128  # the line type runs on through the corners
+        self._space.add_lwpolyline(_pairs(item.points), close=item.closed, dxfattribs=attributes)
+
+    def _arrow(self, item: Fill, tip: complex, along: complex, length: float, wide: float) -> None:
+        """Draw an arrowhead, and the shaft that was held for it up to the very tip."""
+        held = self._held
+        layer = _OF_TAG.get(item.tag, "SYMBOLS")
+        layer = "PLAN_ARROWS" if layer == "PLAN_VECTORS" else layer
+        if isinstance(held, Stroke) and held.tag == item.tag and _leads(held, tip, along, length):
+            self._held = None
+            start, stop = held.points
+            line = layer_of(held.tag, held.pen)
+            pen = held.pen
+            if line == "PLAN_VECTORS" and PENS[pen].width > PENS[Pen.THIN].width:
+                # A thick line would blunt the tip that it must reach: its thickness is a body.
+                side = along * 1j * PENS[pen].width / 2.0
+                corners = (start + side, start - side, stop + side, stop - side)
+                self._space.add_solid(_pairs(corners), dxfattribs={"layer": "PLAN_ARROWS"})
+                pen = Pen.THIN
+            end = tip if line == "PLAN_VECTORS" else stop
+            (a, b) = _pairs((start, end))
+            self._space.add_line(a, b, dxfattribs=self._by_layer(line, pen))
+        self._let_go()
+        name = "ARROWHEAD"
+        if name not in self._document.blocks:
+            block = self._document.blocks.new(name)
+            notch = 1.0 - ARROW.notch / ARROW.length
+            outline = ((0.0, 0.0), (-1.0, 0.5), (-notch, 0.0), (-1.0, -0.5))
+            block.add_hatch(color=256).paths.add_polyline_path(outline, is_closed=True)
+        self._space.add_blockref(
+            name,
+            (tip.real, tip.imag),
+            dxfattribs={
+                "layer": layer,
+                "xscale": length,
+                "yscale": wide,
+                "rotation": degrees(phase(along)),
+            },
+        )
+
+    def _joint(self, radius: float, pen: Pen) -> str:
+        """Return the block of a revolute pair: a circle, nothing to be seen through it."""
+        name = f"JOINT_{radius:.6g}_{_OF_PEN[pen]}"
+        if name not in self._document.blocks:
+            block = self._document.blocks.new(name)
+            block.add_wipeout(_pairs(_circle(0j, radius)))
+            _add_arc(block, Arc(0j, radius), tau, _unlike(LAYERS["SYMBOLS"], pen))
+        return name
+
+    def _letter(self, char: str) -> str:
+        """Return the block of a letter with h = 1, or nothing for a blank."""
+        name = "LETTER_NONE" if LETTERING.missing(char) else f"LETTER_{ord(char):04X}"
+        glyph = LETTERING.outline(char)
+        if glyph.outline and name not in self._document.blocks:
+            hatch = self._document.blocks.new(name).add_hatch(color=256)
+            for contour in _contours(glyph.outline, LETTERING.cap_height):
+                hatch.paths.add_polyline_path(_pairs(contour), is_closed=True)
+        return name if glyph.outline else ""
+
+
+def _unlike(own: Pen, pen: Pen) -> dict[str, Any]:
+    """Return what a line of ``pen`` must say for itself on a layer with the pen ``own``."""
+    said: dict[str, Any] = {}
+    if line_weight(pen) != line_weight(own):
+        said["lineweight"] = line_weight(pen)
+    if LINE_TYPES.get(pen) != LINE_TYPES.get(own):
+        said["linetype"] = LINE_TYPES.get(pen, "Continuous")
+    if PENS[pen].grey != PENS[own].grey:
+        said["true_color"] = _grey(PENS[pen])
+    return said
+
+
+def _pairs(points: Iterable[complex]) -> list[tuple[float, float]]:
+    return [(point.real, point.imag) for point in points]
+
+
+def _add_arc(space: Any, item: Arc, turn: float, attributes: dict[str, Any]) -> None:
+    centre = (item.centre.real, item.centre.imag)
+    if turn >= tau:
+        space.add_circle(centre, item.radius, dxfattribs=attributes)
+    else:
+        ends = degrees(item.start) % 360.0, degrees(item.start + turn) % 360.0
+        space.add_arc(centre, item.radius, *ends, dxfattribs=attributes)
+
+
+def _circle(centre: complex, radius: float) -> list[complex]:
+    count = max(24, ceil(pi / acos(max(0.0, 1.0 - _WITHIN / radius))))
+    return [centre + radius * exp(1j * tau * k / count) for k in range(count)]
+
+
+def _is_smooth(points: Sequence[complex]) -> bool:
+    steps = [b - a for a, b in pairwise(points) if a != b]
+    return all(abs(phase(after / before)) < _SMOOTH for before, after in pairwise(steps))
+
+
+def _arrowhead(points: Sequence[complex]) -> tuple[complex, complex, float, float] | None:
+    """Return tip, direction, length and width if the polygon is an arrowhead, else None."""
+    if len(points) != 4:
+        return None
+    tip, left, notch, right = points
+    middle = (left + right) / 2.0
+    length, width = abs(tip - middle), abs(left - right)
+    if length < 1e-6 or width < 1e-6:
+        return None
+    along = (tip - middle) / length
+    straight = abs(left - middle - along * 1j * width / 2.0)
+    cut = abs(tip - along * length * (1.0 - ARROW.notch / ARROW.length) - notch)
+    return (tip, along, length, width) if max(straight, cut) < 1e-6 else None
+
+
+def _leads(shaft: Stroke, tip: complex, along: complex, length: float) -> bool:
+    """Return whether a line runs into the arrowhead that ends at ``tip``."""
+    start, stop = shaft.points
+    ahead = [(tip - point) / along for point in (start, stop)]
+    return all(abs(way.imag) < 1e-6 for way in ahead) and (
+        ahead[0].real > ahead[1].real and 0.0 <= ahead[1].real <= length
+    )
+
+
+def _contours(outline: str, unit: float) -> list[list[complex]]:
+    """Return the contours of a letter as polygons, ``unit`` font units to 1."""
+    contours: list[list[complex]] = []
+    for verb, numbers in _VERBS.findall(outline):
+        values = [float(number) / unit for number in numbers.split()]
+        points = [complex(x, y) for x, y in zip(values[::2], values[1::2], strict=True)]
+        if verb == "M":
+            contours.append(points)
+        elif verb == "L":
+            contours[-1] += points
+        elif verb == "Q":
+            a, (b, c) = contours[-1][-1], points
+            count = max(1, ceil(sqrt(abs(a - 2 * b + c) / (4.0 * _LETTER_WITHIN))))
+            places = (k / count for k in range(1, count + 1))
+            contours[-1] += [a * (1 - t) ** 2 + 2 * b * t * (1 - t) + c * t**2 for t in places]
+    return contours

@@ -1,0 +1,395 @@
+"""DXF: what a CAD program finds in the file, and that the sheet's millimetres are in it."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from cmath import rect
+from collections import Counter
+from collections.abc import Callable
+from io import StringIO
+from math import pi, tau
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+from click.testing import CliRunner, Result
+from reading import Path as Painted
+from reading import Run, read_dxf
+from worked import PROBLEMS, ROOT, SIX, every_file, path_of, problem_of
+
+from planmethod.cli import cli
+from planmethod.mechanism.structure import analyse
+from planmethod.plans.model import PlanKind, VectorKind
+from planmethod.plans.scaling import own_scale
+from planmethod.plans.solution import Solution
+from planmethod.problem import load
+from planmethod.render.backends import Options, render
+from planmethod.render.backends.dxf import FONT, LAYERS, LINE_TYPES, layer_of
+from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.lettering import LETTERING
+from planmethod.render.sheets import kinematics
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.structure import structure_sheet
+from planmethod.render.style import PENS, sweep
+from planmethod.render.symbols import arrowhead, revolute, turn_arrow, vector_arrow
+
+NEAR = 0.01  # mm
+FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}
+STROKES = Options(dxf_text="strokes")
+
+
+def read(data: bytes) -> Any:
+    library: Any = ezdxf
+    return library.read(StringIO(data.decode("utf-8")))
+
+
+def space_of(*items: Any) -> Any:
+    return read(render(Drawing(210.0, 297.0, items=list(items)), "dxf")).modelspace()
+
+
+def kinds(space: Any) -> list[str]:
+    return [entity.dxftype() for entity in space]
+
+
+def point(place: Any) -> complex:
+    return complex(place[0], place[1])
+
+
+def near(a: complex, b: complex) -> bool:
+    return abs(a - b) < NEAR
+
+
+def program(*args: object) -> Result:
+    return CliRunner().invoke(cli, [str(word) for word in args])
+
+
+# Whole sheets -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("options", [Options(), STROKES], ids=["text", "strokes"])
+@pytest.mark.parametrize("name", FILES)
+def test_the_audit_of_every_sheet_has_nothing_to_say(name: str, options: Options) -> None:
+    for drawing in kinematics_sheets(load(FILES[name])):
+        document = read(render(drawing, "dxf", options=options))
+        found = document.audit()
+        assert (found.errors, found.fixes) == ([], [])
+        assert document.dxfversion == "AC1024"  # R2010
+        assert document.header["$INSUNITS"] == 4
+        assert document.header["$EXTMAX"] == (drawing.width, drawing.height, 0.0)
+        layers = {entity.dxf.layer for entity in document.modelspace()}
+        assert layers <= set(LAYERS)
+
+
+def test_the_audit_of_sheets_with_a_dozen_positions_has_nothing_to_say() -> None:
+    asked = [30.0 * k for k in range(12)]
+    for drawing in kinematics_sheets(problem_of("linkages/ex1"), positions=asked):
+        found = read(render(drawing, "dxf")).audit()
+        assert (found.errors, found.fixes) == ([], [])
+
+
+def test_the_structure_sheet_and_error_ellipses_are_drawn() -> None:
+    problem = problem_of("linkages/ex3")
+    sheets = [structure_sheet(problem, analyse(problem.mechanism))]
+    sheets += kinematics_sheets(problem, errors=True)
+    for drawing in sheets:
+        document = read(render(drawing, "dxf"))
+        assert not document.audit().errors
+    assert document.modelspace().query('*[layer=="ERRORS"]')
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None:
+    (drawing,) = kinematics_sheets(problem_of(name))
+    page = read_dxf(render(drawing, "dxf"))
+    assert (page.width, page.height) == (drawing.width, drawing.height)
+    runs = [item for item in page.items if isinstance(item, Run)]
+    wanted = [item for item in drawing.items if isinstance(item, Text) and item.text.strip()]
+    assert [run.text for run in runs] == [item.text.strip() for item in wanted]
+    for run, text in zip(runs, wanted, strict=True):
+        assert near(run.at, text.at) or text.text.startswith(" ")
+        assert run.em == pytest.approx(LETTERING.em(text.height), abs=1e-6)
+
+    lines = [item.corners for item in page.items if isinstance(item, Painted) and item.corners]
+    starts = {(round(c[0].real, 1), round(c[0].imag, 1)) for c in lines}
+    for item in drawing.items:
+        if not isinstance(item, Stroke) or len(set(item.points)) < 2:
+            continue
+        a = item.points[0]
+        # The line of a vector goes on to the tip of its arrow: it starts where it did.
+        assert (round(a.real, 1), round(a.imag, 1)) in starts, item
+        if item.tag in {kind.value for kind in VectorKind}:
+            continue
+        same = [
+            c
+            for c in lines
+            if len(c) == len(item.points)
+            and all(near(p, q) for p, q in zip(c, item.points, strict=True))
+        ]
+        assert same, item
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_circles_and_arcs_of_a_sheet_are_where_they_were_put(name: str) -> None:
+    (drawing,) = kinematics_sheets(problem_of(name))
+    found = []
+    for entity in read(render(drawing, "dxf")).modelspace():
+        parts = entity.virtual_entities() if entity.dxftype() == "INSERT" else [entity]
+        found += [part for part in parts if part.dxftype() in {"CIRCLE", "ARC"}]
+    for item in drawing.items:
+        if not isinstance(item, Arc):
+            continue
+        whole = sweep(item) >= tau
+        assert any(
+            part.dxftype() == ("CIRCLE" if whole else "ARC")
+            and near(point(part.dxf.center), item.centre)
+            and abs(part.dxf.radius - item.radius) < NEAR
+            and (
+                whole
+                or (
+                    near(point(part.start_point), item.centre + item.radius * turn(item.start))
+                    and near(point(part.end_point), item.centre + item.radius * turn(item.end))
+                )
+            )
+            for part in found
+        ), item
+
+
+def turn(angle: float) -> complex:
+    return rect(1.0, angle)
+
+
+# What is measured ---------------------------------------------------------------------------------
+
+
+def solved_while(draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch) -> tuple[Any, Any]:
+    """Return the sheets and the last solution that was made for them."""
+    made: list[Solution] = []
+
+    def kept(*args: Any, **kwargs: Any) -> Solution:
+        made.append(Solution(*args, **kwargs))
+        return made[-1]
+
+    patch.setattr(kinematics, "Solution", kept)
+    return draw(), made[-1]
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sheets, solution = solved_while(lambda: kinematics_sheets(problem_of(name)), monkeypatch)
+    lines = [
+        (point(line.dxf.start), point(line.dxf.end))
+        for drawing in sheets
+        for line in read(render(drawing, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
+    ]
+    exact = [
+        segment.exact[0] * solution.scales[kind].per_mm / own_scale(solution, kind, 0).per_mm
+        for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
+        for segment in solution.segments(kind)
+    ]
+    drawn = sorted(length for length in exact if length >= 0.3)
+    assert sorted(abs(b - a) for a, b in lines) == pytest.approx(drawn, abs=1e-6)
+
+
+def test_pb_of_the_third_example_is_64_mm() -> None:
+    (drawing,) = kinematics_sheets(problem_of("linkages/ex3"))
+    space = read(render(drawing, "dxf")).modelspace()
+    line = space.query('LINE[layer=="PLAN_VECTORS"]')[0]
+    assert abs(point(line.dxf.end) - point(line.dxf.start)) == pytest.approx(64.0, abs=1e-9)
+
+
+def test_a_thick_vector_keeps_its_thickness_beside_its_line() -> None:
+    space = space_of(*vector_arrow(10 + 10j, 50 + 40j, tag="absolute"))
+    assert kinds(space) == ["SOLID", "LINE", "INSERT"]
+    body, line, head = space
+    assert (point(line.dxf.start), point(line.dxf.end)) == (10 + 10j, 50 + 40j)
+    assert point(head.dxf.insert) == 50 + 40j
+    a, b, _, _ = (point(corner) for corner in body.vertices())
+    assert abs(a - b) == pytest.approx(PENS[Pen.MAIN].width)
+    assert {body.dxf.layer, head.dxf.layer} == {"PLAN_ARROWS"}
+
+
+def test_a_thin_vector_is_a_line_and_a_head() -> None:
+    space = space_of(*vector_arrow(10 + 10j, 50 + 40j, pen=Pen.THIN, tag="normal"))
+    assert kinds(space) == ["LINE", "INSERT"]
+    assert point(space[0].dxf.end) == 50 + 40j
+
+
+# Entities -----------------------------------------------------------------------------------------
+
+
+def test_layers_have_the_pens_and_line_types_the_dashes() -> None:
+    document = read(render(Drawing(10.0, 10.0), "dxf"))
+    for name, pen in LAYERS.items():
+        layer = document.layers.get(name)
+        assert layer.dxf.lineweight == round(100 * PENS[pen].width)
+        assert layer.dxf.linetype == LINE_TYPES.get(pen, "Continuous")
+        assert (layer.rgb or (0, 0, 0))[0] == pytest.approx(255 * PENS[pen].grey, abs=0.5)
+    for pen, name in LINE_TYPES.items():
+        dashes = PENS[pen].dashes
+        assert dashes
+        pattern = document.linetypes.get(name).simplified_line_pattern()
+        assert sum(pattern) == pytest.approx(dashes.stroke + dashes.gap)
+        assert pattern[0] == dashes.stroke
+        assert (pattern[2:3] == (dashes.dot,)) == bool(dashes.dot)
+
+
+@pytest.mark.parametrize("pen", Pen)
+@pytest.mark.parametrize("tag", ["", "table", "stamp", "link 3", "guide", "similar"])
+def test_a_line_looks_as_its_pen_on_every_layer(pen: Pen, tag: str) -> None:
+    data = render(Drawing(50.0, 50.0, items=[Stroke((1 + 1j, 40 + 30j), pen, tag=tag)]), "dxf")
+    document = read(data)
+    (line,) = document.modelspace()
+    layer = document.layers.get(layer_of(tag, pen))
+    assert line.dxf.layer == layer.dxf.name
+    linetype = line.dxf.get("linetype", layer.dxf.linetype)
+    assert linetype == LINE_TYPES.get(pen, "Continuous")
+    (path,) = read_dxf(data).items
+    assert isinstance(path, Painted)
+    assert path.width == PENS[pen].width
+    assert path.grey == pytest.approx(PENS[pen].grey, abs=0.01)
+
+
+def test_joints_and_arrowheads_are_blocks() -> None:
+    joints = [item for k in range(4) for item in revolute(complex(10 * k, 5))]
+    document = read(render(Drawing(90.0, 90.0, items=joints), "dxf"))
+    space = document.modelspace()
+    assert kinds(space) == ["INSERT"] * 4
+    assert len({entity.dxf.name for entity in space}) == 1
+    block = document.blocks.get(space[0].dxf.name)
+    assert [entity.dxftype() for entity in block] == ["WIPEOUT", "CIRCLE"]
+
+    angles = (0.0, 1.0, 2.5, -pi / 2)
+    heads = [head for a in angles for head in arrowhead(20 + 20j, turn(a), length=3.0 + a)]
+    page = read_dxf(render(Drawing(90.0, 90.0, items=heads), "dxf"))
+    for path, head in zip(page.items, heads, strict=True):
+        assert isinstance(path, Painted)
+        assert isinstance(head, Fill)
+        assert all(near(p, q) for p, q in zip(path.corners, head.points, strict=True))
+        assert path.filled
+    assert kinds(space_of(*turn_arrow(20 + 20j, 9.0, 1))) == ["ARC", "INSERT"]
+
+
+def test_white_hides_and_black_fills() -> None:
+    space = space_of(
+        Stroke((0j, 50 + 50j)),
+        Disc(20 + 20j, 4.0),
+        Fill((1 + 1j, 9 + 1j, 5 + 8j), Ink.WHITE),
+        Disc(30 + 30j, 1.0, Ink.BLACK),
+        Fill((1 + 1j, 9 + 1j, 5 + 8j)),
+    )
+    assert kinds(space) == ["LINE", "WIPEOUT", "WIPEOUT", "HATCH", "CIRCLE", "HATCH"]
+    assert {entity.dxf.layer for entity in space.query("WIPEOUT")} == {"MASKS"}
+    corners = [point(corner) for corner in space[1].boundary_path_wcs()]
+    assert all(near(abs(corner - (20 + 20j)), 4.0) for corner in corners)
+
+
+def test_a_dashed_curve_is_one_polyline() -> None:
+    curve = tuple(30 + 30j + 20 * turn(k / 20) for k in range(60))
+    space = space_of(Stroke(curve, Pen.HIDDEN), Stroke((1j, 30 + 1j, 30 + 30j), Pen.HIDDEN))
+    assert kinds(space) == ["LWPOLYLINE"] * 2
+    assert [entity.dxf.flags & 128 for entity in space] == [128, 0]
+
+
+# Letters ------------------------------------------------------------------------------------------
+
+
+def test_text_is_text_of_the_width_of_the_sheet() -> None:
+    texts = [
+        Text(10 + 20j, "План скоростей", 5.0),
+        Text(50 + 50j, "ω₂ = 15,48 ⊥BC", 3.5, angle=90.0),
+        Text(70 + 50j, "ёЁ ", 2.5, angle=-30.0, tag="stamp"),
+        Text(70 + 90j, " ^x %%d 50%", 2.5),
+    ]
+    document = read(render(Drawing(210.0, 297.0, items=[*texts]), "dxf"))
+    assert document.styles.get("SHEET").dxf.font == FONT
+    for entity, item in zip(document.modelspace(), texts, strict=True):
+        assert entity.dxftype() == "TEXT"
+        assert entity.plain_text() == item.text.strip()
+        assert entity.dxf.height == item.height
+        assert entity.dxf.style == "SHEET"
+        start, end = point(entity.dxf.insert), point(entity.dxf.align_point)
+        assert abs(end - start) == pytest.approx(LETTERING.width(item.text.strip(), item.height))
+        way = turn(item.angle * pi / 180)
+        lead = LETTERING.width(" ", item.height) if item.text[0] == " " else 0.0
+        assert near(start, item.at + lead * way)
+        assert near((end - start) / abs(end - start), way)
+    layers = [entity.dxf.layer for entity in document.modelspace()]
+    assert layers == ["TEXT", "TEXT", "TITLE_BLOCK", "TEXT"]
+
+
+def test_the_words_of_a_sheet_are_found() -> None:
+    (drawing,) = kinematics_sheets(problem_of("linkages/ex3"))
+    space = read(render(drawing, "dxf")).modelspace()
+    words = {entity.plain_text() for entity in space.query("TEXT")}
+    assert {"План скоростей", "План ускорений", "Кафедра ТММ", "Разраб."} <= words
+
+
+def test_outlines_have_the_extents_of_the_letters() -> None:
+    for angle in (0.0, 90.0):
+        item = Text(30 + 40j, "Жук b8", 5.0, angle=angle)
+        data = render(Drawing(210.0, 297.0, items=[item]), "dxf", options=STROKES)
+        assert set(kinds(read(data).modelspace())) == {"INSERT"}
+        paths = [path for path in read_dxf(data).items if isinstance(path, Painted)]
+        assert len(paths) == 5
+        flat = [(z - item.at) / turn(angle * pi / 180) for path in paths for z in path.corners]
+        xs, ys = [z.real for z in flat], [z.imag for z in flat]
+        ink = LETTERING.ink(item.text, item.height)
+        assert (min(xs), min(ys), max(xs), max(ys)) == pytest.approx(ink, abs=NEAR)
+
+
+# Files and the command line -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("options", [Options(), STROKES], ids=["text", "strokes"])
+def test_the_same_bytes_twice(options: Options) -> None:
+    (drawing,) = kinematics_sheets(problem_of("linkages/ex3"))
+    assert render(drawing, "dxf", options=options) == render(drawing, "dxf", options=options)
+
+
+def test_the_option_chooses_the_letters(tmp_path: Path) -> None:
+    ex3 = path_of("linkages/ex3")
+    found = {}
+    for how in ("text", "strokes"):
+        asked = ("--format", "dxf", "--dxf-text", how, "-o", tmp_path / how)
+        assert program("sheet", ex3, *asked).exit_code == 0
+        assert program("structure", ex3, *asked).exit_code == 0
+        for name in ("ex3", "ex3-structure"):
+            data = (tmp_path / how / f"{name}.dxf").read_bytes()
+            found[how, name] = Counter(kinds(read(data).modelspace()))["TEXT"]
+    assert found["text", "ex3"] > 100
+    assert found["text", "ex3-structure"] > 50
+    assert found["strokes", "ex3"] == found["strokes", "ex3-structure"] == 0
+    assert program("sheet", ex3, "--dxf-text", "shx").exit_code == 2
+
+
+def test_without_its_library_it_is_told_what_to_install(tmp_path: Path) -> None:
+    code = (
+        "import importlib.util as u, sys\n"
+        "found = u.find_spec\n"
+        "u.find_spec = lambda name, *rest: None if name == 'ezdxf' else found(name, *rest)\n"
+        "from planmethod.cli import main\n"
+        "sys.argv = ['planmethod', *sys.argv[1:]]\n"
+        "main()"
+    )
+    for command in ("sheet", "structure"):
+        done = subprocess.run(
+            [sys.executable, "-c", code, command, path_of("linkages/ex3"), "--format", "svg,dxf"],
+            capture_output=True,
+            encoding="utf-8",
+            cwd=tmp_path,
+            timeout=120,
+        )
+        assert done.returncode == 2
+        assert "DXF needs ezdxf: pip install 'planmethod[dxf]'" in done.stderr
+        assert not list(tmp_path.iterdir())
+
+
+def test_the_document_lists_the_layers_as_they_are() -> None:
+    text = (ROOT / "docs" / "dxf.md").read_text(encoding="utf-8")
+    rows = re.findall(r"(?m)^\| `(\w+)` \|.*\| ([\d.]+) \|$", text)
+    assert rows == [(name, f"{PENS[pen].width:g}") for name, pen in LAYERS.items()]
