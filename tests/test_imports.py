@@ -75,6 +75,7 @@ def test_the_package_alone_imports_nothing(tmp_path: Path) -> None:
             {"numpy", "shapely", "ezdxf"},
             {"matplotlib", "mpmath", "svgwrite", "reportlab", "scipy", "PIL"},
         ),
+        (("lint", EX3), {"numpy", "shapely"}, {*ALL, *FONTS} - {"numpy", "shapely"}),
         (("solve", EX3), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("solve", EX3, "--json"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),
         (("solve", EX3, "--csv"), {"numpy"}, {*ALL, *FONTS} - {"numpy"}),

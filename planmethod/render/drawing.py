@@ -96,14 +96,59 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax in mm."""
 
 
+@dataclass(frozen=True, slots=True)
+class Span:
+    """One segment of a plan as it lies on the sheet (отрезок плана).
+
+    ``name`` is its letters, ``position`` the number of the position as the sheet has it (None when
+    there is one), ``start`` and ``end`` are mm.
+    """
+
+    name: str
+    position: int | None
+    start: complex
+    end: complex
+
+    @property
+    def length(self) -> float:
+        """Length, mm."""
+        return abs(self.end - self.start)
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """One view of a sheet, for those who look the sheet over (вид).
+
+    Attributes
+    ----------
+    kind : str
+        ``position``, ``velocity``, ``acceleration`` or ``structure``.
+    box : Bounds, mm
+        The picture with its title and inscriptions.
+    scale : str
+        What the inscription of its scale begins with, ``μ_{v}``; empty where a view has no scale.
+    per_mm : float
+        The scale, SI units per mm.
+    spans : tuple of Span
+        The segments that are measured on it.
+    """
+
+    kind: str
+    box: Bounds
+    scale: str = ""
+    per_mm: float = 0.0
+    spans: tuple[Span, ...] = ()
+
+
 @dataclass(slots=True)
 class Drawing:
-    """Display list of one sheet, drawn in order (чертёж)."""
+    """Display list of one sheet, drawn in order (чертёж), and what its views are."""
 
     width: float
     height: float
     title: str = ""
     items: list[Item] = field(default_factory=list)
+    views: list[View] = field(default_factory=list)
 
     def add(self, *items: Item) -> None:
         """Append items."""

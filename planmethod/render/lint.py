@@ -1,6 +1,8 @@
 """Lint of a display list (нормоконтроль чертежа): what a norm controller would mark in texts.
 
-The lint knows nothing of mechanisms: it looks at the paper. Codes:
+The lint knows nothing of mechanisms: it looks at the paper. Lines, views and the sheet as a whole
+are looked at by `planmethod.render.normcontrol`; what is said is in `planmethod.render.remarks`.
+Codes:
 
 ``PM-D01``  two inscriptions overlap
 ``PM-D02``  an inscription lies on a line, arc or filled area
@@ -22,17 +24,12 @@ from planmethod.render.block import CUT
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.frame import MARGIN_NOTE, STAMP
 from planmethod.render.lettering import LETTERING, Lettering
+from planmethod.render.remarks import REMARKS, Facts, Severity, action, what
 from planmethod.render.symbols import arc_points
 from planmethod.render.typeset import PART_OF, SMALLEST, text_corners
 
-CODES = {
-    "PM-D01": "inscriptions overlap",
-    "PM-D02": "inscription on a line",
-    "PM-D03": "text outside its cell",
-    "PM-D04": "text outside the frame",
-    "PM-D05": "letters too small",
-    "PM-D06": "text shortened",
-}
+CODES = {code: remark.said["en"].title for code, remark in REMARKS.items()}
+"""Every code of the norm control, those of `planmethod.render.normcontrol` too, and its title."""
 
 SMALLEST_OF_ALL = 1.8
 """Smallest height of an index and in the title block, mm (the smallest of GOST 2.304)."""
@@ -42,30 +39,54 @@ _TOUCH = 0.05  # mm: what is not yet an overlap
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing the lint has to say (замечание).
+    """One thing the norm control has to say (замечание).
 
     Attributes
     ----------
     code : str
         One of `CODES`.
     where : complex, mm
-        Place on the sheet.
-    message : str
-        What, where, with numbers.
+        Place on the sheet, from its lower left corner.
     value, limit : float
-        What was found and what is allowed: mm, or mm² for overlaps.
+        What was found and what is allowed: mm, mm² for overlaps, per cent for unused paper.
+    facts : mapping
+        What else the sentences of the code need.
+    view : str
+        Kind of the view it is found on, ``stamp``, or empty.
+    position : int, optional
+        Number of the position whose plan it is found on.
     """
 
     code: str
     where: complex
-    message: str
     value: float
     limit: float
+    facts: Facts
+    view: str = ""
+    position: int | None = None
+
+    @property
+    def severity(self) -> Severity:
+        """How grave it is."""
+        return REMARKS[self.code].severity
+
+    @property
+    def message(self) -> str:
+        """What, where, with numbers, in English."""
+        return self.what("en")
+
+    def what(self, lang: str) -> str:
+        """Return what is wrong, where, with numbers."""
+        return what(self.code, self.where, self.value, self.limit, self.facts, lang=lang)
+
+    def action(self, lang: str) -> str:
+        """Return what to do about it."""
+        return action(self.code, self.where, self.value, self.limit, self.facts, lang=lang)
 
 
 @dataclass(frozen=True, slots=True)
-class _Writing:
-    """One inscription: its runs, the ink boxes, and where in the drawing order it stands."""
+class Writing:
+    """One inscription (надпись): its runs, the ink boxes, where in the drawing order it stands."""
 
     name: str
     runs: tuple[Text, ...]
@@ -75,10 +96,12 @@ class _Writing:
 
     @property
     def shown(self) -> str:
+        """Its letters, those of the indices too."""
         return "".join(run.text for run in self.runs)
 
     @property
     def where(self) -> complex:
+        """Place of its first run, mm."""
         return self.runs[0].at
 
 
@@ -105,7 +128,7 @@ def lint(
     list of Finding
         In the order of the codes, then of the drawing.
     """
-    writings = _writings(items, lettering)
+    writings = writings_of(items, lettering)
     findings = [
         *_overlaps(writings),
         *_crossed(writings, items, frozenset(ignore)),
@@ -116,14 +139,14 @@ def lint(
     return sorted(findings, key=lambda finding: finding.code)
 
 
-def _writings(items: Sequence[Item], lettering: Lettering) -> list[_Writing]:
+def writings_of(items: Sequence[Item], lettering: Lettering = LETTERING) -> list[Writing]:
     """Join the runs of one label."""
     groups: dict[str, list[tuple[int, Text]]] = {}
     for k, item in enumerate(items):
         if isinstance(item, Text) and item.text.strip():
             groups.setdefault(item.label or f"\0{k}", []).append((k, item))
     return [
-        _Writing(
+        Writing(
             name,
             tuple(run for _, run in members),
             union_all([_ink(run, lettering) for _, run in members]),
@@ -138,7 +161,7 @@ def _ink(run: Text, lettering: Lettering) -> BaseGeometry:
     return Polygon([(p.real, p.imag) for p in text_corners(run, lettering)])
 
 
-def _overlaps(writings: Sequence[_Writing]) -> Iterator[Finding]:
+def _overlaps(writings: Sequence[Writing]) -> Iterator[Finding]:
     inks = [writing.ink for writing in writings]
     if not inks:
         return
@@ -152,9 +175,9 @@ def _overlaps(writings: Sequence[_Writing]) -> Iterator[Finding]:
             yield Finding(
                 "PM-D01",
                 first.where,
-                f"'{first.shown}' and '{second.shown}' overlap at {_place(first.where)}",
                 common.area,
                 0.0,
+                {"one": first.shown, "two": second.shown},
             )
 
 
@@ -164,7 +187,7 @@ def _depth(area: BaseGeometry) -> float:
 
 
 def _crossed(
-    writings: Sequence[_Writing], items: Sequence[Item], ignore: frozenset[Pen]
+    writings: Sequence[Writing], items: Sequence[Item], ignore: frozenset[Pen]
 ) -> Iterator[Finding]:
     """Find lines and areas that run through letters and are not hidden by white."""
     things = [(k, shape) for k, item in enumerate(items) if (shape := _shape(item, ignore))]
@@ -191,10 +214,9 @@ def _crossed(
                 yield Finding(
                     "PM-D02",
                     writing.where,
-                    f"'{writing.shown}' lies on {_called(item)} at {_place(writing.where)}, "
-                    f"{extent:.2f} mm of it",
                     extent,
                     0.0,
+                    {"shown": writing.shown, "thing": called(item)},
                 )
 
 
@@ -217,10 +239,10 @@ def _shape(item: Item, ignore: frozenset[Pen]) -> BaseGeometry | None:
     return None
 
 
-def _called(item: Item) -> str:
-    kind = type(item).__name__.lower()
-    pen = f" {item.pen.value}" if isinstance(item, (Stroke, Arc)) else ""
-    return f"a{pen} {kind}" + (f" ({item.tag})" if item.tag else "")
+def called(item: Item) -> str:
+    """Return what a thing is called in the facts of a finding: kind, pen, tag."""
+    pen = item.pen.value if isinstance(item, (Stroke, Arc)) else ""
+    return f"{type(item).__name__.lower()} {pen} {item.tag}".rstrip()
 
 
 def _outside(
@@ -230,32 +252,32 @@ def _outside(
         if not isinstance(run, Text) or not run.text.strip():
             continue
         ink = _ink(run, lettering).bounds
-        if run.box is not None and (out := _beyond(ink, run.box)) > _TOUCH:
+        if run.box is not None and (out := beyond(ink, run.box)) > _TOUCH:
             yield Finding(
                 "PM-D03",
                 run.at,
-                f"'{run.text}' leaves its cell by {out:.2f} mm at {_place(run.at)}",
                 out,
                 0.0,
+                {"shown": run.text},
             )
         if inner is None or run.tag == MARGIN_NOTE:
             continue
-        if (out := _beyond(ink, inner)) > _TOUCH:
+        if (out := beyond(ink, inner)) > _TOUCH:
             yield Finding(
                 "PM-D04",
                 run.at,
-                f"'{run.text}' leaves the frame by {out:.2f} mm at {_place(run.at)}",
                 out,
                 0.0,
+                {"shown": run.text},
             )
 
 
-def _beyond(ink: Bounds, limits: Bounds) -> float:
+def beyond(ink: Bounds, limits: Bounds) -> float:
     """Return how far a box sticks out of another, mm."""
     return max(limits[0] - ink[0], limits[1] - ink[1], ink[2] - limits[2], ink[3] - limits[3])
 
 
-def _small(writings: Sequence[_Writing]) -> Iterator[Finding]:
+def _small(writings: Sequence[Writing]) -> Iterator[Finding]:
     for writing in writings:
         main = max(run.height for run in writing.runs)
         for run in writing.runs:
@@ -265,24 +287,19 @@ def _small(writings: Sequence[_Writing]) -> Iterator[Finding]:
                 yield Finding(
                     "PM-D05",
                     run.at,
-                    f"'{run.text}' of '{writing.shown}' is {run.height:.2f} mm high, less than "
-                    f"{limit} mm, at {_place(run.at)}",
                     run.height,
                     limit,
+                    {"shown": run.text, "whole": writing.shown},
                 )
 
 
-def _shortened(writings: Sequence[_Writing]) -> Iterator[Finding]:
+def _shortened(writings: Sequence[Writing]) -> Iterator[Finding]:
     for writing in writings:
         if any(CUT in run.tag.split() for run in writing.runs):
             yield Finding(
                 "PM-D06",
                 writing.where,
-                f"'{writing.shown}' was shortened to fit its cell at {_place(writing.where)}",
                 1.0,
                 0.0,
+                {"shown": writing.shown},
             )
-
-
-def _place(at: complex) -> str:
-    return f"({at.real:.1f}, {at.imag:.1f}) mm"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from planmethod.render.block import Block
-from planmethod.render.drawing import Bounds, Item
+from planmethod.render.drawing import Bounds
 
 GAP = 9.0
 """Least white between two blocks, mm."""
@@ -45,8 +45,8 @@ class _Cut:
 _Node: TypeAlias = "_Leaf | _Cut"
 
 
-def pack(blocks: Sequence[Block], inner: Bounds, stamp: Bounds) -> list[Item] | None:
-    """Return the items of blocks put on a sheet, or None when they do not fit it.
+def pack(blocks: Sequence[Block], inner: Bounds, stamp: Bounds) -> list[complex] | None:
+    """Return where the upper left corners of blocks go, mm, or None when they do not fit a sheet.
 
     Parameters
     ----------
@@ -68,15 +68,15 @@ def pack(blocks: Sequence[Block], inner: Bounds, stamp: Bounds) -> list[Item] | 
         return None
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
     boxes = min((_boxes(node, box) for node in fitting), key=lambda b: _unevenness(b, sizes, room))
-    items: list[Item] = []
+    corners: list[complex] = []
     for number, block in enumerate(blocks):
         left, low, right, high = boxes[number]
         if number == len(blocks) - 1:
-            corner = complex(right - block.width, stamp[3] + GAP / 2 + block.height)
+            corners.append(complex(right - block.width, stamp[3] + GAP / 2 + block.height))
         else:
-            corner = complex((left + right - block.width) / 2, (low + high + block.height) / 2)
-        items += block.place(corner)
-    return items
+            middle = complex(left + right, low + high) / 2
+            corners.append(middle + complex(-block.width, block.height) / 2)
+    return corners
 
 
 def _fits(node: _Node, room: tuple[float, float]) -> bool:

@@ -17,6 +17,9 @@ from planmethod.render.labels import Label
 from planmethod.render.symbols import vector_arrow
 from planmethod.render.typeset import typeset
 
+POLE = "pole"
+"""Tag of the disc at a plan's pole: one for each plan that is drawn."""
+
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
 
 
@@ -32,6 +35,18 @@ def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, Point
             if frozenset(side) not in drawn:
                 lines.setdefault(frozenset(side), side)
     return list(lines.values())
+
+
+def plan_places(solution: Solution, kind: PlanKind, index: int) -> dict[PointName, complex]:
+    """Return where the points of a plan lie in one position, mm from its pole.
+
+    A plan near a dead position has a scale of its own: the same figure, smaller.
+    """
+    plan = solution.construction.plan(kind)
+    assert plan.pole is not None
+    ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
+    share = solution.scales[kind].per_mm / own_scale(solution, kind, index).per_mm
+    return {name: complex(solution.complexes(solution.paper, name)[index]) * share for name in ends}
 
 
 @lru_cache(maxsize=256)
@@ -50,10 +65,7 @@ def plan_picture(
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
-    ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
-    # A plan near a dead position has a scale of its own: the same figure, smaller.
-    share = solution.scales[kind].per_mm / own_scale(solution, kind, index).per_mm
-    at = {name: complex(solution.complexes(solution.paper, name)[index]) * share for name in ends}
+    at = plan_places(solution, kind, index)
     factor = min(1.0, letter_height / 5.0 + 0.2)
     ellipses = error_ellipses(solution, kind, index) if errors else Ellipses()
     items: list[Item] = list(ellipses.strokes)
@@ -72,7 +84,7 @@ def plan_picture(
             width=1.6 * factor,
             tag=vector.kind.value,
         )
-    items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag="pole"))
+    items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
     labels = _labels(solution, plan, at, letter_height, f"{kind.value} {index}")
     return lettered(items, labels, clear=ellipses.grounds)
 

@@ -20,7 +20,9 @@ from planmethod.note.given import (
     solution_peak,
     wanted,
 )
+from planmethod.note.letters import shown_letters
 from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
+from planmethod.note.plaintext import plain_text
 from planmethod.note.sigmas import DRAWN, label_of, marked, rounded_to, sigma_text
 from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
@@ -29,12 +31,12 @@ from planmethod.plans.selfcheck import verify
 from planmethod.plans.solution import Reals, Solution
 from planmethod.problem.model import Convention, Problem
 from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
-from planmethod.render.drawing import Bounds, Drawing, Item
+from planmethod.render.drawing import Bounds, Disc, Drawing, Item, Span, View
 from planmethod.render.ellipses import ellipse_inscription
 from planmethod.render.equations import equation_block, formula_block
 from planmethod.render.frame import paper_format, sheet_frame
 from planmethod.render.pack import EDGE, pack
-from planmethod.render.planview import plan_picture
+from planmethod.render.planview import POLE, plan_picture, plan_places
 from planmethod.render.schemeview import scheme_picture
 from planmethod.render.tables import Cell, TableColumn, table_block
 from planmethod.render.typeset import typeset
@@ -101,19 +103,91 @@ def scale_inscription(scale: Scale, convention: Convention) -> str:
     return f"μ_{{{letter}}} = {number(scale.per_mm)} {grouped}/мм"
 
 
+@dataclass(frozen=True)
+class Viewed:
+    """A view among the blocks of a sheet (вид): it knows what is measured on it.
+
+    ``indices`` are the positions whose plans it shows, in the order in which they are drawn.
+    """
+
+    block: Block
+    solution: Solution
+    kind: PlanKind
+    indices: tuple[int, ...]
+
+    @property
+    def width(self) -> float:
+        """Width, mm."""
+        return self.block.width
+
+    @property
+    def height(self) -> float:
+        """Height, mm."""
+        return self.block.height
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of the view."""
+        return self.block.place(corner)
+
+    def view(self, items: Sequence[Item], corner: complex) -> View:
+        """Return what is told of the view whose items were placed at a corner."""
+        left, top = corner.real, corner.imag
+        scale = self.solution.scales[self.kind]
+        letter = scale.symbol.removeprefix("mu_")
+        poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
+        return View(
+            self.kind.value,
+            (left, top - self.height, left + self.width, top),
+            f"μ_{{{letter}}}",
+            scale.per_mm,
+            tuple(
+                span
+                for pole, index in zip(poles, self.indices, strict=False)
+                for span in plan_spans(self.solution, self.kind, index, pole)
+            ),
+        )
+
+
+def plan_spans(solution: Solution, kind: PlanKind, index: int, pole: complex) -> list[Span]:
+    """Return the measured segments of a plan whose pole lies at ``pole`` on the sheet.
+
+    A vector that is nothing beside the plan is zero by nature and no segment.
+    """
+    plan = solution.construction.plan(kind)
+    at = plan_places(solution, kind, index)
+    sizes = [abs(at[vector.head] - at[vector.tail]) for vector in plan.vectors]
+    letters = shown_letters(solution.problem, plan)
+    position = index if len(solution.positions) > 1 else None
+    named = {
+        frozenset((vector.tail, vector.head)): vector
+        for vector, size in zip(plan.vectors, sizes, strict=True)
+        if not is_nothing(size, max(sizes))
+    }
+    return [
+        Span(
+            plain_text(letters[vector.tail][0] + letters[vector.head][0]),
+            position,
+            pole + at[vector.tail],
+            pole + at[vector.head],
+        )
+        for vector in named.values()
+    ]
+
+
 def _view(
     solution: Solution,
     kind: PlanKind,
     picture: Block,
     size: Heights,
     title: str,
+    indices: Sequence[int],
     ellipses: Sequence[int] = (),
-) -> Block:
+) -> Viewed:
     """Return a picture with its title and scale; ``ellipses`` are the positions that have them."""
     convention = solution.problem.scales.convention
     said = [scale_inscription(solution.scales[kind], convention)]
     said += ellipse_inscription(solution, kind, ellipses) if ellipses else []
-    return Column(
+    block = Column(
         [
             picture,
             Column(
@@ -128,6 +202,7 @@ def _view(
         gap=5.0,
         align="centre",
     )
+    return Viewed(block, solution, kind, tuple(indices))
 
 
 def _statement(solution: Solution, size: Heights, width: float) -> Block:
@@ -295,7 +370,7 @@ def _grid(
         Row(cells[k : k + per_row], gap=6.0, align="bottom") for k in range(0, len(cells), per_row)
     ]
     ellipses = indices if errors else ()
-    return _view(solution, kind, Column(rows, gap=6.0), size, MANY_TITLES[kind], ellipses)
+    return _view(solution, kind, Column(rows, gap=6.0), size, MANY_TITLES[kind], indices, ellipses)
 
 
 def _blocks(
@@ -329,12 +404,21 @@ def _blocks(
                 plan_picture(solution, kind, indices[0], letter_height=size.letter, errors=errors),
                 size,
                 TITLES[kind],
+                indices,
                 ellipses,
             )
             for kind in (v, a)
         }
         return [
-            _view(solution, PlanKind.POSITION, scheme, size, TITLES[PlanKind.POSITION], ellipses),
+            _view(
+                solution,
+                PlanKind.POSITION,
+                scheme,
+                size,
+                TITLES[PlanKind.POSITION],
+                indices,
+                ellipses,
+            ),
             statement,
             plans[v],
             _equations(solution, v, size, column),
@@ -351,7 +435,7 @@ def _blocks(
     )
     title, ellipses = MANY_TITLES[PlanKind.POSITION], (bold,) if extras.errors else ()
     return [
-        _view(solution, PlanKind.POSITION, scheme, size, title, ellipses),
+        _view(solution, PlanKind.POSITION, scheme, size, title, indices, ellipses),
         statement,
         _equations(solution, v, size, column),
         _equations(solution, a, size, column),
@@ -376,10 +460,18 @@ def stamp_fields(
     return {key: value for key, value in fields.items() if value}
 
 
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What is inside the frame of one sheet."""
+
+    items: list[Item]
+    views: list[View]
+
+
 def _layouts(
     solution: Solution, indices: Sequence[int], paper: str, extras: Extras, *, forced: bool
-) -> list[list[Item]] | None:
-    """Return the items of the sheet that shows some positions, or None when they do not fit.
+) -> list[Page] | None:
+    """Return the sheet that shows some positions, or None when they do not fit.
 
     The formulas shrink before they are left out. On a format that was asked for one position may
     take several sheets.
@@ -399,7 +491,7 @@ def _layouts(
 
 def _divided(
     blocks: Sequence[Block], count: int, inner: Bounds, stamp: Bounds
-) -> list[list[Item]] | None:
+) -> list[Page] | None:
     """Return blocks put on so many sheets in reading order, the sheets as evenly full as can be."""
     areas = [block.width * block.height for block in blocks]
 
@@ -408,10 +500,21 @@ def _divided(
         return max(sum(areas[i:j]) for i, j in pairwise(edges))
 
     for cuts in sorted(combinations(range(1, len(blocks)), count - 1), key=fullest):
-        packed = [pack(blocks[i:j], inner, stamp) for i, j in pairwise((0, *cuts, len(blocks)))]
-        if all(part is not None for part in packed):
-            return [part for part in packed if part is not None]
+        parts = [blocks[i:j] for i, j in pairwise((0, *cuts, len(blocks)))]
+        packed = [pack(part, inner, stamp) for part in parts]
+        if None not in packed:
+            return [_page(part, at) for part, at in zip(parts, packed, strict=True) if at]
     return None
+
+
+def _page(blocks: Sequence[Block], corners: Sequence[complex]) -> Page:
+    page = Page([], [])
+    for block, corner in zip(blocks, corners, strict=True):
+        items = block.place(corner)
+        page.items.extend(items)
+        if isinstance(block, Viewed):
+            page.views.append(block.view(items, corner))
+    return page
 
 
 def _pages(
@@ -427,7 +530,7 @@ def _pages(
     count = len(solution.positions)
     if per_sheet > 1 and per_sheet // 2 >= count:
         return None
-    layouts: list[list[Item]] = []
+    layouts: list[Page] = []
     for start in range(0, count, per_sheet):
         indices = range(start, min(start + per_sheet, count))
         found = _layouts(solution, indices, paper, extras, forced=forced)
@@ -436,11 +539,12 @@ def _pages(
         layouts += found
     fmt = paper_format(paper)
     sheets = []
-    for page, items in enumerate(layouts, 1):
-        told = stamp_fields(solution.problem, page, len(layouts), fields)
+    for page_number, page in enumerate(layouts, 1):
+        told = stamp_fields(solution.problem, page_number, len(layouts), fields)
         drawing = Drawing(fmt.width, fmt.height, told.get("title", solution.problem.title))
         drawing.extend(sheet_frame(fmt, told)[0])
-        drawing.extend(items)
+        drawing.extend(page.items)
+        drawing.views.extend(page.views)
         sheets.append(drawing)
     return sheets
 

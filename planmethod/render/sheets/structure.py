@@ -15,7 +15,7 @@ from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.problem.model import Problem
 from planmethod.render.block import Block, Column, Line, Spacer, paragraph
-from planmethod.render.drawing import Bounds, Drawing, Item
+from planmethod.render.drawing import Bounds, Drawing, Item, View
 from planmethod.render.equations import formula_block
 from planmethod.render.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.sheets.structure_texts import (
@@ -120,7 +120,8 @@ def structure_sheet(
         items, inner, stamp = sheet_frame(fmt, texts)
         placed = _compose(problem, structure, MANNERS.get(name, MANNERS["A1"]), inner, stamp)
         if placed is not None:
-            return Drawing(fmt.width, fmt.height, texts["title"], [*items, *placed])
+            shown, views = placed
+            return Drawing(fmt.width, fmt.height, texts["title"], [*items, *shown], views)
     larger = PAPERS[PAPERS.index(names[-1]) + 1 :] if names[-1] in PAPERS else PAPERS
     advice = f"Take --paper {larger[0]}." if larger else "Draw parts of the mechanism on their own."
     raise LayoutError(
@@ -131,8 +132,8 @@ def structure_sheet(
 
 def _compose(
     problem: Problem, structure: Structure, manner: Manner, inner: Bounds, stamp: Bounds
-) -> list[Item] | None:
-    """Return the items inside the frame, or None when they do not fit."""
+) -> tuple[list[Item], list[View]] | None:
+    """Return the items inside the frame and the view, or None when they do not fit."""
     left, right = inner[0] + EDGE, inner[2] - EDGE - manner.column
     top, low = inner[3] - EDGE, stamp[3] + EDGE
     column = _told(problem, structure, manner, manner.column, top - low)
@@ -141,7 +142,9 @@ def _compose(
     pictures = _shown(problem, structure, manner, right - EDGE - GAP - left, top - inner[1] - EDGE)
     if pictures is None:
         return None
-    return [*pictures.place(complex(left, top)), *column.place(complex(right, top))]
+    box = (left, top - pictures.height, left + pictures.width, top)
+    placed = [*pictures.place(complex(left, top)), *column.place(complex(right, top))]
+    return placed, [View("structure", box)]
 
 
 # The right column: tables and formulas ---------------------------------------------------------

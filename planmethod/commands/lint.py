@@ -1,0 +1,103 @@
+"""Command ``lint``: norm control of the sheets (нормоконтроль)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from planmethod.commands.output import is_narrow
+from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.errors import ExitCode
+from planmethod.options import (
+    Positions,
+    drawn_by,
+    lang_option,
+    problem_options,
+    reading_options,
+    stamp_option,
+)
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+    from planmethod.render.sheets.controlled import Controlled
+
+
+@click.command()
+@problem_options
+@reading_options
+@click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
+@stamp_option
+@click.option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
+@click.option("--sigma", is_flag=True, help="With the drafting errors in the table of results.")
+@click.option(
+    "--structure", "structural", is_flag=True, help="The structural sheet instead of the plans'."
+)
+@click.option("--strict", is_flag=True, help="Warnings make exit code 1, too.")
+@click.option("--json", "as_json", is_flag=True, help="The findings as one object.")
+@lang_option
+@guarded
+def lint(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: Positions | None,
+    ruler: float | None,
+    profile: str,
+    paper: str | None,
+    stamp: dict[str, str],
+    errors: bool,
+    sigma: bool,
+    structural: bool,
+    strict: bool,
+    as_json: bool,
+    lang: str,
+) -> None:
+    """Look the sheets over and say what a norm inspector would mark (нормоконтроль).
+
+    PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
+    with the same options, and are not written. Exit code 0 when there is nothing to correct, 1 when
+    there are errors. The codes: docs/normcontrol.md.
+    """
+    from planmethod.render.remarks import Severity
+    from planmethod.render.sheets.control_report import control_record, control_text, counted
+    from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
+
+    if structural and (phi is not None or errors or sigma):
+        raise click.UsageError(
+            "--phi, --errors and --sigma are of the plans; the sheet of --structure has none"
+        )
+    positions = None if phi is None else phi.tolist()
+    records: list[dict[str, Any]] = []
+    found: list[Controlled] = []
+
+    def look(problem: Problem) -> None:
+        if structural:
+            sheets = controlled_structure(problem, paper=paper, fields=stamp)
+        else:
+            sheets = controlled_kinematics(
+                problem,
+                paper=paper,
+                positions=positions,
+                profile=drawn_by(profile, ruler),
+                fields=stamp,
+                errors=errors,
+                sigma=sigma,
+            )
+        found.extend(sheets)
+        if as_json:
+            kind = "structure" if structural else "kinematics"
+            records.append(control_record(problem, kind, sheets, lang))
+        else:
+            click.echo(control_text(stem(problem), sheets, lang))
+
+    code = each(problems, variant, all_variants, look)
+    if records:
+        import json
+
+        whole: Any = records[0] if len(records) == 1 else records
+        click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
+    finish(code)
+    marked = counted(found, Severity.ERROR) + (counted(found, Severity.WARNING) if strict else 0)
+    finish(ExitCode.FINDINGS if marked else ExitCode.DONE)

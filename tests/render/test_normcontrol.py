@@ -1,0 +1,359 @@
+"""Norm control of whole sheets: every code has a drawing that shows it and one that does not."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from string import Formatter
+
+import pytest
+from worked import ROOT, every_file, problem_of
+
+from planmethod.mechanism.structure import analyse
+from planmethod.problem import load, variant_names
+from planmethod.render.block import CUT
+from planmethod.render.drawing import (
+    Arc,
+    Disc,
+    Drawing,
+    Fill,
+    Ink,
+    Item,
+    Pen,
+    Span,
+    Stroke,
+    Text,
+    View,
+)
+from planmethod.render.frame import FORMATS, sheet_frame
+from planmethod.render.lint import CODES, Finding
+from planmethod.render.normcontrol import inspect, unused_paper
+from planmethod.render.remarks import (
+    LANGUAGES,
+    PLACES,
+    REMARKS,
+    SEVERITIES,
+    UNITS,
+    Severity,
+    UnknownRemarkError,
+)
+from planmethod.render.sheets.control_report import control_text
+from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.structure import structure_sheet
+from planmethod.render.typeset import typeset
+from planmethod.render.unused import CELL, largest_empty
+
+A4 = FORMATS["A4"]
+BOX = (40.0, 100.0, 160.0, 220.0)
+AT = 60 + 150j
+SCALE = tuple(typeset("μ_{v} = 0,05 (м/с)/мм", 5).at(60 + 105j))
+LONG = Span("pb", None, 60 + 200j, 90 + 200j)
+VIEW = View("velocity", BOX, "μ_{v}", 0.05, (LONG,))
+# Ink all over the sheet, with room for what a test adds: no large rectangle is empty.
+GROUND = tuple(
+    Stroke((complex(x, y), complex(x + 1, y)), Pen.THIN)
+    for x in range(30, 200, 34)
+    for y in range(63, 290, 34)
+)
+
+
+def sheet(*items: Item, views: tuple[View, ...] = (), ground: bool = True) -> Drawing:
+    frame = sheet_frame(A4)[0]
+    spread = GROUND if ground else ()
+    return Drawing(A4.width, A4.height, "", [*frame, *spread, *items], list(views))
+
+
+def found(drawing: Drawing) -> list[Finding]:
+    return inspect(drawing)
+
+
+def codes(drawing: Drawing) -> list[str]:
+    return [finding.code for finding in found(drawing)]
+
+
+def word(text: str = "слово", at: complex = AT, height: float = 5.0, **more: object) -> Text:
+    return replace(Text(at, text, height), **more)  # type: ignore[arg-type]
+
+
+SHOWN: dict[str, tuple[Drawing, Drawing]] = {
+    "PM-D01": (sheet(word(), word("Б", AT + 2)), sheet(word(), word("Б", AT - 12j))),
+    "PM-D02": (
+        sheet(word(), Stroke((AT + 2j, AT + 20 + 2j))),
+        sheet(word(), Stroke((AT - 2j, AT + 20 - 2j))),
+    ),
+    "PM-D03": (
+        sheet(word(box=(58.0, 148.0, 65.0, 158.0))),
+        sheet(word(box=(58.0, 148.0, 95.0, 158.0))),
+    ),
+    "PM-D04": (sheet(word("Б", 8 + 150j)), sheet(word("Б", 22 + 150j))),
+    "PM-D05": (sheet(word(height=1.8)), sheet(word(height=2.5))),
+    "PM-D06": (sheet(word("сло…", tag=CUT)), sheet(word("сло…"))),
+    "PM-D07": (
+        sheet(Stroke((50 + 150j, 12 + 150j)), *SCALE, views=(VIEW,)),
+        sheet(Stroke((50 + 150j, 21 + 150j)), *SCALE, views=(VIEW,)),
+    ),
+    "PM-D08": (
+        sheet(
+            *SCALE,
+            views=(replace(VIEW, spans=(LONG, Span("bc", None, 60 + 200j, 60 + 203j))),),
+        ),
+        sheet(
+            *SCALE,
+            views=(replace(VIEW, spans=(LONG, Span("bc", None, 60 + 200j, 60 + 205j))),),
+        ),
+    ),
+    "PM-D09": (sheet(views=(VIEW,)), sheet(*SCALE, views=(VIEW,))),
+    "PM-D10": (sheet(ground=False), sheet()),
+    "PM-D11": (
+        sheet(Stroke((AT, AT + 5), Pen.HIDDEN)),
+        sheet(Stroke((AT, AT + 8), Pen.HIDDEN)),
+    ),
+}
+"""Of every code a sheet that shows it and one that does not."""
+
+
+def test_every_code_is_shown() -> None:
+    assert set(SHOWN) == set(REMARKS) == set(CODES)
+
+
+@pytest.mark.parametrize("code", SHOWN)
+def test_a_sheet_that_shows_it_and_one_that_does_not(code: str) -> None:
+    bad, good = SHOWN[code]
+    assert codes(bad) == [code]
+    assert codes(good) == []
+
+
+# What is said -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("code", SHOWN)
+def test_a_finding_says_what_where_and_what_next(code: str, lang: str) -> None:
+    (finding,) = found(SHOWN[code][0])
+    told = finding.what(lang)
+    x, y = (f"{part:.1f}" for part in (finding.where.real, finding.where.imag))
+    place = f"({x}, {y}) mm" if lang == "en" else f"({x}; {y}) мм".replace(".", ",")
+    assert place in told
+    assert finding.action(lang).endswith(".")
+    assert "{" not in told + finding.action(lang)
+    own = re.sub("слово|сло…|Б|μv", "", told + finding.action(lang))
+    assert bool(re.search("[а-яё]", own, re.IGNORECASE)) is (lang == "ru")
+
+
+@pytest.mark.parametrize("code", REMARKS)
+def test_both_languages_fill_the_same_places(code: str) -> None:
+    remark = REMARKS[code]
+    assert set(remark.said) == set(LANGUAGES)
+    one, other = (remark.said[lang] for lang in LANGUAGES)
+
+    def places(text: str) -> set[str]:
+        return {name for _, name, _, _ in Formatter().parse(text) if name}
+
+    assert places(one.what) == places(other.what)
+    assert set(one.actions) == set(other.actions)
+    for key, action in one.actions.items():
+        assert places(action) == places(other.actions[key])
+    for lang in LANGUAGES:
+        assert remark.unit in UNITS[lang]
+        assert remark.severity in SEVERITIES[lang]
+    assert set(PLACES["ru"]) == set(PLACES["en"])
+
+
+def test_every_code_has_its_heading() -> None:
+    text = (ROOT / "docs" / "normcontrol.md").read_text("utf-8")
+    parts = re.split(r"(?m)^## ", text)
+    headings = {part.splitlines()[0]: part for part in parts[1:]}
+    assert list(headings) == [f"{code}: {REMARKS[code].said['en'].title}" for code in CODES]
+    for code, title in CODES.items():
+        body = headings[f"{code}: {title}"]
+        russian = REMARKS[code].said["ru"].title
+        assert f"\n{russian[0].upper()}{russian[1:]}." in body
+        for part in ("*Rule.* ", "*Mend.* "):
+            assert part in body
+        assert f"| {code} | {REMARKS[code].severity.value} |" in parts[0]
+
+
+def test_an_unknown_language_is_an_error_of_usage() -> None:
+    (finding,) = found(SHOWN["PM-D07"][0])
+    for say in (finding.what, finding.action, lambda lang: control_text("x", [], lang)):
+        with pytest.raises(UnknownRemarkError, match=r"'de'.*Choose one of: ru, en"):
+            say("de")
+
+
+# Where --------------------------------------------------------------------------------------------
+
+
+def test_a_finding_knows_its_view() -> None:
+    (finding,) = found(sheet(word(), word("Б", AT + 2), *SCALE, views=(VIEW,)))
+    assert finding.view == "velocity"
+    (finding,) = found(sheet(word(at=100 + 40j, height=1.7)))
+    assert finding.view == "stamp"
+    (finding,) = found(sheet(word(), word("Б", AT + 2)))
+    assert finding.view == ""
+
+
+@pytest.mark.parametrize(
+    "item",
+    [
+        Stroke((50 + 150j, 12 + 150j)),
+        Arc(30 + 150j, 18.0),
+        Fill((12 + 150j, 30 + 140j, 30 + 160j)),
+        Disc(22 + 150j, 10.0, Ink.BLACK),
+    ],
+)
+def test_every_ink_outside_the_frame_is_told(item: Item) -> None:
+    (finding,) = found(sheet(item))
+    assert (finding.code, finding.limit) == ("PM-D07", 0.0)
+    assert finding.value == pytest.approx(8.0, abs=0.1)
+    assert finding.where == pytest.approx(12 + 150j, abs=0.6)
+
+
+def test_white_and_the_frame_itself_are_not_outside() -> None:
+    assert codes(sheet(Disc(22 + 150j, 10.0, Ink.WHITE))) == []
+
+
+def test_a_view_that_leaves_the_frame_is_told_once() -> None:
+    lines = [Stroke((50 + y * 1j, 15 - y / 100 + y * 1j)) for y in (150, 160, 170)]
+    (finding,) = found(sheet(*lines, *SCALE, views=(VIEW,)))
+    assert finding.view == "velocity"
+    assert finding.value == pytest.approx(6.7)
+    assert finding.where == pytest.approx(13.3 + 170j)
+
+
+# Segments -----------------------------------------------------------------------------------------
+
+
+def test_short_segments_are_named_with_the_scale_that_fits() -> None:
+    (whole,) = controlled_kinematics(problem_of("linkages/ex1"))
+    (finding,) = whole.findings
+    assert (finding.code, finding.view, finding.severity) == (
+        "PM-D08",
+        "acceleration",
+        Severity.WARNING,
+    )
+    assert finding.facts["segments"] == (("bn_CB", round(finding.value, 3)),)
+    assert "bn_CB 4,8 мм" in finding.what("ru") and "bn_CB 4.8 mm" in finding.what("en")
+    assert "mu_a = 4" in finding.action("ru") and "поместится на А3" in finding.action("ru")
+
+
+def test_the_advised_scale_does_mend_it() -> None:
+    problem = problem_of("linkages/ex1")
+    assert problem.scales.mu_a is not None
+    (whole,) = controlled_kinematics(replace(problem, scales=replace(problem.scales, mu_a=4.0)))
+    assert whole.findings == ()
+    assert whole.paper == "A3"
+
+
+def test_where_no_scale_fits_the_plan_is_to_be_drawn_apart() -> None:
+    (whole,) = controlled_kinematics(problem_of("levers/task12"))
+    (finding,) = whole.findings
+    assert finding.facts["advice"] == "own"
+    assert "mu_v = 200" in finding.action("en")  # in the convention of the file, mm per unit
+    assert "does not fit A2" in finding.action("en")
+
+
+def test_a_vector_that_is_nearly_zero_is_called_so() -> None:
+    (whole,) = controlled_kinematics(problem_of("press/press"))
+    told = {finding.view: finding for finding in whole.findings}
+    assert told["acceleration"].facts["advice"] == "nothing"
+    assert "≈ 0" in told["acceleration"].action("ru")
+    assert told["velocity"].facts["advice"] == "scale"
+
+
+def test_segments_lie_where_the_plan_is_drawn() -> None:
+    for positions in (None, [0.0, 45.0, 90.0]):
+        (drawing,) = kinematics_sheets(problem_of("linkages/ex3"), positions=positions)
+        starts = {item.points[0] for item in drawing.items if isinstance(item, Stroke)}
+        for view in drawing.views:
+            assert bool(view.spans) is (view.kind != "position")
+            for span in view.spans:
+                assert min(abs(span.start - start) for start in starts) < 1e-9
+                assert (span.position is None) is (positions is None)
+        numbers = {span.position for view in drawing.views for span in view.spans}
+        assert len(numbers) == (1 if positions is None else 3)
+
+
+# Paper and dashes ---------------------------------------------------------------------------------
+
+
+def test_the_largest_empty_rectangle() -> None:
+    inner = (20.0, 5.0, 205.0, 292.0)
+    assert largest_empty([], inner) == inner
+    wall = Stroke((20 + 102j, 205 + 102j))
+    left, low, right, high = largest_empty([wall], inner)
+    assert (left, right, high) == (20.0, 205.0, 292.0)
+    assert 102 < low <= 102 + CELL
+    post = Stroke((62 + 102j, 62 + 292j))
+    left, low, right, high = largest_empty([wall, post], inner)
+    assert (right, high) == (205.0, 292.0)
+    assert 62 < left <= 62 + CELL
+
+
+def test_a_format_too_large_is_told_and_their_own_is_not() -> None:
+    problem = problem_of("linkages/ex1")
+    (large,) = controlled_kinematics(problem, paper="A1")
+    (own,) = controlled_kinematics(problem)
+    assert "PM-D10" in {finding.code for finding in large.findings}
+    assert "PM-D10" not in {finding.code for finding in own.findings}
+
+
+def test_the_frame_fills_nothing() -> None:
+    (finding,) = unused_paper(sheet(ground=False).items, A4.inner)
+    assert finding.value > 70
+    assert "%" in finding.what("ru")
+
+
+@pytest.mark.parametrize(
+    ("item", "is_seen"),
+    [
+        (Stroke((AT, AT + 5), Pen.HIDDEN), False),
+        (Stroke((AT, AT + 5), Pen.THIN), True),
+        (Stroke((AT, AT + 7), Pen.HIDDEN), True),
+        (Stroke((AT, AT + 19), Pen.AXIS), False),
+        (Stroke((AT, AT + 21), Pen.AXIS), True),
+        (Stroke((AT, AT), Pen.AXIS), True),
+        (Stroke((AT, AT + 1, AT + 1 + 1j), Pen.HIDDEN, closed=True), False),
+        (Stroke((AT, AT + 9, AT + 9 + 9j), Pen.HIDDEN, closed=True), True),
+        (Arc(AT, 1.0, pen=Pen.HIDDEN), False),
+        (Arc(AT, 3.0, pen=Pen.HIDDEN), True),
+        (Arc(AT, 3.0, 0.0, 1.0, pen=Pen.HIDDEN), False),
+        (Arc(AT, 9.0, 0.0, 1.0, pen=Pen.HIDDEN), True),
+    ],
+)
+def test_dashes_that_show(item: Stroke | Arc, is_seen: bool) -> None:
+    told = found(sheet(item))
+    assert [finding.code for finding in told] == ([] if is_seen else ["PM-D11"])
+    for finding in told:
+        assert finding.value < finding.limit
+
+
+def test_a_line_that_ends_in_a_gap_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pattern that runs on without looking at the end of the line."""
+    monkeypatch.setattr(
+        "planmethod.render.style.dash_spans",
+        lambda length, dashes, closed=False: ((0.0, 4.0), (5.5, length - 1.0)),
+    )
+    assert codes(sheet(Stroke((AT, AT + 20), Pen.HIDDEN))) == ["PM-D11"]
+    assert codes(sheet(Arc(AT, 20.0, 0.0, 1.0, pen=Pen.HIDDEN))) == ["PM-D11"]
+
+
+# Shipped sheets -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", every_file(), ids=lambda path: path.stem)
+def test_shipped_sheets_have_no_errors(path: object) -> None:
+    for variant in [None, *variant_names(path)]:  # type: ignore[arg-type]
+        problem = load(path, variant=variant)  # type: ignore[arg-type]
+        sheets = kinematics_sheets(problem)
+        told = [finding for drawing in sheets for finding in inspect(drawing)]
+        assert {finding.code for finding in told} <= {"PM-D08"}
+        assert all(view.scale for drawing in sheets for view in drawing.views)
+        assert {view.kind for view in sheets[0].views} == {"position", "velocity", "acceleration"}
+    assert inspect(structure_sheet(problem, analyse(problem.mechanism))) == []
+
+
+def test_the_structural_sheet_is_looked_at_too() -> None:
+    (whole,) = controlled_structure(problem_of("linkages/ex3"), paper="A3")
+    assert (whole.paper, whole.findings) == ("A3", ())
+    assert [view.kind for view in whole.drawing.views] == ["structure"]
