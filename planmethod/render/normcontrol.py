@@ -6,7 +6,8 @@ To the codes of `planmethod.render.lint`, which looks at texts, it adds
 ``PM-D08``  segments of a plan are too short to be measured
 ``PM-D09``  there is no scale inscription under a view that has a scale
 ``PM-D10``  a large part of the paper is unused
-``PM-D11``  a dashed line does not begin and end with a stroke, or is too short for its pattern
+``PM-D11``  a dashed line does not begin and end with a stroke
+``PM-D12``  a dashed line is too short to show its pattern
 """
 
 from __future__ import annotations
@@ -14,12 +15,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
+from math import tau
 
 from planmethod.render.drawing import Arc, Bounds, Disc, Drawing, Fill, Ink, Item, Stroke, View
 from planmethod.render.extent import ink_bounds
 from planmethod.render.frame import FRAME_LEFT, FRAME_OTHER, STAMP, STAMP_HEIGHT, STAMP_WIDTH
 from planmethod.render.lint import Finding, beyond, lint, writings_of
-from planmethod.render.style import PENS, Dashes, arc_spans, stroke_lines, sweep
+from planmethod.render.style import PENS, arc_spans, stroke_lines, sweep
 from planmethod.render.unused import largest_empty
 
 SHORTEST = 5.0
@@ -184,45 +186,56 @@ def unused_paper(items: Iterable[Item], inner: Bounds) -> Iterator[Finding]:
 
 
 def dashes_unseen(items: Iterable[Item]) -> Iterator[Finding]:
-    """Find dashed lines that do not begin and end with a stroke, or show no pattern."""
+    """Find dashed lines that do not begin and end with a stroke, or are too short for a pattern."""
     for item in items:
-        if not isinstance(item, (Stroke, Arc)) or (dashes := PENS[item.pen].dashes) is None:
+        if not isinstance(item, (Stroke, Arc)) or PENS[item.pen].dashes is None:
             continue
-        length, pieces, whole = _dashed(item)
-        if length <= 0.0:
+        pieces, wanting = _dashed(item)
+        if not pieces:
             continue
-        closed = item.closed if isinstance(item, Stroke) else whole is None
-        least = _least_length(dashes, closed=closed)
-        if pieces < 2 or (not closed and whole is False):
-            yield Finding(
-                "PM-D11",
-                _middle(ink_bounds([item])),
-                length,
-                least,
-                {"thing": f"line {item.pen.value} {item.tag}".rstrip()},
-            )
+        where = _middle(ink_bounds([item]))
+        facts = {"thing": f"line {item.pen.value} {item.tag}".rstrip()}
+        if wanting > _TOUCH:
+            yield Finding("PM-D11", where, wanting, 0.0, facts)
+        elif pieces < 2:
+            length = _length(item)
+            yield Finding("PM-D12", where, length, length * _enlarged(item), facts)
 
 
-def _dashed(item: Stroke | Arc) -> tuple[float, int, bool | None]:
-    """Return length, number of pieces, and whether both ends have a stroke (None: no ends)."""
+def _dashed(item: Stroke | Arc) -> tuple[int, float]:
+    """Return how many pieces a line has, and how far its ends are from the strokes, mm."""
     if isinstance(item, Arc):
         turn, spans = sweep(item), arc_spans(item)
-        if turn >= sweep(Arc(0j, 1.0)) or not spans:
-            return turn * item.radius, len(spans), None
+        if not spans or turn >= tau - 1e-9:
+            return len(spans), 0.0
         ends = (abs(spans[0][0] - item.start), abs(sum(spans[-1]) - item.start - turn))
-        return turn * item.radius, len(spans), max(ends) * item.radius < _TOUCH
-    path = [*item.points, *item.points[:1]] if item.closed else list(item.points)
-    length = sum(abs(end - start) for start, end in pairwise(path))
+        return len(spans), max(ends) * item.radius
     lines = stroke_lines(item)
-    if item.closed or not lines:
-        return length, len(lines), None
-    ends = (abs(lines[0][0] - path[0]), abs(lines[-1][-1] - path[-1]))
-    return length, len(lines), max(ends) < _TOUCH
+    if not lines or item.closed:
+        return len(lines), 0.0
+    ends = (abs(lines[0][0] - item.points[0]), abs(lines[-1][-1] - item.points[-1]))
+    return len(lines), max(ends)
 
 
-def _least_length(dashes: Dashes, *, closed: bool) -> float:
-    """Return the length from which a line shows two strokes, mm."""
-    both = dashes.stroke + dashes.gap
-    if closed:
-        return 1.5 * both
-    return max(dashes.stroke + both / 2, 2 * dashes.least + dashes.gap)
+def _length(item: Stroke | Arc) -> float:
+    if isinstance(item, Arc):
+        return sweep(item) * item.radius
+    path = [*item.points, *item.points[:1]] if item.closed else item.points
+    return sum(abs(end - start) for start, end in pairwise(path))
+
+
+def _enlarged(item: Stroke | Arc) -> float:
+    """Return how many times larger a figure shows two strokes, to a thousandth."""
+
+    def shows(times: float) -> bool:
+        if isinstance(item, Arc):
+            return _dashed(replace(item, radius=item.radius * times))[0] > 1
+        return _dashed(replace(item, points=tuple(p * times for p in item.points)))[0] > 1
+
+    low, high = 1.0, 2.0
+    while not shows(high) and high < 1e6:
+        low, high = high, 2 * high
+    while high - low > 1e-3 * low:
+        middle = (low + high) / 2
+        low, high = (low, middle) if shows(middle) else (middle, high)
+    return high

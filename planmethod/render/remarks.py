@@ -236,16 +236,28 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
             _ERROR,
             "mm",
             ru=(
-                "штрихи не видны",
-                "{thing} длиной {value} мм не начинается или не кончается штрихом либо "
-                "короче {limit} мм, так что рисунка не видно, {place}",
-                "Продлите линию до {limit} мм или проведите её сплошной тонкой.",
+                "линия кончается промежутком",
+                "{thing} не начинается или не кончается штрихом: не хватает {value} мм, {place}",
+                "Начните и закончите линию целым штрихом.",
+            ),
+            en=(
+                "a dashed line ends in a gap",
+                "{thing} does not begin and end with a stroke, {value} mm are wanting, at {place}",
+                "Begin and end the line with a stroke.",
+            ),
+        ),
+        "PM-D12": _remark(
+            _WARNING,
+            "mm",
+            ru=(
+                "штрихов не видно",
+                "{thing} длиной {value} мм короче {limit} мм и выглядит сплошной, {place}",
+                "Возьмите крупнее масштаб или формат либо подпишите, что линия штриховая.",
             ),
             en=(
                 "dashes not shown",
-                "{thing}, {value} mm long, does not begin and end with a stroke, or is "
-                "shorter than {limit} mm and shows no pattern, at {place}",
-                "Make the line {limit} mm long, or draw it solid and thin.",
+                "{thing}, {value} mm long, is shorter than {limit} mm and looks solid, at {place}",
+                "Take a larger scale or format, or write beside the line that it is dashed.",
             ),
         ),
     }
@@ -301,6 +313,11 @@ def number_text(value: float, lang: str, decimals: int | None = None) -> str:
     return text.replace(".", ",") if lang == "ru" else text
 
 
+def limit_text(limit: float, lang: str) -> str:
+    """Return a limit, no more than two digits after the decimal sign and no zeros."""
+    return number_text(round(limit, 2), lang)
+
+
 def _thing(name: str, lang: str) -> str:
     """Return what an inscription lies on (``stroke main``), or a line by itself (``line axis``)."""
     kind, _, rest = name.partition(" ")
@@ -351,7 +368,7 @@ def _filled(
     places |= {
         "place": place_text(where, lang),
         "value": number_text(value, lang, 2),
-        "limit": number_text(limit, lang),
+        "limit": limit_text(limit, lang),
     }
     return template.format_map(places)
 

@@ -105,7 +105,7 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
     ),
     "PM-D09": (sheet(views=(VIEW,)), sheet(*SCALE, views=(VIEW,))),
     "PM-D10": (sheet(ground=False), sheet()),
-    "PM-D11": (
+    "PM-D12": (
         sheet(Stroke((AT, AT + 5), Pen.HIDDEN)),
         sheet(Stroke((AT, AT + 8), Pen.HIDDEN)),
     ),
@@ -114,7 +114,8 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
 
 
 def test_every_code_is_shown() -> None:
-    assert set(SHOWN) == set(REMARKS) == set(CODES)
+    # PM-D11 needs lines divided in another way than ours: below, with the dashes.
+    assert {*SHOWN, "PM-D11"} == set(REMARKS) == set(CODES)
 
 
 @pytest.mark.parametrize("code", SHOWN)
@@ -323,19 +324,36 @@ def test_the_frame_fills_nothing() -> None:
 )
 def test_dashes_that_show(item: Stroke | Arc, is_seen: bool) -> None:
     told = found(sheet(item))
-    assert [finding.code for finding in told] == ([] if is_seen else ["PM-D11"])
+    assert [finding.code for finding in told] == ([] if is_seen else ["PM-D12"])
     for finding in told:
         assert finding.value < finding.limit
 
 
 def test_a_line_that_ends_in_a_gap_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """A pattern that runs on without looking at the end of the line."""
+    line, arc = Stroke((AT, AT + 20), Pen.HIDDEN), Arc(AT, 20.0, 0.0, 1.0, pen=Pen.HIDDEN)
+    assert codes(sheet(line)) == codes(sheet(arc)) == []
     monkeypatch.setattr(
         "planmethod.render.style.dash_spans",
         lambda length, dashes, closed=False: ((0.0, 4.0), (5.5, length - 1.0)),
     )
-    assert codes(sheet(Stroke((AT, AT + 20), Pen.HIDDEN))) == ["PM-D11"]
-    assert codes(sheet(Arc(AT, 20.0, 0.0, 1.0, pen=Pen.HIDDEN))) == ["PM-D11"]
+    for item in (line, arc):
+        (finding,) = found(sheet(item))
+        assert (finding.code, finding.value) == ("PM-D11", pytest.approx(1.0))
+        assert finding.severity is Severity.ERROR
+        assert finding.what("ru").startswith("штриховая линия не начинается")
+        assert finding.what("en").startswith("a dashed line does not begin")
+        assert finding.action("ru") and finding.action("en")
+
+
+def test_the_length_that_would_show_dashes() -> None:
+    for item, least in (
+        (Stroke((AT, AT + 5), Pen.HIDDEN), 6.75),
+        (Stroke((AT, AT + 5), Pen.AXIS), 20.0),
+        (Arc(AT, 1.0, pen=Pen.HIDDEN), 8.25),
+    ):
+        (finding,) = found(sheet(item))
+        assert finding.limit == pytest.approx(least, rel=2e-3)
 
 
 # Shipped sheets -----------------------------------------------------------------------------------

@@ -15,6 +15,7 @@ from planmethod.render.remarks import (
     UNITS,
     Severity,
     UnknownRemarkError,
+    limit_text,
     number_text,
     russian_paper,
 )
@@ -69,7 +70,7 @@ def _lines(finding: Finding, lang: str) -> list[str]:
     if finding.position is not None:
         place += _POSITION[lang].format(number=finding.position)
     if unit:
-        value, limit = number_text(finding.value, lang, 2), number_text(finding.limit, lang)
+        value, limit = number_text(finding.value, lang, 2), limit_text(finding.limit, lang)
         place += _NUMBERS[lang].format(value=value, limit=limit, unit=unit)
     return [
         f"  {finding.code} {SEVERITIES[lang][finding.severity]}: {place}",
