@@ -339,7 +339,8 @@ def test_a_line_that_ends_in_a_gap_is_told(monkeypatch: pytest.MonkeyPatch) -> N
     )
     for item in (line, arc):
         (finding,) = found(sheet(item))
-        assert (finding.code, finding.value) == ("PM-D11", pytest.approx(1.0))
+        assert finding.code == "PM-D11"
+        assert finding.value == pytest.approx(1.0)
         assert finding.severity is Severity.ERROR
         assert finding.what("ru").startswith("штриховая линия не начинается")
         assert finding.what("en").startswith("a dashed line does not begin")
