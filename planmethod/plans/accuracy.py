@@ -26,6 +26,10 @@ NOTHING = 1e-14
 """Share of the largest result of its kind below which one is zero by nature, and not measured in
 units of its own reach."""
 
+VANISHED, NOISE = 1e-25, 1e-9
+"""Shares of the largest of its kind: size below which the referee sees a zero, and reach below
+which slopes in float64 are rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
@@ -182,7 +186,9 @@ def _add_natural(largest: dict[ResultKind, float]) -> None:
 
 def _verdict(result: Result, value: Number, error: float, span: float, largest: float) -> Verdict:
     size = float(abs(value))
-    unit = span if span > NOTHING * largest else largest
+    # Zero by nature: neither it nor its slopes are anything, but for rounding of the slopes.
+    nothing = span <= NOTHING * largest or (size <= VANISHED * largest and span <= NOISE * largest)
+    unit = largest if nothing else span
     multiple = 0.0 if error == 0 else error / (UNIT_ROUNDOFF * unit) if unit else math.inf
     kappa = span / size if size else math.inf
     return Verdict(result.label, error, size, span, multiple, kappa, value)
