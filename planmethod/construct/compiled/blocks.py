@@ -17,8 +17,9 @@ from planmethod.construct.compiled.tape import Ref, Tape
 
 Array = npt.NDArray[Any]
 
-BLOCK = 8192
-"""Positions in a block: with some twenty buffers in use they fill a cache of the second level."""
+BLOCK = 16384
+"""Positions in a block: large enough that a call of NumPy costs less than its arithmetic, small
+enough that the buffers and rows in use stay in the caches."""
 
 UFUNC: dict[str, np.ufunc] = {
     "add": np.add,
