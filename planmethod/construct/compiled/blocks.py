@@ -181,9 +181,12 @@ class _Angle:
         """
         size = len(degrees)
         first, step = float(degrees[0]), float(degrees[-1] - degrees[0]) / (size - 1)
+        # Rounded, so that the blocks of one sweep share a table, and the table depends on nothing
+        # but the step: not on what was swept before.
+        step = float(f"{step:.13g}")
         if any(abs(float(degrees[k]) - first - k * step) > EQUAL for k in (1, size // 2)):
             return False
-        if self.step is None or abs(step - self.step) * size > EQUAL:
+        if step != self.step:
             self._make_table(step)
         turns, c, s, rest, work = (array[:size] for array in self.work)
         np.subtract(degrees, first, rest)
