@@ -18,7 +18,7 @@ from planmethod.construct.condition import UNIT_ROUNDOFF
 from planmethod.construct.referee import DIGITS
 from planmethod.errors import PlanMethodError
 from planmethod.plans.accuracy import Examined, Verdict, examine
-from planmethod.plans.results import ResultKind, results_of
+from planmethod.plans.results import ResultKind, natural_size
 from planmethod.plans.selfcheck import SelfCheckError, verify, warnings
 from planmethod.plans.solution import Solution
 from planmethod.problem import loads
@@ -156,17 +156,12 @@ def _examine_row(case: str, row: HardInput, digits: int) -> HardRow:
     try:
         problem = loads(row.text, name=case)
         positions = row.positions or problem.drive.positions
-        kinds = _kinds(problem)
         # Whether numpy grumbles about what does not exist is another test's matter.
         with np.errstate(all="ignore"):
-            judged = _judge_positions(blank, row, problem, positions, kinds, digits)
+            judged = _judge_positions(blank, row, problem, positions, digits)
     except PlanMethodError as error:
         return replace(blank, told=_say(error))
     return max(judged, key=lambda found: (list(Outcome).index(found.outcome), found.multiple))
-
-
-def _kinds(problem: Problem) -> dict[str, ResultKind]:
-    return {result.label: result.kind for result in results_of(Solution(problem).construction).all}
 
 
 def _judge_positions(
@@ -174,16 +169,11 @@ def _judge_positions(
     row: HardInput,
     problem: Problem,
     positions: Sequence[float],
-    kinds: dict[str, ResultKind],
     digits: int,
 ) -> list[HardRow]:
     asked = [_ask(blank, problem, position, many=row.many) for position in positions]
-    try:
-        examined = examine(problem, positions, digits=digits)
-    except ZeroDivisionError:
-        # The referee cannot tell the direction of a line through two points at one place.
-        return asked
-    judged = [_add(one, found, kinds) for one, found in zip(asked, examined, strict=True)]
+    examined = examine(problem, positions, digits=digits)
+    judged = [_add(one, found) for one, found in zip(asked, examined, strict=True)]
     if row.like:
         like = loads(row.like, name=problem.name)
         judged = [
@@ -211,12 +201,12 @@ def _ask(blank: HardRow, problem: Problem, position: float, *, many: bool) -> Ha
     return replace(blank, outcome=Outcome.GOOD, warned=0.0)
 
 
-def _add(row: HardRow, found: Examined, kinds: dict[str, ResultKind]) -> HardRow:
+def _add(row: HardRow, found: Examined) -> HardRow:
     """Return a row with what the referee found."""
-    size = sizes(found.verdicts, kinds)
+    size = sizes(found.verdicts)
     kappa, error, error_of = 1.0, 0.0, ""
     for verdict in found.verdicts:
-        natural = size[kinds[verdict.label]]
+        natural = size[verdict.kind]
         if natural > 0:
             kappa = max(kappa, verdict.reach / natural)
             share = verdict.error / natural
@@ -238,22 +228,17 @@ def _add(row: HardRow, found: Examined, kinds: dict[str, ResultKind]) -> HardRow
     )
 
 
-def sizes(verdicts: Iterable[Verdict], kinds: dict[str, ResultKind]) -> dict[ResultKind, float]:
+def sizes(verdicts: Iterable[Verdict]) -> dict[ResultKind, float]:
     """Return what a result of each kind is small against in a position, by the referee.
 
-    It is the largest value of the kind. A sliding speed is a velocity; accelerations may all be
-    zero while links turn, so that omega squared and omega times the largest velocity count too.
+    It is the natural size of the kind, a sliding speed being a velocity.
     """
     size = dict.fromkeys(ResultKind, 0.0)
     for verdict in verdicts:
-        kind = kinds[verdict.label]
-        size[kind] = max(size[kind], verdict.size)
+        size[verdict.kind] = max(size[verdict.kind], verdict.size)
     fast = max(size[ResultKind.VELOCITY], size[ResultKind.SLIDING])
-    turning = size[ResultKind.OMEGA]
     size[ResultKind.VELOCITY] = size[ResultKind.SLIDING] = fast
-    size[ResultKind.ACCELERATION] = max(size[ResultKind.ACCELERATION], turning * fast)
-    size[ResultKind.EPSILON] = max(size[ResultKind.EPSILON], turning**2)
-    return size
+    return {kind: float(natural_size(kind, size)) for kind in size}
 
 
 def _compare(row: HardRow, problem: Problem, like: Problem, position: float) -> HardRow:
@@ -271,6 +256,3 @@ def _compare(row: HardRow, problem: Problem, like: Problem, position: float) -> 
             if error > row.error:
                 row = replace(row, error=error, error_of=label)
     return row
-
-
-# Tables --------------------------------------------------------------------------------------

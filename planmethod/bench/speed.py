@@ -17,8 +17,7 @@ from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
-from planmethod.plans.assembly import drive_data
-from planmethod.plans.results import NOTHING, Result, ResultKind, results_of
+from planmethod.plans.results import NOTHING, NUMBERS, Result, ResultKind, results_of
 from planmethod.plans.solution import Solution
 from planmethod.plans.sweep import Sweep
 from planmethod.problem.model import Problem
@@ -71,8 +70,7 @@ def _right(problem: Problem, results: Sequence[Result], position: float) -> list
     solution = Solution(problem, positions=[position])
     whole = results_of(solution.construction)
     program = whole.program.needed_for([result.name for result in results])
-    data = drive_data(problem, solution.construction.draft, solution.positions)
-    data.update(whole.numbers)
+    data = {**solution.data(), **whole.numbers}
     referee = Precise(RIGHT)
     lifted = {name: referee.lift(np.ravel(value)[0]) for name, value in data.items()}
     value = evaluate(program, lifted, referee).value
@@ -99,7 +97,7 @@ def right_rows(scene: str, count: int) -> tuple[Array, Array]:
         column: list[float] = []
         for result, value in zip(results, _right(problem, results, angles[i]), strict=True):
             column.append(float(value.real))
-            if result.kind not in (ResultKind.OMEGA, ResultKind.EPSILON, ResultKind.SLIDING):
+            if result.kind not in NUMBERS:
                 column.append(float(value.imag))
         columns.append(column)
     return chosen, np.array(columns).T
@@ -147,13 +145,12 @@ def single_readings(scene: str) -> list[Reading]:
     problem, _ = scene_of(scene)
     position = 20.0
     solution = Solution(problem, positions=[position])
-    unit = {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0}
     found = [
         Reading(
             "step by step, float64",
             scene,
             1,
-            clock(lambda: solution.read(Float64(), unit)).median,
+            clock(lambda: solution.read(Float64())).median,
             _trace_error(problem, solution, position, Float64()),
         ),
         Reading(
@@ -181,7 +178,7 @@ def single_readings(scene: str) -> list[Reading]:
                 f"the hand, ruler {ruler:g} mm",
                 scene,
                 1,
-                clock(lambda s=drawn: s.read(s.hand, s._per_mm)).median,  # type: ignore[misc]
+                clock(lambda s=drawn: s.read(s.hand, s.per_mm)).median,  # type: ignore[misc]
                 _hand_error(drawn),
             )
         )
@@ -189,8 +186,7 @@ def single_readings(scene: str) -> list[Reading]:
 
 
 def _read(solution: Solution, arithmetic: Any) -> dict[Any, Number]:
-    data = drive_data(solution.problem, solution.construction.draft, solution.positions)
-    lifted = {name: arithmetic.lift(np.ravel(value)[0]) for name, value in data.items()}
+    lifted = {n: arithmetic.lift(np.ravel(value)[0]) for n, value in solution.data().items()}
     return dict(evaluate(solution.construction.program, lifted, arithmetic).value)
 
 

@@ -10,7 +10,7 @@ from planmethod.note.plaintext import heading, plain_text, table, wrap
 from planmethod.note.tables import position_line
 from planmethod.note.wording import Wording, wording
 from planmethod.plans.accuracy import Examined, Verdict, examine
-from planmethod.plans.results import ResultKind, results_of
+from planmethod.plans.results import NUMBERS, ResultKind
 from planmethod.plans.solution import Solution
 
 SYMBOL = {"omega": "ω", "epsilon": "ε", "phi": "φ"}
@@ -23,7 +23,7 @@ def judged(solution: Solution, digits: int) -> list[Examined]:
 
     def worth(verdict: Verdict) -> bool:
         head, _, tail = verdict.label.partition("_")
-        return head != "u" and (tail or head) not in fixed
+        return verdict.kind is not ResultKind.UNIT and (tail or head) not in fixed
 
     return [
         replace(position, verdicts=tuple(filter(worth, position.verdicts))) for position in found
@@ -63,8 +63,7 @@ def _shown(label: str) -> str:
 def _parts(verdict: Verdict) -> tuple[Any, Any]:
     """Return the coordinates of what the referee found; None for the second of a number."""
     value = verdict.value
-    flat = verdict.label.startswith(("omega_", "epsilon_")) or "/" in verdict.label
-    return value.real, None if flat else value.imag
+    return value.real, None if verdict.kind in NUMBERS else value.imag
 
 
 def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
@@ -74,14 +73,13 @@ def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
     sine. ``error`` is that of float64, SI; ``kappa`` null where the value is zero; ``multiple`` is
     the error in units of κ·u.
     """
-    kinds = {r.label: r.kind for r in results_of(solution.construction).all}
     return [
         {
             "digits": digits,
             "bound": position.warned,
             "results": {
                 verdict.label: {
-                    **_told(verdict, kinds[verdict.label], digits),
+                    **_told(verdict, digits),
                     "error": verdict.error,
                     "kappa": verdict.kappa if verdict.kappa < 1e300 else None,
                     "multiple": verdict.multiple,
@@ -93,7 +91,7 @@ def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
     ]
 
 
-def _told(verdict: Verdict, kind: ResultKind, digits: int) -> dict[str, str]:
+def _told(verdict: Verdict, digits: int) -> dict[str, str]:
     from mpmath import nstr
 
     real, imag = _parts(verdict)

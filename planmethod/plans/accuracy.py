@@ -15,10 +15,9 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.referee import DIGITS, Precise
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
-from planmethod.plans.assembly import drive_data
-from planmethod.plans.doubt import SCALES, doubt
+from planmethod.plans.doubt import SCALES
 from planmethod.plans.impossible import failing
-from planmethod.plans.results import Result, ResultKind, results_of
+from planmethod.plans.results import Result, ResultKind, natural_size, results_of
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
 
@@ -50,6 +49,7 @@ class Verdict:
         Condition number: reach over size, inf for a zero.
     value : complex or real number of mpmath
         What the referee finds, to all his digits; of a direction its unit vector.
+    kind : ResultKind
     """
 
     label: str
@@ -58,7 +58,8 @@ class Verdict:
     reach: float
     multiple: float
     kappa: float
-    value: Number = None
+    value: Number
+    kind: ResultKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,8 +107,7 @@ def examine(
     solution = Solution(problem, positions=positions)
     results = results_of(solution.construction)
     program = results.program.needed_for([result.name for result in results.all])
-    data = drive_data(problem, solution.construction.draft, solution.positions)
-    data.update(results.numbers)
+    data = {**solution.data(), **results.numbers}
     trace = evaluate(program, data, Float64())
     fails = failing(program, trace, len(positions))
     spans = {} if closely else reach(program, data, SCALES)
@@ -137,7 +137,7 @@ def examine(
 def _told(problem: Problem, position: float) -> tuple[str, float]:
     """Return why a position is impossible, or what bound of its error the user is told."""
     try:
-        return "", float(doubt(Solution(problem, positions=[position]))[0])
+        return "", float(Solution(problem, positions=[position]).doubt[0])
     except PlanMethodError as error:
         return str(error), math.inf
 
@@ -163,25 +163,21 @@ def _judge(
     largest: dict[ResultKind, float] = {}
     for result, value, _, _ in rows:
         largest[result.kind] = max(float(abs(value)), largest.get(result.kind, 0.0))
-    _add_natural(largest)
-    return tuple(_verdict(*row, largest[row[0].kind]) for row in rows), agreed
+    natural = _natural(largest)
+    return tuple(_verdict(*row, natural[row[0].kind]) for row in rows), agreed
 
 
-def _add_natural(largest: dict[ResultKind, float]) -> None:
-    """Raise the largest of each kind to what it would be if all did not move evenly.
+def _natural(largest: Mapping[ResultKind, float]) -> dict[ResultKind, float]:
+    """Return the largest of each kind, or what it would be if all did not move evenly.
 
     Where links do not turn, or turn evenly, angular velocities or accelerations are zero by
     nature: they are small against what speeds and sizes would make of them.
     """
-    speed, size = (largest.get(kind, 0.0) for kind in (ResultKind.VELOCITY, ResultKind.PLACE))
-    turning = max(largest.get(ResultKind.OMEGA, 0.0), speed / size if size else 0.0)
-    for kind, natural in (
-        (ResultKind.OMEGA, turning),
-        (ResultKind.EPSILON, turning**2),
-        (ResultKind.ACCELERATION, turning * speed),
-        (ResultKind.SLIDING, speed),
-    ):
-        largest[kind] = max(natural, largest.get(kind, 0.0))
+    full = {kind: largest.get(kind, 0.0) for kind in ResultKind}
+    speed, size = full[ResultKind.VELOCITY], full[ResultKind.PLACE]
+    full[ResultKind.OMEGA] = max(full[ResultKind.OMEGA], speed / size if size else 0.0)
+    full[ResultKind.SLIDING] = max(full[ResultKind.SLIDING], speed)
+    return {kind: float(natural_size(kind, full)) for kind in full}
 
 
 def _verdict(result: Result, value: Number, error: float, span: float, largest: float) -> Verdict:
@@ -191,4 +187,4 @@ def _verdict(result: Result, value: Number, error: float, span: float, largest: 
     unit = largest if nothing else span
     multiple = 0.0 if error == 0 else error / (UNIT_ROUNDOFF * unit) if unit else math.inf
     kappa = span / size if size else math.inf
-    return Verdict(result.label, error, size, span, multiple, kappa, value)
+    return Verdict(result.label, error, size, span, multiple, kappa, value, result.kind)

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
-from planmethod.plans.assembly import drive_data
-from planmethod.plans.results import NOTHING, ResultKind, results_of
-from planmethod.plans.solution import Reals, Solution
+from planmethod.plans.results import NOTHING, Result, ResultKind, natural_size, results_of
+from planmethod.plans.solution import UNIT_SCALES, Reals, Solution
 
 MULTIPLE = 16
 """Forward error of a result in units of u times its reach that is allowed for."""
 
-SCALES = ("mu_l", "mu_v", "mu_a")
+SCALES = frozenset(UNIT_SCALES)
 """Data that carry no rounding."""
 
 SAFE = 2e-3
@@ -43,8 +42,9 @@ def doubt(solution: Solution) -> Reals:
     """
     solution.si  # noqa: B018 - what does not exist is told first
     bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
+    results = [r for r in results_of(solution.construction).all if r.name != NOTHING]
     for chosen in _blocks(_suspects(solution)):
-        bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, chosen)
+        bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, results, chosen)
     return bound
 
 
@@ -78,11 +78,10 @@ def _extent(solution: Solution) -> float:
     return max(lengths)
 
 
-def _relative_reach(solution: Solution, chosen: npt.NDArray[np.intp]) -> Reals:
-    data = drive_data(solution.problem, solution.construction.draft, solution.positions)
-    data["phi" if solution.problem.drive.is_crank else "s"] = solution.positions[chosen]
-    found = reach(solution.construction.program, data, SCALES)
-    results = [r for r in results_of(solution.construction).all if r.name != NOTHING]
+def _relative_reach(
+    solution: Solution, results: Sequence[Result], chosen: npt.NDArray[np.intp]
+) -> Reals:
+    found = reach(solution.construction.program, solution.data(chosen=chosen), SCALES)
     worst = np.ones(len(chosen))
     largest = dict.fromkeys(JUDGED, np.zeros(len(chosen)))
     for kind in JUDGED:
@@ -90,20 +89,10 @@ def _relative_reach(solution: Solution, chosen: npt.NDArray[np.intp]) -> Reals:
         for name in names:
             whole = np.broadcast_to(np.abs(solution.si.value[name]), solution.positions.shape)
             largest[kind] = np.maximum(largest[kind], whole[chosen])
-        size = _natural_size(kind, largest)
+        size = natural_size(kind, largest)
         spans = np.array([np.broadcast_to(found[name], size.shape) for name in names])
         some = size > 0
         if names and some.any():
             spans = np.where(np.isnan(spans), np.inf, spans)
             worst[some] = np.fmax(worst[some], spans.max(axis=0)[some] / size[some])
     return worst
-
-
-def _natural_size(kind: ResultKind, largest: dict[ResultKind, Reals]) -> Reals:
-    """Return what a result is small against: accelerations may all be zero while links turn."""
-    turning = largest[ResultKind.OMEGA]
-    if kind is ResultKind.EPSILON:
-        return np.maximum(largest[kind], turning**2)
-    if kind is ResultKind.ACCELERATION:
-        return np.maximum(largest[kind], turning * largest[ResultKind.VELOCITY])
-    return largest[kind]

@@ -17,7 +17,6 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import LayOff, Measure, MeasureAlong, Name, PointName, operands
 from planmethod.errors import PlanMethodError
-from planmethod.plans.assembly import drive_data
 from planmethod.plans.build import measured_segments
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Complexes, Reals, Solution, plain
@@ -132,7 +131,6 @@ class Drafting:
         self.draws, self.seed = draws, seed
         self.items: dict[str, Item] = {item.label: item for item in _items(solution)}
         self._free = frozenset(str(plan.pole) for plan in solution.construction.plans)
-        self._ancestors = _guarded_ancestors(solution.construction.program)
 
     # First order -----------------------------------------------------------------------------
 
@@ -155,14 +153,7 @@ class Drafting:
         )
 
     def _data(self, chosen: npt.NDArray[np.intp]) -> dict[str, Number]:
-        solution = self.solution
-        data = drive_data(solution.problem, solution.construction.draft, solution.positions)
-        data["phi" if solution.problem.drive.is_crank else "s"] = solution.positions[chosen]
-        scales = {scale.symbol: scale.per_mm for scale in solution.scales.values()}
-        data.update(scales)
-        for name, place in solution.construction.draft.places.items():
-            data[name] = place / scales["mu_l"]
-        return data
+        return self.solution.data(self.solution.per_mm, chosen)
 
     def _take(self, pencil: Any, chosen: npt.NDArray[np.intp]) -> tuple[Trace, dict[str, Number]]:
         """Draw the construction with a pencil and take every quantity off it."""
@@ -218,18 +209,21 @@ class Drafting:
         """Drafting error of every quantity, by its label."""
         never = np.zeros(self.solution.positions.shape, dtype=bool)
         sigmas, drawn = {}, {}
+        ancestors = _ancestors(self.solution.construction.program)
         for label, item in self.items.items():
             sigma = _sigma(self._first.slopes[label])
             doubtful = ~np.isfinite(sigma)
             if item.length:
                 doubtful = doubtful | ((sigma > 0) & (self._first.values[label] < SHORT * sigma))
-            for step in {step for name in item.needs for step in self._ancestors[name]}:
+            for step in {step for name in item.needs for step in ancestors[name]}:
                 doubtful = doubtful | self._strained.get(step, never)
             sigmas[label], drawn[label] = sigma, doubtful
         for label in self.items:
-            absent = self._absent(label)
-            sigmas[label] = np.where(absent, 0.0, sigmas[label])
-            drawn[label] = drawn[label] & ~absent
+            kind = PLAN_OF.get(label.split(".")[0].split("_")[0])
+            if kind is not None:  # a plan without any vector is drawn by nobody
+                absent = self._absent[kind]
+                sigmas[label] = np.where(absent, 0.0, sigmas[label])
+                drawn[label] = drawn[label] & ~absent
         for i in np.flatnonzero(np.any(list(drawn.values()), axis=0)):
             sampled = self.sample(int(i))
             for label, doubtful in drawn.items():
@@ -238,21 +232,19 @@ class Drafting:
                     sigmas[label][i] = (high - low) / 2
         return {label: Spread(sigmas[label], drawn[label]) for label in self.items}
 
-    def _absent(self, label: str) -> npt.NDArray[np.bool_]:
-        """Tell the positions whose plan has no vector: nobody draws it, and nothing is off."""
-        head = label.split(".")[0].split("_")[0]
-        kind = PLAN_OF.get(head)
-        if kind is None:
-            return np.zeros(self.solution.positions.shape, dtype=bool)
-        plan = self.solution.construction.plan(kind)
-        lengths = [
-            np.abs(
-                self.solution.complexes(self.solution.paper, v.head)
-                - self.solution.complexes(self.solution.paper, v.tail)
-            )
-            for v in plan.vectors
-        ]
-        return np.asarray(np.max([np.zeros(self.solution.positions.shape), *lengths], axis=0) == 0)
+    @cached_property
+    def _absent(self) -> dict[PlanKind, npt.NDArray[np.bool_]]:
+        """Positions in which a plan has no vector."""
+        solution, still = self.solution, np.zeros(self.solution.positions.shape)
+        found = {}
+        for plan in solution.construction.plans:
+            ends = [
+                (solution.complexes(solution.paper, end) for end in (v.tail, v.head))
+                for v in plan.vectors
+            ]
+            longest = np.max([still, *(np.abs(head - tail) for tail, head in ends)], axis=0)
+            found[plan.kind] = np.asarray(longest == 0)
+        return found
 
     def sample(
         self, index: int, *, draws: int | None = None, seed: int | None = None
@@ -345,8 +337,8 @@ def _middle(values: Reals) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _guarded_ancestors(program: Program) -> dict[Name, frozenset[Name]]:
-    """Return for every step the steps with a margin that it depends on."""
+def _ancestors(program: Program) -> dict[Name, frozenset[Name]]:
+    """Return for every step the steps that it depends on, itself among them."""
     found: dict[Name, frozenset[Name]] = {}
     for step in program.steps:
         above = frozenset[Name]().union(*(found[name] for name, _ in operands(step)))

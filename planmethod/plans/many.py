@@ -12,7 +12,6 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
-from planmethod.plans.doubt import doubt
 from planmethod.plans.impossible import failing
 from planmethod.plans.model import PlanKind
 from planmethod.plans.selfcheck import (
@@ -182,7 +181,7 @@ def examine(problem: Problem, positions: Reals, *, numbers: Places | None = None
             solution = Solution(problem, positions=_listed(positions[left]))
         if not left.size:
             continue
-        estimate[left] = doubt(solution)
+        estimate[left] = solution.doubt
         spoilt = ~(estimate[left] <= SPOILT)
         if spoilt.any():
             codes[left[spoilt]] = _SPOILT

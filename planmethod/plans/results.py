@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import Enum
+from typing import Any
+
+import numpy as np
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName
@@ -110,6 +113,24 @@ class Results:
             hint = f"; did you mean {near[0]!r}?" if near else ""
             raise UnknownResultError(f"no result {label!r}{hint} Known: {', '.join(known)}.")
         return found
+
+
+NUMBERS = frozenset({ResultKind.OMEGA, ResultKind.EPSILON, ResultKind.SLIDING})
+"""Kinds of results that are one number, not a vector."""
+
+
+def natural_size(kind: ResultKind, largest: Mapping[ResultKind, Any]) -> Any:
+    """Return what a result of a kind is small against, the largest of each kind being given.
+
+    Accelerations may all be zero while links turn: omega squared, and omega times the largest
+    velocity, are what they are made of. Numbers or arrays alike.
+    """
+    turning = largest[ResultKind.OMEGA]
+    if kind is ResultKind.EPSILON:
+        return np.maximum(largest[kind], turning**2)
+    if kind is ResultKind.ACCELERATION:
+        return np.maximum(largest[kind], turning * largest[ResultKind.VELOCITY])
+    return largest[kind]
 
 
 NOTHING = "0"

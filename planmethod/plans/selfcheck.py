@@ -7,7 +7,6 @@ import numpy as np
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, PlanMethodError
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.doubt import doubt
 from planmethod.plans.solution import Complexes, Reals, Solution
 
 DOUBTFUL = 1e-6
@@ -35,7 +34,7 @@ def warnings(solution: Solution) -> list[str]:
 
     Of many positions the worst few are named and the rest counted.
     """
-    estimate = doubt(solution)
+    estimate = solution.doubt
     doubtful = np.flatnonzero(estimate > DOUBTFUL)
     named = doubtful
     if len(doubtful) > MOST_NAMED:
@@ -66,7 +65,7 @@ def _nature(solution: Solution, i: int) -> str:
 
 
 def _refuse_spoilt(solution: Solution) -> None:
-    spoilt = np.flatnonzero(~(doubt(solution) <= SPOILT))
+    spoilt = np.flatnonzero(~(solution.doubt <= SPOILT))
     if not spoilt.size:
         return
     i = int(spoilt[0])

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +29,11 @@ from planmethod.problem.model import Problem
 
 if TYPE_CHECKING:
     from planmethod.plans.drafting import Drafting
+
+UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
+"""Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
+
+EVERY = slice(None)
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
@@ -133,14 +139,21 @@ class Solution:
 
     # Readings --------------------------------------------------------------------------------
 
-    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Trace:
-        """Read the whole program in an arithmetic at given scales (unit per mm)."""
+    def data(
+        self,
+        scales: Mapping[str, float] = UNIT_SCALES,
+        chosen: npt.NDArray[np.intp] | slice = EVERY,
+    ) -> dict[str, Any]:
+        """Return the data of the program at given scales (unit per mm), for some positions."""
         draft = self.construction.draft
-        data = drive_data(self.problem, draft, self.positions)
-        data.update(scales)
+        data: dict[str, Any] = {**drive_data(self.problem, draft, self.positions[chosen]), **scales}
         for name, place in draft.places.items():
             data[name] = place / scales["mu_l"]
-        return evaluate(self.construction.program, data, arithmetic)
+        return data
+
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float] = UNIT_SCALES) -> Trace:
+        """Read the whole program in an arithmetic at given scales (unit per mm)."""
+        return evaluate(self.construction.program, self.data(scales), arithmetic)
 
     @cached_property
     def si(self) -> Trace:
@@ -151,7 +164,7 @@ class Solution:
         AssemblyError
             When a step is impossible in some position.
         """
-        trace = self.read(Float64(), {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
+        trace = self.read(Float64())
         program = self.construction.program
         if (failing(program, trace, len(self.positions)) >= 0).any():
             draft = self.construction.draft
@@ -171,20 +184,21 @@ class Solution:
         return self._views or Views.for_problem(self.problem, len(self.positions))
 
     @property
-    def _per_mm(self) -> dict[str, float]:
+    def per_mm(self) -> dict[str, float]:
+        """Unit per millimetre of each plan, by the name that the program has for it."""
         return {scale.symbol: scale.per_mm for scale in self.scales.values()}
 
     @cached_property
     def paper(self) -> Trace:
         """Exact reading at the plans' scales: millimetres on the paper."""
         self.si  # noqa: B018 - an impossible step must be told first, in metres
-        return self.read(Float64(), self._per_mm)
+        return self.read(Float64(), self.per_mm)
 
     @cached_property
     def by_hand(self) -> Trace:
         """Reading of a draughtsman with a ruler, along his own chain."""
         self.si  # noqa: B018
-        return self.read(self.hand, self._per_mm)
+        return self.read(self.hand, self.per_mm)
 
     def _complex_column(self, value: object) -> Complexes:
         return np.broadcast_to(np.asarray(value, dtype=complex), self.positions.shape)
@@ -317,6 +331,13 @@ class Solution:
                 )
             )
         return HandResults(points, links, relatives)
+
+    @cached_property
+    def doubt(self) -> Reals:
+        """Bound of the relative error of the worst results, ndarray of shape (n,)."""
+        from planmethod.plans.doubt import doubt
+
+        return doubt(self)
 
     @cached_property
     def drafting(self) -> Drafting:

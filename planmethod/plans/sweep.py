@@ -16,11 +16,10 @@ from planmethod.construct.compiled.symbolic import Symbol, Written, write
 from planmethod.construct.compiled.tape import Ref
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import PlanMethodError
-from planmethod.mechanism.structure import analyse
-from planmethod.plans.assembly import choose_closings, drive_data
-from planmethod.plans.build import build
+from planmethod.plans.assembly import drive_data
 from planmethod.plans.impossible import explain, failing
-from planmethod.plans.results import Result, ResultKind, results_of
+from planmethod.plans.results import NUMBERS, Result, ResultKind, results_of
+from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
 
 Array = npt.NDArray[Any]
@@ -94,8 +93,7 @@ class Sweep:
             raise SweepError(f"a sweep is float64 or float32, not {np.dtype(dtype).name}")
         asked = (asked,) if isinstance(asked, str) else asked
         varied = (varied,) if isinstance(varied, str) else varied
-        structure = analyse(problem.mechanism)
-        construction = build(problem, structure, choose_closings(problem, structure))
+        construction = Solution(problem, positions=[]).construction
         results = results_of(construction)
         chosen = results.choose(asked)
         self.program = results.program.needed_for([result.name for result in chosen])
@@ -365,5 +363,5 @@ def _parts(result: Result, written: Written) -> Iterator[Ref]:
             return
         value = along / abs(along)
     yield value.re
-    if result.kind not in (ResultKind.OMEGA, ResultKind.EPSILON, ResultKind.SLIDING):
+    if result.kind not in NUMBERS:
         yield 0.0 if value.im is None else value.im
