@@ -132,15 +132,19 @@ def problem_options(command: F) -> F:
     return command
 
 
-def ruler_option(command: F) -> F:
-    """Add the ruler of the hand."""
+def _ruler_option(**more: Any) -> Callable[[F], F]:
     return click.option(
         "--ruler",
         type=click.FloatRange(min=0.0, min_open=True, max=50.0),
         callback=read_ruler,
-        default=0.5,
-        show_default=True,
-        help="Ruler step with which the plans are read, mm.",
+        **more,
+    )
+
+
+def ruler_option(command: F) -> F:
+    """Add the ruler of the hand."""
+    return _ruler_option(
+        default=0.5, show_default=True, help="Ruler step with which the plans are read, mm."
     )(command)
 
 
@@ -153,10 +157,7 @@ def hand_options(command: F) -> F:
         show_default=True,
         help="How well the plans are drawn: with CAD, on a board, in haste.",
     )(command)
-    return click.option(
-        "--ruler",
-        type=click.FloatRange(min=0.0, min_open=True, max=50.0),
-        callback=read_ruler,
+    return _ruler_option(
         metavar="MM",
         help="Ruler step with which the plans are read; that of the profile (board: 0.5 mm).",
     )(command)

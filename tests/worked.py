@@ -42,3 +42,27 @@ def exact_values() -> dict[str, Any]:
 
 def every_file() -> list[Path]:
     return sorted(PROBLEMS.rglob("*.toml"))
+
+
+DEAD = """
+title = "Мёртвое положение"
+[frame]
+A = [0.0, 0.0]
+D = [3.0, 0.0]
+[links.1]
+points = ["A", "B"]
+AB = 1.0
+[links.2]
+points = ["B", "C"]
+BC = 1.5
+[links.3]
+points = ["D", "C"]
+DC = 2.5
+[driver]
+link = "1"
+phi = 45
+omega = 10
+[assembly]
+C = "above B"
+"""
+"""At 180 degrees the connecting rod and the rocker are in one line."""

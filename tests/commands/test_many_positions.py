@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
-from worked import path_of
+from worked import DEAD, path_of
 
 from planmethod.cli import COMMANDS, cli
 from planmethod.commands.output import bar
@@ -30,29 +30,6 @@ from planmethod.problem import load
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 SIX_LINK = str(path_of("levers/six-link"))
 VARIANTS = str(path_of("levers/task12-variants"))
-
-DEAD = """
-title = "Мёртвое положение"
-[frame]
-A = [0.0, 0.0]
-D = [3.0, 0.0]
-[links.1]
-points = ["A", "B"]
-AB = 1.0
-[links.2]
-points = ["B", "C"]
-BC = 1.5
-[links.3]
-points = ["D", "C"]
-DC = 2.5
-[driver]
-link = "1"
-phi = 45
-omega = 10
-[assembly]
-C = "above B"
-"""
-"""At 180 degrees the connecting rod and the rocker are in one line."""
 
 SPOILT = "179.999"
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import pytest
-from worked import every_file, path_of
+from worked import DEAD, every_file, path_of
 
 from planmethod.bench.generator import random_problem
 from planmethod.construct.compiled.blocks import BLOCK
@@ -454,29 +454,6 @@ def test_what_is_asked_fails_only_where_it_depends_on() -> None:
         found, failed = failures(Sweep(problem_of("six-link"), asked), positions)
         assert (failed >= 0).any() == can_fail
         assert np.isnan(found).any() == can_fail
-
-
-DEAD = """
-title = "Мёртвое положение"
-[frame]
-A = [0.0, 0.0]
-D = [3.0, 0.0]
-[links.1]
-points = ["A", "B"]
-AB = 1.0
-[links.2]
-points = ["B", "C"]
-BC = 1.5
-[links.3]
-points = ["D", "C"]
-DC = 2.5
-[driver]
-link = "1"
-phi = 45
-omega = 10
-[assembly]
-C = "above B"
-"""
 
 
 def test_places_exist_in_a_dead_position_and_velocities_do_not() -> None:
