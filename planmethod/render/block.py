@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Literal, Protocol, TypeAlias
 
 from planmethod.render.drawing import Bounds, Item, Pen, Stroke, Text, shifted
-from planmethod.render.lettering import LETTERING, Lettering
 from planmethod.render.typeset import (
     Inscription,
     escape,
@@ -225,14 +224,13 @@ def heading(
     *,
     width: float | None = None,
     underline: bool = False,
-    lettering: Lettering = LETTERING,
 ) -> Block:
     """Return the name of a view or of a list (заголовок), shrunk or wrapped to ``width`` mm."""
     for size in smaller_heights(height)[:2]:
-        line = typeset(markup, size, lettering)
+        line = typeset(markup, size)
         if width is None or line.width <= width:
             return Line(line, underline)
-    return paragraph(markup, height, width, align="centre", lettering=lettering)
+    return paragraph(markup, height, width, align="centre")
 
 
 def paragraph(
@@ -241,7 +239,6 @@ def paragraph(
     width: float | None = None,
     *,
     align: Align = "left",
-    lettering: Lettering = LETTERING,
 ) -> Lines:
     r"""Return rich text wrapped at spaces into lines not wider than ``width`` mm (абзац).
 
@@ -249,20 +246,16 @@ def paragraph(
     """
     lines: list[str] = []
     for part in markup.split("\n"):
-        lines += wrapped(split_words(part), height, width, lettering)
-    return Lines(
-        tuple(typeset(line, height, lettering) for line in lines), line_step(height), align
-    )
+        lines += wrapped(split_words(part), height, width)
+    return Lines(tuple(typeset(line, height) for line in lines), line_step(height), align)
 
 
-def wrapped(
-    words: Sequence[str], height: float, width: float | None, lettering: Lettering = LETTERING
-) -> list[str]:
+def wrapped(words: Sequence[str], height: float, width: float | None) -> list[str]:
     """Join words into as few lines as the width allows (переносы по словам)."""
     lines: list[str] = []
     for word in words:
         longer = f"{lines[-1]} {word}" if lines else word
-        fits = width is None or typeset(longer, height, lettering).width <= width
+        fits = width is None or typeset(longer, height).width <= width
         if lines and fits:
             lines[-1] = longer
         else:
@@ -279,7 +272,6 @@ def fit(
     pad: float = 0.8,
     rich: bool = False,
     tag: str = "",
-    lettering: Lettering = LETTERING,
 ) -> list[Item]:
     r"""Return a text that stays in its cell (вписывание в графу).
 
@@ -302,7 +294,7 @@ def fit(
     sizes = tuple(heights)
     room = (box[2] - box[0] - 2 * pad, box[3] - box[1] - 2 * min(pad, 0.4))
     parts = [part if rich else escape(part) for part in text.split("\n")]
-    block, cut = _fitting(parts, room, sizes, align, lettering)
+    block, cut = _fitting(parts, room, sizes, align)
     middle = complex((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
     sides = {"left": box[0] + pad, "centre": middle.real, "right": box[2] - pad}
     base = middle.imag + _caps(block) / 2 - block.inscriptions[0].height
@@ -319,23 +311,22 @@ def _fitting(
     room: tuple[float, float],
     sizes: Sequence[float],
     align: Align,
-    lettering: Lettering,
 ) -> tuple[Lines, bool]:
     """Choose lines and height; True when the text had to be cut."""
 
     def made(lines: Sequence[str], size: float, step: float) -> Lines:
-        return Lines(tuple(typeset(s, size, lettering) for s in lines or [""]), step, align)
+        return Lines(tuple(typeset(s, size) for s in lines or [""]), step, align)
 
     tries = [(list(parts), size, line_step(size)) for size in sizes[:2]]
     words = [split_words(part) for part in parts]
     for size in sizes:
-        lines = [line for part in words for line in _balanced(part, size, room[0], lettering)]
+        lines = [line for part in words for line in _balanced(part, size, room[0])]
         tries.append((lines, size, line_step(size)))
     size = sizes[-1]
     broken: list[str] = []
     for part in words:
-        pieces = [piece for word in part for piece in _broken(word, size, room[0], lettering)]
-        broken += wrapped(pieces, size, room[0], lettering)
+        pieces = [piece for word in part for piece in _broken(word, size, room[0])]
+        broken += wrapped(pieces, size, room[0])
     # Last of all the lines are set as near as their ink allows: a date in two lines, say.
     tries += [(broken, size, line_step(size)), (broken, size, 0.0)]
     for lines, height, step in tries:
@@ -345,7 +336,7 @@ def _fitting(
     while len(broken) > 1 and not _fits(made(broken, size, 0.0), room):
         broken.pop()
     last = _SIGNS.findall(broken[-1]) if broken else []
-    while last and typeset("".join(last) + "…", size, lettering).width > room[0]:
+    while last and typeset("".join(last) + "…", size).width > room[0]:
         last.pop()
     return made([*broken[:-1], "".join(last).rstrip() + "…"], size, 0.0), True
 
@@ -362,26 +353,26 @@ def _fits(block: Lines, room: tuple[float, float]) -> bool:
     return block.width <= room[0] and _caps(block) + 2 * overhang <= room[1] + 1e-9
 
 
-def _balanced(words: Sequence[str], size: float, width: float, lettering: Lettering) -> list[str]:
+def _balanced(words: Sequence[str], size: float, width: float) -> list[str]:
     """Wrap into the same number of lines as is needed, but of nearly equal length."""
-    lines = wrapped(words, size, width, lettering)
+    lines = wrapped(words, size, width)
     count = len(lines)
     for tenths in range(40, 100, 3):
-        even = wrapped(words, size, width * tenths / 100, lettering)
-        if len(even) == count and all(typeset(s, size, lettering).width <= width for s in even):
+        even = wrapped(words, size, width * tenths / 100)
+        if len(even) == count and all(typeset(s, size).width <= width for s in even):
             return even
     return lines
 
 
-def _broken(word: str, size: float, width: float, lettering: Lettering) -> list[str]:
+def _broken(word: str, size: float, width: float) -> list[str]:
     """Break a word wider than the cell; with a hyphen inside a run of letters."""
-    if typeset(word, size, lettering).width <= width:
+    if typeset(word, size).width <= width:
         return [word]
     signs = _SIGNS.findall(word)
     pieces: list[str] = []
-    while len(signs) > 1 and typeset("".join(signs), size, lettering).width > width:
+    while len(signs) > 1 and typeset("".join(signs), size).width > width:
         take = len(signs) - 1
-        while take > 1 and typeset(_hyphened(signs, take), size, lettering).width > width:
+        while take > 1 and typeset(_hyphened(signs, take), size).width > width:
             take -= 1
         # Rather after a dot or a hyphen of the text itself: 12.03. / 2025.
         stops = [k for k in range(2, take + 1) if signs[k - 1] in ".-/,"]

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TypeAlias
 
+from planmethod.render.lettering import OutlineLettering, in_use
+
 
 class Pen(Enum):
     """Meaning of a line; width and dashes follow from it in `style` (назначение линии)."""
@@ -142,13 +144,17 @@ class View:
 
 @dataclass(slots=True)
 class Drawing:
-    """Display list of one sheet, drawn in order (чертёж), and what its views are."""
+    """Display list of one sheet, drawn in order (чертёж), and what its views are.
+
+    ``lettering`` is that in which its texts were measured: the output formats draw them in it.
+    """
 
     width: float
     height: float
     title: str = ""
     items: list[Item] = field(default_factory=list)
     views: list[View] = field(default_factory=list)
+    lettering: OutlineLettering = field(default_factory=in_use)
 
     def add(self, *items: Item) -> None:
         """Append items."""

@@ -17,7 +17,6 @@ from dataclasses import dataclass, field
 from planmethod.plans.model import Vector, VectorEquation
 from planmethod.render.block import Line, Lines
 from planmethod.render.drawing import Item, Pen, Stroke
-from planmethod.render.lettering import LETTERING, Lettering
 from planmethod.render.typeset import (
     Inscription,
     index_height,
@@ -127,7 +126,6 @@ def equation_block(
     *,
     width: float | None = None,
     note_height: float | None = None,
-    lettering: Lettering = LETTERING,
 ) -> EquationBlock:
     """Return a vector equation with underlines and notes (векторное уравнение).
 
@@ -143,7 +141,7 @@ def equation_block(
         Cap height of the notes; that of an index, but 2.5 at least, by default.
     """
     for size in smaller_heights(height):
-        block = _equation(equation, size, width, note_height, lettering)
+        block = _equation(equation, size, width, note_height)
         if width is None or block.width <= width:
             break
     return block
@@ -154,18 +152,17 @@ def _equation(
     size: float,
     width: float | None,
     note_height: float | None,
-    lettering: Lettering,
 ) -> EquationBlock:
     small = note_height or max(2.5, index_height(size))
 
     def term(vector: Vector) -> _Term:
         return _Term(
-            typeset(vector_markup(vector.symbol), size, lettering),
-            typeset(vector.note, small, lettering),
+            typeset(vector_markup(vector.symbol), size),
+            typeset(vector.note, small),
             vector.known.value,
         )
 
-    setter = _RowSetter(size, lettering)
+    setter = _RowSetter(size)
     setter.put(term(equation.left))
     setter.sign("=")
     rows: list[_EquationRow] = []
@@ -176,7 +173,7 @@ def _equation(
         if k and width is not None and setter.reach(following, "+", last=last) > width:
             setter.sign("+")
             rows.append(setter.row())
-            setter = _RowSetter(size, lettering, start=indent)
+            setter = _RowSetter(size, start=indent)
         if k:
             setter.sign("+")
         setter.put(following)
@@ -191,8 +188,8 @@ def _equation(
 class _RowSetter:
     """Put terms and signs from left to right so that neither letters nor notes collide."""
 
-    def __init__(self, size: float, lettering: Lettering, start: float = 0.0) -> None:
-        self.size, self.lettering = size, lettering
+    def __init__(self, size: float, start: float = 0.0) -> None:
+        self.size = size
         self.terms: list[_Term] = []
         self.signs: list[str] = []
         self.start = start
@@ -223,7 +220,7 @@ class _RowSetter:
         return _Term(term.inscription, term.note, term.underlines, x)
 
     def _set(self, sign: str) -> Inscription:
-        return typeset(sign, self.size, self.lettering)
+        return typeset(sign, self.size)
 
     def reach(self, term: _Term, sign: str, *, last: bool) -> float:
         """Return how far right the row would go with one more term, mm."""
@@ -253,7 +250,6 @@ def formula_block(
     *,
     width: float | None = None,
     indent: float = 5.0,
-    lettering: Lettering = LETTERING,
 ) -> Line | Lines:
     """Return a scalar formula as rich text (расчётная формула).
 
@@ -262,24 +258,22 @@ def formula_block(
     next line (GOST 2.105), which is ``indent`` mm to the right. Without such a sign in reach it is
     broken at a space.
     """
-    whole = typeset(markup, height, lettering)
+    whole = typeset(markup, height)
     if width is None or whole.width <= width:
         return Line(whole)
-    lines = _broken_formula(split_words(markup), height, width, indent, lettering)
-    set_lines = tuple(typeset(line, height, lettering) for line in lines)
+    lines = _broken_formula(split_words(markup), height, width, indent)
+    set_lines = tuple(typeset(line, height) for line in lines)
     return Lines(set_lines, line_step(height), indent=indent)
 
 
-def _broken_formula(
-    words: Sequence[str], height: float, width: float, indent: float, lettering: Lettering
-) -> list[str]:
+def _broken_formula(words: Sequence[str], height: float, width: float, indent: float) -> list[str]:
     """Fill lines greedily, breaking after an operator; the next line starts with it again."""
     lines: list[str] = []
     rest = list(words)
     while rest:
         room = width - (indent if lines else 0.0)
         full = len(rest)
-        while full > 1 and typeset(" ".join(rest[:full]), height, lettering).width > room:
+        while full > 1 and typeset(" ".join(rest[:full]), height).width > room:
             full -= 1
         if full == len(rest):
             lines.append(" ".join(rest))

@@ -15,7 +15,6 @@ from typing import NamedTuple
 from planmethod.errors import LayoutError
 from planmethod.render.block import Align, fit
 from planmethod.render.drawing import Bounds, Item, Pen, Stroke, shifted
-from planmethod.render.lettering import LETTERING, Lettering
 from planmethod.render.style import HEIGHTS
 from planmethod.render.typeset import escape, smaller_heights, typeset
 
@@ -213,7 +212,6 @@ def sheet_frame(
     fields: Mapping[str, str] = MappingProxyType({}),
     *,
     graph_26: bool = False,
-    lettering: Lettering = LETTERING,
 ) -> tuple[list[Item], Bounds, Bounds]:
     """Return the sheet's edge, frame and title block (рамка и основная надпись).
 
@@ -243,16 +241,14 @@ def sheet_frame(
     inner, stamp = paper.inner, paper.stamp
     edge = _rectangle((0.0, 0.0, paper.width, paper.height), Pen.THIN, "edge")
     items: list[Item] = [edge, _rectangle(inner, Pen.FRAME, "frame")]
-    items += shifted(title_block(fields, lettering=lettering), complex(stamp[0], stamp[1]))
+    items += shifted(title_block(fields), complex(stamp[0], stamp[1]))
     if graph_26:
-        items += _graph_26(paper, fields.get("designation", ""), lettering)
-    items += _under_the_frame(paper, lettering)
+        items += _graph_26(paper, fields.get("designation", ""))
+    items += _under_the_frame(paper)
     return items, inner, stamp
 
 
-def title_block(
-    fields: Mapping[str, str] = MappingProxyType({}), *, lettering: Lettering = LETTERING
-) -> list[Item]:
+def title_block(fields: Mapping[str, str] = MappingProxyType({})) -> list[Item]:
     """Return form 1 of GOST 2.104, 185x55 mm, its lower left corner at the origin.
 
     A text that does not fit its cell shrinks to the next letter height, then is wrapped, then
@@ -267,23 +263,23 @@ def title_block(
             Stroke((complex(x0, y0), complex(x1, y1)), pen, tag=STAMP) for x0, y0, x1, y1 in lines
         ]
     for caption, box, align in _CAPTIONS:
-        items += _filled(caption, Cell(box, 2.5, align), lettering)
+        items += _filled(caption, Cell(box, 2.5, align))
     values = {key: str(value).strip() for key, value in fields.items()}
     for alias, key in (("subject", "material"), ("date", "author_date")):
         values[key] = values.get(key, "") or values.get(alias, "")
     for key, cell in _CELLS.items():
         if values.get(key):
-            items += _filled(values[key], cell, lettering)
+            items += _filled(values[key], cell)
     place = (values.get(key, "") for key in ("organisation", "department", "group"))
     whole = "\n".join(line for line in place if line)
     if whole:
-        items += _filled(whole, _ORGANISATION, lettering)
+        items += _filled(whole, _ORGANISATION)
     if len(letters) > len(_LETTERS):
         box = (_LETTERS[0][0], _LETTERS[0][1], _LETTERS[-1][2], _LETTERS[-1][3])
-        items += _filled(letters, Cell(box, 3.5), lettering)
+        items += _filled(letters, Cell(box, 3.5))
     else:
         for letter, box in zip(letters, _LETTERS, strict=False):
-            items += _filled(letter, Cell(box, 3.5), lettering)
+            items += _filled(letter, Cell(box, 3.5))
     return items
 
 
@@ -301,20 +297,20 @@ def _check(fields: Mapping[str, str]) -> None:
             raise LayoutError(f"Unknown field {key!r} of the title block. {hint}")
 
 
-def _filled(text: str, cell: Cell, lettering: Lettering) -> list[Item]:
+def _filled(text: str, cell: Cell) -> list[Item]:
     """Put a text into its cell; in narrow cells less white is left at the sides."""
     wide = cell.box[2] - cell.box[0]
     pad = 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5
     # 2.5 mm is the smallest for drawings; 1.8, the smallest of all, is better than a cut surname.
     heights = (*smaller_heights(cell.height), HEIGHTS[0])
-    return fit(text, cell.box, heights, align=cell.align, pad=pad, tag=STAMP, lettering=lettering)
+    return fit(text, cell.box, heights, align=cell.align, pad=pad, tag=STAMP)
 
 
-def _graph_26(fmt: Format, designation: str, lettering: Lettering) -> list[Item]:
+def _graph_26(fmt: Format, designation: str) -> list[Item]:
     box = graph_26_bounds(fmt)
     items: list[Item] = [_rectangle(box, Pen.FRAME, STAMP)]
     for height in smaller_heights(7.0):
-        line = typeset(escape(designation), height, lettering)
+        line = typeset(escape(designation), height)
         if line.width <= 67.0:
             break
     centre = complex((box[0] + box[2]) / 2, (box[1] + box[3]) / 2 + height / 2)
@@ -323,13 +319,13 @@ def _graph_26(fmt: Format, designation: str, lettering: Lettering) -> list[Item]
     return items
 
 
-def _under_the_frame(fmt: Format, lettering: Lettering) -> list[Item]:
+def _under_the_frame(fmt: Format) -> list[Item]:
     """Return the notes below the title block: who copied, which format."""
     right = fmt.width - FRAME_OTHER
     base = (FRAME_OTHER - 2.5) / 2
     cyrillic = fmt.name.replace("A", "А").replace("x", "х")
-    copied = typeset("Копировал", 2.5, lettering)
-    name = typeset(f"Формат {cyrillic}", 2.5, lettering)
+    copied = typeset("Копировал", 2.5)
+    name = typeset(f"Формат {cyrillic}", 2.5)
     items = copied.at(complex(right - STAMP_WIDTH + 75.0, base), tag=MARGIN_NOTE)
     return items + name.at(complex(right - 35.0, base), tag=MARGIN_NOTE)
 

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from shapely import STRtree, box, linestrings, points, polygons
 
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Item, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING, Lettering
 from planmethod.render.symbols import arc_points, unit
 from planmethod.render.typeset import Inscription, text_corners, typeset
 
@@ -111,10 +110,9 @@ def segment_label(
     prefer: complex = 0j,
     gap: float = 1.2,
     priority: int = 0,
-    lettering: Lettering = LETTERING,
 ) -> Label:
     """Return a label along a segment: the number of a link, the length of a vector."""
-    inscription = typeset(markup, height, lettering)
+    inscription = typeset(markup, height)
     middle = (start + end) / 2
     return Label(inscription, middle, (start, end), prefer, gap, priority)
 
@@ -125,7 +123,6 @@ def place_labels(
     bounds: Bounds,
     *,
     leader_from: float = LEADER_FROM,
-    lettering: Lettering = LETTERING,
 ) -> list[Placed]:
     """Find a place for every label (размещение надписей).
 
@@ -149,7 +146,7 @@ def place_labels(
     """
     if not labels:
         return []
-    field_ = _Field(obstacles, bounds, leader_from, lettering)
+    field_ = _Field(obstacles, bounds, leader_from)
     near = [_near(label) for label in labels]
     costs = field_.static_costs(near)
     order = sorted(
@@ -228,12 +225,11 @@ class _Field:
     obstacles: Iterable[Item]
     bounds: Bounds
     leader_from: float
-    lettering: Lettering
     placed: list[Bounds] = field(default_factory=list)
     leaders: list[tuple[complex, complex]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.segments, areas = _obstacles(self.obstacles, self.lettering)
+        self.segments, areas = _obstacles(self.obstacles)
         self.lines = STRtree(linestrings(self.segments)) if len(self.segments) else None
         self.areas = STRtree(areas) if areas else None
 
@@ -412,7 +408,7 @@ def _inside(segments: Floats, boxes: Floats) -> Floats:
     return np.where(last >= first, np.maximum(last - first, 0.0) * length, -1.0)
 
 
-def _obstacles(items: Iterable[Item], lettering: Lettering) -> tuple[Floats, list[object]]:
+def _obstacles(items: Iterable[Item]) -> tuple[Floats, list[object]]:
     """Split items into segments (n, 2, 2) that should and areas that must not be covered."""
     lines: list[tuple[complex, complex]] = []
     areas: list[object] = []
@@ -427,7 +423,7 @@ def _obstacles(items: Iterable[Item], lettering: Lettering) -> tuple[Floats, lis
             case Disc(centre=centre, radius=radius):
                 areas.append(points(centre.real, centre.imag).buffer(radius, quad_segs=4))
             case Text():
-                areas.append(polygons([(p.real, p.imag) for p in text_corners(item, lettering)]))
+                areas.append(polygons([(p.real, p.imag) for p in text_corners(item)]))
             case Fill():
                 pass  # no area
     if not lines:

@@ -1,12 +1,16 @@
 """Lettering behind one interface: widths and outlines of the letters, whatever their source.
 
-`Lettering` is all that the rest of the renderer knows of letters; `LETTERING` is the one in use.
-The output formats need outlines too: they know `OutlineLettering`.
+`Lettering` is all that the rest of the renderer knows of letters, and it asks `in_use` for the one
+that a sheet is set in; `using` sets another. The output formats need outlines too: they know
+`OutlineLettering`, which a `Drawing` brings along.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -109,6 +113,14 @@ class OutlineLettering:
         table = self._data["glyphs"]
         return {char for char in text if f"{ord(char):x}" not in table}
 
+    def places(self, text: str) -> list[tuple[str, int]]:
+        """Return each letter of a run and where its origin stands, font units."""
+        placed, pen = [], 0
+        for char in text:
+            placed.append((char, pen))
+            pen += self.outline(char).advance
+        return placed
+
     def width(self, text: str, height: float) -> float:
         """Return the advance of a run of letters, mm."""
         return sum(self.outline(char).advance for char in text) * height / self.cap_height
@@ -130,12 +142,11 @@ class OutlineLettering:
         found = self._runs.get(text)
         if found is not None:
             return found
-        pen, boxes = 0, []
-        for char in text:
+        boxes = []
+        for char, pen in self.places(text):
             glyph = self.outline(char)
             if glyph.outline:
                 boxes.append((pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax))
-            pen += glyph.advance
         if boxes:
             left, low, right, high = zip(*boxes, strict=True)
             bounds = (min(left), min(low), max(right), max(high))
@@ -153,10 +164,25 @@ class OutlineLettering:
         return max(0.0, -self.ink(text, height)[1])
 
 
-LETTERING = OutlineLettering()
-"""The lettering of the sheets."""
+_DEFAULT = OutlineLettering()
+_IN_USE: ContextVar[OutlineLettering | None] = ContextVar("lettering", default=None)
+
+
+def in_use() -> OutlineLettering:
+    """Return the lettering that texts are set in."""
+    return _IN_USE.get() or _DEFAULT
+
+
+@contextmanager
+def using(lettering: OutlineLettering) -> Iterator[OutlineLettering]:
+    """Set texts in another lettering inside the ``with`` block."""
+    token = _IN_USE.set(lettering)
+    try:
+        yield lettering
+    finally:
+        _IN_USE.reset(token)
 
 
 def missing(text: str) -> set[str]:
     """Return the letters of ``text`` that the lettering in use has not."""
-    return LETTERING.missing(text)
+    return in_use().missing(text)

@@ -23,7 +23,6 @@ from shapely.geometry.base import BaseGeometry
 from planmethod.render.block import CUT
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.frame import MARGIN_NOTE, STAMP
-from planmethod.render.lettering import LETTERING, Lettering
 from planmethod.render.remarks import REMARKS, Facts, Severity, action, what
 from planmethod.render.symbols import arc_points
 from planmethod.render.typeset import PART_OF, SMALLEST, text_corners
@@ -110,7 +109,6 @@ def lint(
     inner: Bounds | None = None,
     *,
     ignore: Iterable[Pen] = (),
-    lettering: Lettering = LETTERING,
 ) -> list[Finding]:
     """Look a display list over and return what is wrong with its texts (нормоконтроль).
 
@@ -128,18 +126,18 @@ def lint(
     list of Finding
         In the order of the codes, then of the drawing.
     """
-    writings = writings_of(items, lettering)
+    writings = writings_of(items)
     findings = [
         *_overlaps(writings),
         *_crossed(writings, items, frozenset(ignore)),
-        *_outside(items, inner, lettering),
+        *_outside(items, inner),
         *_small(writings),
         *_shortened(writings),
     ]
     return sorted(findings, key=lambda finding: finding.code)
 
 
-def writings_of(items: Sequence[Item], lettering: Lettering = LETTERING) -> list[Writing]:
+def writings_of(items: Sequence[Item]) -> list[Writing]:
     """Join the runs of one label."""
     groups: dict[str, list[tuple[int, Text]]] = {}
     for k, item in enumerate(items):
@@ -149,7 +147,7 @@ def writings_of(items: Sequence[Item], lettering: Lettering = LETTERING) -> list
         Writing(
             name,
             tuple(run for _, run in members),
-            union_all([_ink(run, lettering) for _, run in members]),
+            union_all([_ink(run) for _, run in members]),
             members[0][0],
             members[-1][0],
         )
@@ -157,8 +155,8 @@ def writings_of(items: Sequence[Item], lettering: Lettering = LETTERING) -> list
     ]
 
 
-def _ink(run: Text, lettering: Lettering) -> BaseGeometry:
-    return Polygon([(p.real, p.imag) for p in text_corners(run, lettering)])
+def _ink(run: Text) -> BaseGeometry:
+    return Polygon([(p.real, p.imag) for p in text_corners(run)])
 
 
 def _overlaps(writings: Sequence[Writing]) -> Iterator[Finding]:
@@ -245,13 +243,11 @@ def called(item: Item) -> str:
     return f"{type(item).__name__.lower()} {pen} {item.tag}".rstrip()
 
 
-def _outside(
-    items: Sequence[Item], inner: Bounds | None, lettering: Lettering
-) -> Iterator[Finding]:
+def _outside(items: Sequence[Item], inner: Bounds | None) -> Iterator[Finding]:
     for run in items:
         if not isinstance(run, Text) or not run.text.strip():
             continue
-        ink = _ink(run, lettering).bounds
+        ink = _ink(run).bounds
         if run.box is not None and (out := beyond(ink, run.box)) > _TOUCH:
             yield Finding(
                 "PM-D03",

@@ -18,7 +18,7 @@ from planmethod.errors import LayoutError
 from planmethod.render.block import Column as Stack
 from planmethod.render.block import Line
 from planmethod.render.drawing import Bounds, Item, Pen, Stroke
-from planmethod.render.lettering import LETTERING, Lettering
+from planmethod.render.lettering import in_use
 from planmethod.render.symbols import turn_sign
 from planmethod.render.typeset import Inscription, smaller_heights, typeset
 
@@ -189,7 +189,6 @@ def table_block(
     row_height: float = 8.0,
     part_gap: float = 5.0,
     title: str = "",
-    lettering: Lettering = LETTERING,
 ) -> Stack:
     """Return a table of results as a block (таблица результатов).
 
@@ -219,9 +218,9 @@ def table_block(
     """
     _check(columns)
     limit = max_width if max_width is not None else width
-    parts = [_set_all(columns, height, lettering)]
+    parts = [_set_all(columns, height)]
     if limit is not None and _total(parts[0]) > limit + 1e-9:
-        smaller = _set_all(columns, smaller_heights(height)[:2][-1], lettering)
+        smaller = _set_all(columns, smaller_heights(height)[:2][-1])
         if _total(smaller) <= limit + 1e-9:
             parts = [smaller]
         else:
@@ -234,7 +233,7 @@ def table_block(
     body = Stack(blocks, gap=part_gap)
     if not title:
         return body
-    return Stack([Line(typeset(title, height, lettering)), body], gap=2.0)
+    return Stack([Line(typeset(title, height)), body], gap=2.0)
 
 
 def _check(columns: Sequence[TableColumn]) -> None:
@@ -244,24 +243,24 @@ def _check(columns: Sequence[TableColumn]) -> None:
         raise LayoutError(f"Cannot draw a table from columns of unlike length ({told}).")
 
 
-def _set_all(columns: Sequence[TableColumn], size: float, lettering: Lettering) -> tuple[_Set, ...]:
-    return tuple(_set_column(column, size, lettering) for column in columns)
+def _set_all(columns: Sequence[TableColumn], size: float) -> tuple[_Set, ...]:
+    return tuple(_set_column(column, size) for column in columns)
 
 
-def _set_column(column: TableColumn, size: float, lettering: Lettering) -> _Set:
+def _set_column(column: TableColumn, size: float) -> _Set:
     """Typeset a column; with a width aimed at, try the smaller heights before it grows."""
     heights = smaller_heights(size) if column.width is not None else (size,)
     for height in heights:
-        made = _set_at(column, height, lettering)
+        made = _set_at(column, height)
         if column.width is None or made.width <= column.width:
             break
     least = column.width if column.width is not None else column.least
     return replace(made, width=max(made.width, least))
 
 
-def _set_at(column: TableColumn, size: float, lettering: Lettering) -> _Set:
-    values = tuple(typeset(cell.text, size, lettering) for cell in column.cells)
-    head, unit = typeset(column.head, size, lettering), typeset(column.unit, size, lettering)
+def _set_at(column: TableColumn, size: float) -> _Set:
+    values = tuple(typeset(cell.text, size) for cell in column.cells)
+    head, unit = typeset(column.head, size), typeset(column.unit, size)
     signed = any(cell.sense is not None for cell in column.cells)
     sign = 1.2 * size if signed else 0.0
     tail = sign + _SIGN_GAP if signed else 0.0
@@ -269,7 +268,7 @@ def _set_at(column: TableColumn, size: float, lettering: Lettering) -> _Set:
     lefts = tuple(-(value.width + tail) / 2 for value in values)
     if all(_NUMBER.match(cell.text) for cell in column.cells):
         # Digits of one place stand under one another (GOST 2.105).
-        wholes = [_integer_width(cell.text, size, lettering) for cell in column.cells]
+        wholes = [_integer_width(cell.text, size) for cell in column.cells]
         fractions = (v.width - w for v, w in zip(values, wholes, strict=True))
         room = max(wholes, default=0.0) + max(fractions, default=0.0)
         comma = max(wholes, default=0.0) - (room + tail) / 2
@@ -279,8 +278,8 @@ def _set_at(column: TableColumn, size: float, lettering: Lettering) -> _Set:
     return _Set(column, head, unit, values, width, lefts, complex(sign_x, sign))
 
 
-def _integer_width(number: str, size: float, lettering: Lettering) -> float:
-    return lettering.width(re.split("[., *]", number)[0], size)
+def _integer_width(number: str, size: float) -> float:
+    return in_use().width(re.split("[., *]", number)[0], size)
 
 
 def _total(part: Sequence[_Set]) -> float:

@@ -21,7 +21,7 @@ from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
 from planmethod.render.drawing import Bounds, Item, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING, Lettering
+from planmethod.render.lettering import Lettering, in_use
 from planmethod.render.style import HEIGHTS, LINE_STEP
 
 SMALLEST = 2.5
@@ -183,8 +183,7 @@ def split_words(markup: str) -> list[str]:
     return [*words, word] if word else words
 
 
-@lru_cache(maxsize=4096)
-def typeset(markup: str, height: float, lettering: Lettering = LETTERING) -> Inscription:
+def typeset(markup: str, height: float) -> Inscription:
     r"""Set one line of rich text (набор строки).
 
     Parameters
@@ -203,6 +202,11 @@ def typeset(markup: str, height: float, lettering: Lettering = LETTERING) -> Ins
     LayoutError
         If braces do not pair, an index has nothing in it, or a command is unknown.
     """
+    return _typeset(markup, height, in_use())
+
+
+@lru_cache(maxsize=4096)
+def _typeset(markup: str, height: float, lettering: Lettering) -> Inscription:
     nodes, end = _parse(markup, 0, closing=False)
     assert end == len(markup)
     setter = _Setter(lettering)
@@ -218,8 +222,9 @@ def typeset(markup: str, height: float, lettering: Lettering = LETTERING) -> Ins
     )
 
 
-def text_corners(text: Text, lettering: Lettering = LETTERING) -> list[complex]:
+def text_corners(text: Text) -> list[complex]:
     """Return the corners of the ink box of a run of letters, mm; turned as the text is."""
+    lettering = in_use()
     wide = lettering.width(text.text, text.height)
     up = lettering.ascent(text.text, text.height)
     down = lettering.descent(text.text, text.height)

@@ -30,7 +30,7 @@ from planmethod.render.backends import BACKENDS, Options, render, replay
 from planmethod.render.backends.curves import arc_curves
 from planmethod.render.backends.null import NullCanvas
 from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Item, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import in_use
 from planmethod.render.style import PENS, arc_spans, stroke_lines, sweep
 
 NEAR = 0.01  # mm
@@ -119,7 +119,7 @@ def sample(width: float = 297.0, height: float = 210.0) -> Drawing:
 
 def crowded() -> Drawing:
     """Every letter that the lettering has, more than one 8-bit subset of a font can hold."""
-    letters = [chr(code) for code in range(0x21, 0x2300) if not LETTERING.missing(chr(code))]
+    letters = [chr(code) for code in range(0x21, 0x2300) if not in_use().missing(chr(code))]
     drawing = sheet_of(width=420.0, height=297.0)
     for k in range(0, len(letters), 40):
         drawing.add(Text(complex(10, 280 - 6 * k / 40), "".join(letters[k : k + 40]), 3.5))
@@ -193,7 +193,7 @@ def test_text_is_where_it_was_put(fmt: str, item: Text) -> None:
     (found,) = VECTOR[fmt](render(sheet_of(item), fmt)).items
     assert isinstance(found, Run)
     assert abs(found.at - item.at) < NEAR
-    assert found.em == pytest.approx(LETTERING.em(item.height), abs=1e-4)
+    assert found.em == pytest.approx(in_use().em(item.height), abs=1e-4)
     assert (found.angle - item.angle + 180) % 360 - 180 == pytest.approx(0.0, abs=1e-3)
     if fmt != "pdf":
         assert found.text == item.text
@@ -217,7 +217,7 @@ def expected_bounds(item: Item) -> tuple[float, float, float, float]:
             ]
             half = PENS[item.pen].width / 2
         case Text():
-            return turned_box(item.at, item.angle, LETTERING.ink(item.text, item.height))
+            return turned_box(item.at, item.angle, in_use().ink(item.text, item.height))
     xs, ys = [z.real for z in points], [z.imag for z in points]
     return (min(xs) - half, min(ys) - half, max(xs) + half, max(ys) + half)
 
@@ -446,10 +446,10 @@ def test_svg_holds_only_the_letters_that_occur_and_says_what_is_written() -> Non
 def test_svg_letters_advance_as_the_lettering_says() -> None:
     text = Text(1 + 1j, "План ab", 3.5)
     root = ET.fromstring(render(sheet_of(text), "svg"))
-    unit = text.height / LETTERING.cap_height
+    unit = text.height / in_use().cap_height
     places = [float(use.attrib["x"]) * unit for use in root.iter("{http://www.w3.org/2000/svg}use")]
     starts = [k for k, char in enumerate(text.text) if char != " "]
-    assert places == pytest.approx([LETTERING.width(text.text[:k], 3.5) for k in starts])
+    assert places == pytest.approx([in_use().width(text.text[:k], 3.5) for k in starts])
 
 
 @needs("rsvg-convert")
@@ -563,8 +563,8 @@ def test_pdf_words_have_the_width_of_the_lettering(tmp_path: FilePath) -> None:
     left, right = (float(number) / 72 * 25.4 for number in found.groups())
     assert left == pytest.approx(20.0, abs=NEAR)
     # Advances in a PDF are whole thousandths of the em: half of one a letter may be lost.
-    loss = len(word) * LETTERING.em(5.0) / 2000
-    assert right - left == pytest.approx(LETTERING.width(word, 5.0), abs=loss)
+    loss = len(word) * in_use().em(5.0) / 2000
+    assert right - left == pytest.approx(in_use().width(word, 5.0), abs=loss)
 
 
 @needs("pdfinfo")

@@ -29,7 +29,7 @@ from planmethod.problem import load
 from planmethod.render.backends import Options, render
 from planmethod.render.backends.dxf import FONT, LAYERS, LINE_TYPES, layer_of
 from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import in_use
 from planmethod.render.sheets import kinematics
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
@@ -110,7 +110,7 @@ def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None
     assert [run.text for run in runs] == [item.text.strip() for item in wanted]
     for run, text in zip(runs, wanted, strict=True):
         assert near(run.at, text.at) or text.text.startswith(" ")
-        assert run.em == pytest.approx(LETTERING.em(text.height), abs=1e-6)
+        assert run.em == pytest.approx(in_use().em(text.height), abs=1e-6)
 
     lines = [item.corners for item in page.items if isinstance(item, Painted) and item.corners]
     starts = {(round(c[0].real, 1), round(c[0].imag, 1)) for c in lines}
@@ -313,9 +313,9 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
         assert entity.dxf.height == item.height
         assert entity.dxf.style == "SHEET"
         start, end = point(entity.dxf.insert), point(entity.dxf.align_point)
-        assert abs(end - start) == pytest.approx(LETTERING.width(item.text.strip(), item.height))
+        assert abs(end - start) == pytest.approx(in_use().width(item.text.strip(), item.height))
         way = turn(item.angle * pi / 180)
-        lead = LETTERING.width(" ", item.height) if item.text[0] == " " else 0.0
+        lead = in_use().width(" ", item.height) if item.text[0] == " " else 0.0
         assert near(start, item.at + lead * way)
         assert near((end - start) / abs(end - start), way)
     layers = [entity.dxf.layer for entity in document.modelspace()]
@@ -338,7 +338,7 @@ def test_outlines_have_the_extents_of_the_letters() -> None:
         assert len(paths) == 5
         flat = [(z - item.at) / turn(angle * pi / 180) for path in paths for z in path.corners]
         xs, ys = [z.real for z in flat], [z.imag for z in flat]
-        ink = LETTERING.ink(item.text, item.height)
+        ink = in_use().ink(item.text, item.height)
         assert (min(xs), min(ys), max(xs), max(ys)) == pytest.approx(ink, abs=NEAR)
 
 

@@ -11,7 +11,7 @@ from planmethod.plans.model import Known, Vector, VectorEquation, VectorKind
 from planmethod.render.block import Lines, texts
 from planmethod.render.drawing import Item, Stroke, Text
 from planmethod.render.equations import EquationBlock, equation_block, formula_block
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import in_use
 from planmethod.render.lint import lint
 from planmethod.render.typeset import PART_OF, typeset
 
@@ -41,9 +41,9 @@ def inside(block: EquationBlock, corner: complex, items: list[Item]) -> bool:
     for item in items:
         points = item.points if isinstance(item, Stroke) else ()
         if isinstance(item, Text):
-            wide = LETTERING.width(item.text, item.height)
-            up = LETTERING.ascent(item.text, item.height)
-            down = LETTERING.descent(item.text, item.height)
+            wide = in_use().width(item.text, item.height)
+            up = in_use().ascent(item.text, item.height)
+            down = in_use().descent(item.text, item.height)
             points = (item.at - 1j * down, item.at + wide + 1j * up)
         for p in points:
             x, y = (p - corner).real, (corner - p).imag
@@ -120,7 +120,7 @@ def test_nothing_in_an_equation_overlaps(
     notes = [run for run in texts(items) if run.text[0] in "⊥∥"]
     for one, two in pairwise(notes):
         if one.at.imag == two.at.imag:
-            assert two.at.real - one.at.real >= LETTERING.width(one.text, one.height) + 1
+            assert two.at.real - one.at.real >= in_use().width(one.text, one.height) + 1
 
 
 def test_formula_on_one_line() -> None:

@@ -20,6 +20,7 @@ from planmethod.render.frame import (
     sheet_frame,
     title_block,
 )
+from planmethod.render.lettering import OutlineLettering, using
 from planmethod.render.lint import lint
 
 FIELDS = {
@@ -195,10 +196,8 @@ def test_unknown_format() -> None:
         paper_format("B5")
 
 
-class EvenLettering:
+class EvenLettering(OutlineLettering):
     """Letters of one width, so that the numbers below hold for whatever lettering is in use."""
-
-    name = "even"
 
     def width(self, text: str, height: float) -> float:
         return 0.7 * height * len(text)
@@ -214,7 +213,8 @@ TITLE_BOX = (65.0, 15.0, 135.0, 40.0)
 
 
 def heights_and_lines(title: str) -> tuple[set[float], int]:
-    runs = shown(title_block({"title": title}, lettering=EvenLettering()), TITLE_BOX)
+    with using(EvenLettering()):
+        runs = shown(title_block({"title": title}), TITLE_BOX)
     assert not any(CUT in run.tag.split() for run in runs)
     assert " ".join(run.text for run in runs) == title
     return {run.height for run in runs}, len({run.at.imag for run in runs})
@@ -246,9 +246,10 @@ def test_a_word_wider_than_the_cell_is_broken_with_a_hyphen() -> None:
 
 
 def test_a_date_too_wide_for_its_cell_goes_on_two_lines() -> None:
-    items = title_block({"date": "12.03.2025"}, lettering=EvenLettering())
-    assert [run.text for run in shown(items, (55, 25, 65, 30))] == ["12.03.", "2025"]
-    assert lint(items, lettering=EvenLettering()) == []
+    with using(EvenLettering()):
+        items = title_block({"date": "12.03.2025"})
+        assert [run.text for run in shown(items, (55, 25, 65, 30))] == ["12.03.", "2025"]
+        assert lint(items) == []
 
 
 def test_what_cannot_fit_is_cut_and_told() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from planmethod.render.lettering import FONTS, LETTERING, Lettering, missing
+from planmethod.render.lettering import FONTS, Lettering, in_use, missing
 
 RUSSIAN = "".join(map(chr, range(0x410, 0x450))) + "Ёё"
 NEEDED = (
@@ -22,7 +22,7 @@ NEEDED = (
 
 
 def test_is_a_lettering() -> None:
-    lettering: Lettering = LETTERING
+    lettering: Lettering = in_use()
     assert lettering.name == "PlanmethodSans"
 
 
@@ -32,45 +32,45 @@ def test_needed_letters_are_there() -> None:
 
 def test_missing_letters_are_named_and_drawn_as_a_box() -> None:
     assert missing("Жёлтый 漢字 \U0001f600 v") == {"漢", "字", "\U0001f600"}
-    box = LETTERING.outline("漢")
-    assert box == LETTERING.outline("字")
+    box = in_use().outline("漢")
+    assert box == in_use().outline("字")
     assert box.advance > 0
     assert box.outline
-    assert LETTERING.width("漢", 5.0) > 0.0
+    assert in_use().width("漢", 5.0) > 0.0
 
 
 @pytest.mark.parametrize("height", [1.8, 2.5, 3.5, 5.0, 7.0, 40.0])
 def test_height_is_the_height_of_capitals(height: float) -> None:
     for capital in "HEXПНШЖ":
-        assert LETTERING.ascent(capital, height) == pytest.approx(height)
-        assert LETTERING.descent(capital, height) == 0.0
-    assert LETTERING.em(height) == pytest.approx(height / 0.729, rel=1e-4)
+        assert in_use().ascent(capital, height) == pytest.approx(height)
+        assert in_use().descent(capital, height) == 0.0
+    assert in_use().em(height) == pytest.approx(height / 0.729, rel=1e-4)
 
 
 def test_measures_of_a_run() -> None:
-    assert LETTERING.width("", 5.0) == LETTERING.ascent("", 5.0) == LETTERING.descent(" ", 5.0) == 0
-    assert LETTERING.width(" ", 5.0) > 0.0
-    parts = LETTERING.width("План ", 5.0) + LETTERING.width("скоростей", 5.0)
-    assert LETTERING.width("План скоростей", 5.0) == pytest.approx(parts)
-    assert LETTERING.width("План", 7.0) == pytest.approx(1.4 * LETTERING.width("План", 5.0))
-    assert LETTERING.ascent("асе", 5.0) < LETTERING.ascent("Ас", 5.0) < LETTERING.ascent("Й", 5.0)
-    assert LETTERING.descent("ру", 5.0) > LETTERING.descent("щ", 5.0) > 0.5
-    assert LETTERING.ascent("_", 5.0) == 0.0
-    assert LETTERING.descent("″", 5.0) == 0.0
+    assert in_use().width("", 5.0) == in_use().ascent("", 5.0) == in_use().descent(" ", 5.0) == 0
+    assert in_use().width(" ", 5.0) > 0.0
+    parts = in_use().width("План ", 5.0) + in_use().width("скоростей", 5.0)
+    assert in_use().width("План скоростей", 5.0) == pytest.approx(parts)
+    assert in_use().width("План", 7.0) == pytest.approx(1.4 * in_use().width("План", 5.0))
+    assert in_use().ascent("асе", 5.0) < in_use().ascent("Ас", 5.0) < in_use().ascent("Й", 5.0)
+    assert in_use().descent("ру", 5.0) > in_use().descent("щ", 5.0) > 0.5
+    assert in_use().ascent("_", 5.0) == 0.0
+    assert in_use().descent("″", 5.0) == 0.0
 
 
 def test_ink_lies_within_the_advance_but_for_combining_marks() -> None:
-    xmin, ymin, xmax, ymax = LETTERING.ink("Жук", 10.0)
-    assert 0.0 <= xmin < xmax <= LETTERING.width("Жук", 10.0) + 0.1
-    assert ymin == -LETTERING.descent("Жук", 10.0)
-    assert ymax == LETTERING.ascent("Жук", 10.0)
-    assert LETTERING.width("v\u0305", 5.0) == LETTERING.width("v", 5.0)
-    assert LETTERING.ascent("v\u0305", 5.0) > LETTERING.ascent("v", 5.0) + 0.5
+    xmin, ymin, xmax, ymax = in_use().ink("Жук", 10.0)
+    assert 0.0 <= xmin < xmax <= in_use().width("Жук", 10.0) + 0.1
+    assert ymin == -in_use().descent("Жук", 10.0)
+    assert ymax == in_use().ascent("Жук", 10.0)
+    assert in_use().width("v\u0305", 5.0) == in_use().width("v", 5.0)
+    assert in_use().ascent("v\u0305", 5.0) > in_use().ascent("v", 5.0) + 0.5
 
 
 def test_bounds_are_those_of_the_outlines() -> None:
     for char in NEEDED:
-        glyph = LETTERING.outline(char)
+        glyph = in_use().outline(char)
         numbers = [float(number) for number in re.findall(r"-?[\d.]+", glyph.outline)]
         if not numbers:
             assert char in " \u00a0"
@@ -82,13 +82,13 @@ def test_bounds_are_those_of_the_outlines() -> None:
 
 def test_font_and_data_agree() -> None:
     ttlib = pytest.importorskip("fontTools.ttLib")
-    font = ttlib.TTFont(LETTERING.font_file)
+    font = ttlib.TTFont(in_use().font_file)
     letters = font.getBestCmap()
     data = json.loads((FONTS / "PlanmethodSans.json").read_text(encoding="ascii"))
     assert {int(code, 16) for code in data["glyphs"] if code} == set(letters)
-    assert font["head"].unitsPerEm == LETTERING.units_per_em
+    assert font["head"].unitsPerEm == in_use().units_per_em
     for code, name in letters.items():
-        glyph = LETTERING.outline(chr(code))
+        glyph = in_use().outline(chr(code))
         assert font["hmtx"][name][0] == glyph.advance, name
         if glyph.outline:
             box = font["glyf"][name]
@@ -97,7 +97,7 @@ def test_font_and_data_agree() -> None:
 
 def test_font_is_renamed_and_its_licence_lies_beside_it() -> None:
     ttlib = pytest.importorskip("fontTools.ttLib")
-    names = ttlib.TTFont(LETTERING.font_file)["name"]
+    names = ttlib.TTFont(in_use().font_file)["name"]
     for number in (1, 4, 6):
         name = names.getDebugName(number)
         assert "Planmethod" in name

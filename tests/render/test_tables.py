@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from planmethod.errors import LayoutError
 from planmethod.render.block import Column, Picture, Row, Spacer, heading, paragraph, texts
 from planmethod.render.drawing import Arc, Fill, Item, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import in_use
 from planmethod.render.lint import lint
 from planmethod.render.tables import Cell, TableColumn, table_block
 from planmethod.render.typeset import typeset
@@ -77,7 +77,7 @@ def test_units_below_are_one_for_each_column() -> None:
 def test_decimal_commas_stand_under_one_another() -> None:
     items = table_block(COLUMNS).place(0j)
     ends = [
-        run.at.real + LETTERING.width(run.text.split(",")[0], run.height)
+        run.at.real + in_use().width(run.text.split(",")[0], run.height)
         for text in ("3,20", "12,345")
         for run in runs_of(items, text)
     ]
@@ -90,7 +90,7 @@ def test_sense_is_an_arc_with_a_head_inside_the_cell() -> None:
     assert len([i for i in items if isinstance(i, Fill)]) == 1
     (value,) = runs_of(items, "15,5")
     assert value.box is not None
-    assert value.at.real + LETTERING.width("15,5", 3.5) < arc.centre.real - arc.radius
+    assert value.at.real + in_use().width("15,5", 3.5) < arc.centre.real - arc.radius
     assert arc.centre.real + arc.radius < value.box[2]
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from planmethod.errors import LayoutError
 from planmethod.render.drawing import Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import in_use
 from planmethod.render.typeset import (
     PART_OF,
     escape,
@@ -28,7 +28,7 @@ def runs(markup: str, height: float = 5.0) -> list[tuple[str, float]]:
 def test_plain_text_is_one_run() -> None:
     line = typeset("План скоростей", 5)
     assert runs("План скоростей") == [("План скоростей", 5)]
-    assert line.width == pytest.approx(LETTERING.width("План скоростей", 5))
+    assert line.width == pytest.approx(in_use().width("План скоростей", 5))
     assert line.ascent >= 5
 
 
@@ -37,7 +37,7 @@ def test_index_below(markup: str) -> None:
     letter, index = typeset(markup, 5).runs
     assert (letter.text, index.text) == ("v", "C")
     assert index.y < 0 < index.y + index.height
-    assert index.x == pytest.approx(LETTERING.width("v", 5))
+    assert index.x == pytest.approx(in_use().width("v", 5))
     assert index.height == 3.5
 
 
@@ -47,9 +47,9 @@ def test_indices_above_and_below_are_stacked_without_touching(markup: str) -> No
     _, below, above = line.runs
     assert (below.text, above.text) == ("CB", "n")
     assert below.x == above.x
-    top_of_below = below.y + LETTERING.ascent("CB", below.height)
-    assert above.y - LETTERING.descent("n", above.height) >= top_of_below + 0.5
-    widest = max(LETTERING.width(r.text, r.height) for r in (below, above))
+    top_of_below = below.y + in_use().ascent("CB", below.height)
+    assert above.y - in_use().descent("n", above.height) >= top_of_below + 0.5
+    widest = max(in_use().width(r.text, r.height) for r in (below, above))
     assert line.width == pytest.approx(below.x + widest)
 
 
@@ -66,8 +66,8 @@ def test_index_of_an_index() -> None:
 def test_overbar_is_above_its_letter_only() -> None:
     line = typeset(r"\bar{v}_{B}", 5)
     ((left, right, level),) = line.bars
-    assert 0 <= left < right < LETTERING.width("v", 5)
-    assert level > LETTERING.ascent("v", 5)
+    assert 0 <= left < right < in_use().width("v", 5)
+    assert level > in_use().ascent("v", 5)
     assert line.ascent >= level
 
 

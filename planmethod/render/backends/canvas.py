@@ -9,6 +9,7 @@ from typing import Literal, Protocol, assert_never
 
 from planmethod.errors import PlanMethodError
 from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
+from planmethod.render.lettering import OutlineLettering
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,8 +32,8 @@ class Canvas(Protocol):
     and letter outlines are the business of `style` and `lettering`, which a canvas asks.
     """
 
-    def open(self, width: float, height: float, title: str) -> None:
-        """Begin a sheet of ``width`` by ``height`` mm."""
+    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
+        """Begin a sheet of ``width`` by ``height`` mm whose texts are set in ``lettering``."""
         ...
 
     def stroke(self, item: Stroke) -> None:
@@ -94,7 +95,7 @@ def replay(drawing: Drawing, canvas: Canvas) -> bytes:
         An item has a coordinate that is not a finite number: whoever made it forgot to ask whether
         the point exists.
     """
-    canvas.open(drawing.width, drawing.height, drawing.title)
+    canvas.open(drawing.width, drawing.height, drawing.title, drawing.lettering)
     for number, item in enumerate(drawing.items):
         if not all(map(isfinite, _coordinates(item))):
             raise PlanMethodError(

@@ -23,7 +23,7 @@ from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 
 from planmethod.render.backends.canvas import Options
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import OutlineLettering
 from planmethod.render.style import ARROW, PENS, PenStyle, sweep
 
 _LIBRARY: Any = ezdxf  # its types are of the parts only
@@ -131,14 +131,16 @@ class DxfCanvas:
         self._outlined = options.dxf_text == "strokes"
         self._document: Any = None
         self._space: Any = None
+        self._lettering: OutlineLettering
         # An item whose meaning the next one tells: the shaft of an arrow, the inside of a joint.
         self._held: Stroke | Disc | None = None
 
-    def open(self, width: float, height: float, title: str) -> None:
+    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a sheet: layers, line types and the text style."""
         with _no_clock():
             document = _LIBRARY.new("R2010", units=4)  # millimetres
         self._document = document
+        self._lettering = lettering
         self._space = document.modelspace()
         header = document.header
         header["$LTSCALE"] = 1.0
@@ -257,12 +259,12 @@ class DxfCanvas:
                             "rotation": item.angle,
                         },
                     )
-                start += LETTERING.width(char, item.height)
+                start += self._lettering.width(char, item.height)
             return
         bare = item.text.strip()
         lead = len(item.text) - len(item.text.lstrip())
-        at = item.at + along * LETTERING.width(item.text[:lead], item.height)
-        end = at + along * LETTERING.width(bare, item.height)
+        at = item.at + along * self._lettering.width(item.text[:lead], item.height)
+        end = at + along * self._lettering.width(bare, item.height)
         # Fitted: with another font the run keeps its length.
         self._space.add_text(
             _escaped(bare),
@@ -353,11 +355,11 @@ class DxfCanvas:
 
     def _letter(self, char: str) -> str:
         """Return the block of a letter with h = 1, or nothing for a blank."""
-        name = "LETTER_NONE" if LETTERING.missing(char) else f"LETTER_{ord(char):04X}"
-        glyph = LETTERING.outline(char)
+        name = "LETTER_NONE" if self._lettering.missing(char) else f"LETTER_{ord(char):04X}"
+        glyph = self._lettering.outline(char)
         if glyph.outline and name not in self._document.blocks:
             hatch = self._document.blocks.new(name).add_hatch(color=256)
-            for contour in _contours(glyph.outline, LETTERING.cap_height):
+            for contour in _contours(glyph.outline, self._lettering.cap_height):
                 hatch.paths.add_polyline_path(_pairs(contour), is_closed=True)
         return name if glyph.outline else ""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from planmethod.render.backends.canvas import Options
 from planmethod.render.drawing import Arc, Disc, Fill, Stroke, Text
+from planmethod.render.lettering import OutlineLettering
 
 
 class NullCanvas:
@@ -12,7 +13,7 @@ class NullCanvas:
     def __init__(self, options: Options) -> None:
         self.options = options
 
-    def open(self, width: float, height: float, title: str) -> None:
+    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a sheet of ``width`` by ``height`` mm."""
 
     def stroke(self, item: Stroke) -> None:
@@ -25,7 +26,7 @@ class NullCanvas:
         """Fill the polygon or circle with ``item.ink``."""
 
     def text(self, item: Text) -> None:
-        """Draw the outlines of ``LETTERING`` or the same font."""
+        """Draw the outlines of the sheet's lettering or the same font."""
 
     def close(self) -> bytes:
         """Return the file."""

@@ -16,7 +16,7 @@ from reportlab.pdfgen.canvas import Canvas as Pdf
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.curves import arc_curves
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import OutlineLettering
 from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
 
 _MM = 72.0 / 25.4
@@ -24,9 +24,9 @@ _CAPS = {"butt": 0, "round": 1}
 
 
 @cache
-def _register_font(name: str) -> str:
-    pdfmetrics.registerFont(TTFont(name, str(LETTERING.font_file)))
-    return name
+def _registered(lettering: OutlineLettering) -> str:
+    pdfmetrics.registerFont(TTFont(lettering.name, str(lettering.font_file)))
+    return lettering.name
 
 
 class PdfCanvas:
@@ -37,12 +37,14 @@ class PdfCanvas:
         self._file = BytesIO()
         self._pdf: Any = None
         self._font = ""
+        self._lettering: OutlineLettering
         self._pen: Pen | None = None
         self._ink: Ink | None = None
 
-    def open(self, width: float, height: float, title: str) -> None:
+    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a sheet whose unit is the millimetre."""
-        self._font = _register_font(LETTERING.name)
+        self._font = _registered(lettering)
+        self._lettering = lettering
         self._pdf = Pdf(
             self._file,
             pagesize=(width * _MM, height * _MM),
@@ -118,7 +120,7 @@ class PdfCanvas:
         """Draw a run of letters as text."""
         self._take_ink(Ink.BLACK)
         run = self._pdf.beginText()
-        run.setFont(self._font, LETTERING.em(item.height))
+        run.setFont(self._font, self._lettering.em(item.height))
         c, s = cos(radians(item.angle)), sin(radians(item.angle))
         run.setTextTransform(c, s, -s, c, item.at.real, item.at.imag)
         run.textOut(item.text)

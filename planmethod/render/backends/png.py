@@ -21,7 +21,7 @@ from planmethod.errors import OutputError
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.curves import arc_curves
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import OutlineLettering
 from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
 
 _LARGEST = 16_384  # pixels a side: an A0 sheet at 350 dots to the inch, about a gigabyte at work
@@ -38,8 +38,9 @@ class PngCanvas:
         self._title = ""
         self._agg: Any = None
         self._to_pixels: Any = None
+        self._lettering: OutlineLettering
 
-    def open(self, width: float, height: float, title: str) -> None:
+    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a sheet of white pixels."""
         per_mm = self._dpi / 25.4
         columns, rows = round(width * per_mm), round(height * per_mm)
@@ -49,6 +50,7 @@ class PngCanvas:
                 f"{rows} pixels; 1 to {_LARGEST} a side are possible. Choose another resolution."
             )
         self._title = title
+        self._lettering = lettering
         renderer: Any = RendererAgg  # it has no types
         self._agg = renderer(columns, rows, self._dpi)
         # The nearest whole number of pixels covers the sheet exactly: no half-painted edge.
@@ -93,15 +95,13 @@ class PngCanvas:
 
     def text(self, item: Text) -> None:
         """Fill the outlines of a run."""
-        unit = item.height / LETTERING.cap_height
-        pen = 0
-        for char in item.text:
-            path = _letter(char)
+        unit = item.height / self._lettering.cap_height
+        for char, pen in self._lettering.places(item.text):
+            path = _letter(self._lettering, char)
             if path is not None:
                 place = Affine2D().translate(pen, 0).scale(unit).rotate_deg(item.angle)
                 place.translate(item.at.real, item.at.imag)
                 self._paint(path, 0.0, place + self._to_pixels)
-            pen += LETTERING.outline(char).advance
 
     def close(self) -> bytes:
         """Return the file."""
@@ -137,11 +137,11 @@ def _bent(centre: complex, radius: float, start: float, turn: float) -> Path:
 
 
 @cache
-def _letter(char: str) -> Path | None:
+def _letter(lettering: OutlineLettering, char: str) -> Path | None:
     """Return the outline of a letter in font units, or None for a blank."""
     vertices: list[tuple[float, float]] = []
     codes: list[Any] = []
-    for verb, numbers in _VERBS.findall(LETTERING.outline(char).outline):
+    for verb, numbers in _VERBS.findall(lettering.outline(char).outline):
         values = [float(number) for number in numbers.split()]
         points = list(zip(values[::2], values[1::2], strict=True)) or [(0.0, 0.0)]
         vertices += points

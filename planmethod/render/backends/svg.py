@@ -15,7 +15,7 @@ import svgwrite
 
 from planmethod.render.backends.canvas import Options
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import LETTERING
+from planmethod.render.lettering import OutlineLettering
 from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
 
 _INKS = {Ink.BLACK: "#000000", Ink.WHITE: "#ffffff"}
@@ -44,11 +44,13 @@ class SvgCanvas:
         self._group: Any = None
         self._group_key = ""
         self._sheet: Any = None
+        self._lettering: OutlineLettering
 
-    def open(self, width: float, height: float, title: str) -> None:
+    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a sheet on white paper, so that dark viewers show it too."""
         w, h = _number(width), _number(height)
         self._height = height
+        self._lettering = lettering
         self._sheet = svgwrite.Drawing(
             size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", debug=False
         )
@@ -126,29 +128,27 @@ class SvgCanvas:
 
     def text(self, item: Text) -> None:
         """Place the outlines of a run; the run itself stays readable as its label."""
-        unit = _number(item.height / LETTERING.cap_height, 9)
+        unit = _number(item.height / self._lettering.cap_height, 9)
         turn = f" rotate({_number(-item.angle, 4)})" if item.angle else ""
         name = _clean(item.text)
         run = self._sheet.g(transform=f"translate({self._xy(item.at)}){turn} scale({unit} -{unit})")
         run["role"] = "img"
         run["aria-label"] = name
-        pen = 0
-        for char in item.text:
-            glyph = LETTERING.outline(char)
-            if glyph.outline:
+        for char, pen in self._lettering.places(item.text):
+            if self._lettering.outline(char).outline:
                 self._letters.add(char)
-                run.add(self._sheet.use(f"#{_glyph_id(char)}", x=str(pen)))
-            pen += glyph.advance
+                run.add(self._sheet.use(f"#{self._glyph_id(char)}", x=str(pen)))
         self._add(self._in_group("text", fill=_INKS[Ink.BLACK], stroke="none"), run, item.tag)
 
     def close(self) -> bytes:
         """Return the file, with the outlines of the letters that occur."""
-        outlines = {_glyph_id(char): LETTERING.outline(char).outline for char in self._letters}
+        outlines = {
+            self._glyph_id(char): self._lettering.outline(char).outline for char in self._letters
+        }
         for name in sorted(outlines):
             self._sheet.defs.add(self._sheet.path(outlines[name], id=name))
         text: str = self._sheet.tostring()
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + text.encode("utf-8") + b"\n"
 
-
-def _glyph_id(char: str) -> str:
-    return "letter-none" if LETTERING.missing(char) else f"letter-{ord(char):x}"
+    def _glyph_id(self, char: str) -> str:
+        return "letter-none" if self._lettering.missing(char) else f"letter-{ord(char):x}"
