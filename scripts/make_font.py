@@ -1,163 +1,234 @@
-"""Make the lettering data of the package from DejaVu Sans (run by hand; needs the dev extra).
+"""Make the fonts of the package from the skeletons of the letters (by hand; needs the dev extra).
 
-Writes into ``planmethod/render/fonts/``:
+The pen of the lettering goes along every skeleton (`planmethod.render.lettering.skeleton`): shapely
+widens it by half the line thickness, and for each style of GOST 2.304 (types A and B, upright and
+slanted) two files come into ``planmethod/render/fonts/``:
 
-- ``PlanmethodSans.ttf``: the letters a sheet can need, renamed as the licence of the font asks;
-- ``PlanmethodSans.json``: advance, ink bounds and outline of each letter, so that drawing needs
-  no font library at run time;
-- ``PlanmethodSans-LICENSE.txt``: the licence of the font.
+- ``PlanmethodGOST-B-Slanted.ttf`` and so on: the font, for formats that embed one;
+- ``PlanmethodGOST-B-Slanted.json``: advance, ink bounds and outline of each letter and the pairs
+  that stand closer, so that drawing needs no font library at run time.
 
-The bytes depend only on the source font and the version of fontTools.
+The same skeletons give the same bytes.
 """
 
 from __future__ import annotations
 
 import json
-import sys
+from collections.abc import Iterable, Sequence
 from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-from fontTools import subset
-from fontTools.pens.basePen import decomposeQuadraticSegment
-from fontTools.pens.recordingPen import DecomposingRecordingPen
-from fontTools.ttLib import TTFont
+from fontTools.feaLib.builder import addOpenTypeFeaturesFromString
+from fontTools.fontBuilder import FontBuilder
+from fontTools.pens.ttGlyphPen import TTGlyphPen
+from shapely import LineString, union_all
+from shapely.geometry import MultiPolygon, Polygon
+from shapely.geometry.polygon import orient
 
-NAME = "PlanmethodSans"
-FAMILY = "Planmethod Sans"
-TARGET = Path(__file__).resolve().parent.parent / "planmethod" / "render" / "fonts"
-
-RANGES = (
-    (0x0020, 0x007E),  # Basic Latin
-    (0x00A0, 0x00FF),  # Latin-1
-    (0x02C6, 0x02DD),  # spacing modifiers: circumflex, macron, dot above
-    (0x0300, 0x0308),  # combining accents, macron, overline, dots
-    (0x0391, 0x03D6),  # Greek
-    (0x0400, 0x045F),  # Cyrillic
-    (0x0490, 0x0491),  # Ukrainian ґ
-    (0x2010, 0x2027),  # dashes, quotes, dots
-    (0x2030, 0x203A),  # per mille, primes, angle quotes
-    (0x2044, 0x2044),  # fraction slash
-    (0x2070, 0x209C),  # superscripts and subscripts
-    (0x20AC, 0x20AC),
-    (0x20D7, 0x20D7),  # combining vector arrow
-    (0x2100, 0x214E),  # letterlike: №, ℓ, ...
-    (0x2150, 0x215E),  # fractions
-    (0x2160, 0x217F),  # Roman numerals: classes of groups
-    (0x2190, 0x21FF),  # arrows, ↺ ↻ among them
-    (0x2200, 0x22FF),  # mathematical operators
-    (0x2308, 0x230B),
-    (0x25A0, 0x25FF),  # geometric shapes
-    (0x27C2, 0x27C2),  # perpendicular
-    (0x27E8, 0x27E9),
-    (0x2A7D, 0x2A7E),
+from planmethod.render.lettering import FONTS, STYLES, Style
+from planmethod.render.lettering.skeleton import (
+    Skeleton,
+    Strokes,
+    letters,
+    missing_box,
+    skeleton,
 )
 
+CAP_HEIGHT = 1400
+"""Font units to the height h: whole units to the line thickness in both types."""
+UNITS_PER_EM = 2000
 
-def svg_path(glyphs: Any, name: str) -> str:
-    """Return an outline as an SVG path of M, L, Q and Z with absolute coordinates."""
-    pen = DecomposingRecordingPen(glyphs)
-    glyphs[name].draw(pen)
-    parts: list[str] = []
+ROUND = 5  # parts of a quarter circle at the end of a stroke
+WITHIN = 0.004  # d: how far an outline may be simplified
+OPENING = 1.0  # d: what is to be free everywhere between two letters that stand closer
+REACH = 1.0  # d: how far above and below a stroke keeps others away
 
-    def put(letter: str, *points: tuple[float, float]) -> None:
-        parts.append(letter + " ".join(f"{value:g}" for value in chain.from_iterable(points)))
-
-    for verb, points in pen.value:
-        match verb:
-            case "moveTo":
-                put("M", *points)
-            case "lineTo":
-                put("L", *points)
-            case "qCurveTo":
-                if points[-1] is None:
-                    # No point of this contour is on the curve: it starts halfway between two.
-                    (ax, ay), (bx, by) = points[-2], points[0]
-                    start = ((ax + bx) / 2, (ay + by) / 2)
-                    put("M", start)
-                    points = (*points[:-1], start)
-                for curve in decomposeQuadraticSegment(points):
-                    put("Q", *curve)
-            case "closePath":
-                put("Z")
-            case _:
-                raise ValueError(f"{name}: no rule for {verb} {points}")
-    return "".join(parts)
+KERNED = (
+    "АБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯабвгдежзиклмнопрстуфхцчшщъыьэюя"
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+)
+"""Letters that may stand closer: not digits, which stand under one another in tables."""
 
 
-def read_source() -> tuple[TTFont, str]:
-    """Return DejaVu Sans as matplotlib carries it, and its licence."""
-    fonts = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-    font = TTFont(fonts / "DejaVuSans.ttf", recalcTimestamp=False)
-    return font, (fonts / "LICENSE_DEJAVU").read_text(encoding="utf-8")
+def outline(strokes: Strokes, style: Style) -> list[Polygon]:
+    """Return what the pen leaves along the strokes, d; slanted if the style is."""
+    lean = style.lean
+    waist = style.proportions.small / 2  # what leans to the right above it leans to the left below
+    parts = []
+    for line in strokes:
+        points = [(point.real + lean * (point.imag - waist), point.imag) for point in line]
+        parts.append(LineString(points).buffer(0.5, quad_segs=ROUND))
+    whole = union_all(parts).simplify(WITHIN)
+    found = whole.geoms if isinstance(whole, MultiPolygon) else [whole]
+    return sorted((orient(part) for part in found), key=lambda part: part.bounds)
 
 
-def make_subset(font: TTFont) -> None:
-    """Keep the letters of `RANGES`, without hints, kerning and layout tables, and rename."""
-    options = subset.Options()
-    options.hinting = False
-    options.layout_features = []
-    options.drop_tables += ["GDEF", "GPOS", "GSUB", "kern", "FFTM", "MATH", "gasp"]
-    options.name_IDs = [0, 1, 2, 3, 4, 5, 6, 13, 14]
-    options.notdef_outline = True
-    options.recalc_timestamp = False
-    maker = subset.Subsetter(options)
-    maker.populate(unicodes=list(chain.from_iterable(range(a, b + 1) for a, b in RANGES)))
-    maker.subset(font)
-    for record in font["name"].names:
-        renamed = {1: FAMILY, 3: f"{FAMILY} (subset of DejaVu Sans)", 4: FAMILY, 6: NAME}
-        if record.nameID in renamed:
-            record.string = renamed[record.nameID]
+def contours(polygons: Iterable[Polygon], unit: float) -> list[list[tuple[int, int]]]:
+    """Return the contours in font units, without the points that rounding made one."""
+    found = []
+    for polygon in polygons:
+        for ring in (polygon.exterior, *polygon.interiors):
+            points = [(round(x * unit), round(y * unit)) for x, y in ring.coords]
+            found.append([b for a, b in pairwise(points) if a != b])
+    return found
 
 
-def glyph_table(font: TTFont) -> dict[str, object]:
-    """Return the data file: letters by code point in hex, lengths in font units.
+def svg_path(rings: Sequence[Sequence[tuple[int, int]]]) -> str:
+    """Return contours as an SVG path of M, L and Z."""
+    return "".join("M" + "L".join(f"{x} {y}" for x, y in ring) + "Z" for ring in rings)
 
-    Each letter is ``[advance, xmin, ymin, xmax, ymax, outline]``; the key ``""`` is the box drawn
-    for a letter that the font has not.
+
+def closer(kind: str) -> dict[str, str]:
+    """Return the letters that may follow a letter at half the gap (ГА, АТ), by that letter.
+
+    GOST 2.304 lets the gap between strokes that are not parallel be halved: here where the nearest
+    strokes of the two then still stand a whole gap apart.
     """
-    glyphs = font.getGlyphSet()
-    outlines = font["glyf"]
+    right = {char: _edge(skeleton(char, kind), 1) for char in KERNED}
+    left = {char: _edge(skeleton(char, kind), -1) for char in KERNED}
+    pairs = {}
+    for a in KERNED:
+        free = (
+            min(x + y for x, y in zip(right[a], left[b], strict=True)) >= OPENING for b in KERNED
+        )
+        following = "".join(b for b, is_free in zip(KERNED, free, strict=True) if is_free)
+        if following:
+            pairs[a] = following
+    return pairs
 
-    def row(name: str) -> list[object]:
-        path = svg_path(glyphs, name)
-        glyph = outlines[name]
-        glyph.recalcBounds(outlines)
-        bounds = [glyph.xMin, glyph.yMin, glyph.xMax, glyph.yMax] if path else [0, 0, 0, 0]
-        return [glyphs[name].width, *bounds, path]
 
-    letters = {f"{code:x}": row(name) for code, name in sorted(font.getBestCmap().items())}
-    cap_height = outlines["H"].yMax
-    return {
-        "name": FAMILY,
-        "units_per_em": font["head"].unitsPerEm,
-        "cap_height": cap_height,
-        "glyphs": {"": row(".notdef"), **letters},
+def _edge(letter: Skeleton, way: int) -> list[float]:
+    """Return how far the strokes stay off the letter's right (+1) or left side, level by level."""
+    points = [
+        p for line in letter.strokes for a, b in pairwise((*line, line[-1])) for p in _fine(a, b)
+    ]
+    reach = max(way * p.real for p in points)
+    levels = [-5 + 0.5 * k for k in range(50)]
+    return [
+        min((reach - way * p.real for p in points if abs(p.imag - level) <= REACH), default=99.0)
+        for level in levels
+    ]
+
+
+def _fine(a: complex, b: complex) -> list[complex]:
+    count = max(1, int(abs(b - a) / 0.1))
+    return [a + (b - a) * k / count for k in range(count + 1)]
+
+
+def make(style: Style, target: Path) -> None:
+    """Write both files of a style into a folder."""
+    measures = style.proportions
+    unit = CAP_HEIGHT / measures.cap
+    shapes: dict[str, Skeleton] = {"": missing_box(style.kind)}
+    shapes |= {char: skeleton(char, style.kind) for char in letters()}
+    rings = {
+        char: contours(outline(shape.strokes, style), unit) if shape.strokes else []
+        for char, shape in shapes.items()
     }
+    advances = {char: round(shape.advance * unit) for char, shape in shapes.items()}
+    kern = closer(style.kind)
+    data = {
+        "cap_height": CAP_HEIGHT,
+        "units_per_em": UNITS_PER_EM,
+        "kern": -round(measures.gap / 2 * unit),
+        "closer": kern,
+        "glyphs": {
+            f"{ord(char):x}" if char else "": [
+                advances[char],
+                *_bounds(rings[char]),
+                svg_path(rings[char]),
+            ]
+            for char in shapes
+        },
+    }
+    text = json.dumps(data, ensure_ascii=True, separators=(",", ":")) + "\n"
+    (target / f"{style.name}.json").write_text(text, encoding="ascii")
+    made = font(style, rings, advances, kern, -round(measures.gap / 2 * unit))
+    made.save(target / f"{style.name}.ttf")
 
 
-def main(target: Path = TARGET) -> None:
-    """Write the three files into ``target``."""
-    for (_, end), (start, _) in pairwise(RANGES):
-        assert end < start, "ranges overlap"
-    font, licence = read_source()
-    make_subset(font)
-    table = glyph_table(font)
-    target.mkdir(parents=True, exist_ok=True)
-    font.save(target / f"{NAME}.ttf")
-    text = json.dumps(table, ensure_ascii=True, separators=(",", ":"))
-    # One letter a line: a change of one letter is one line of a diff.
-    text = text.replace('],"', '],\n"') + "\n"
-    (target / f"{NAME}.json").write_text(text, encoding="ascii", newline="\n")
-    note = (
-        f"{FAMILY} is a subset of DejaVu Sans, renamed as its licence asks; "
-        "no outline is changed.\n"
-        "The licence of DejaVu Sans follows.\n\n"
+def _bounds(rings: Sequence[Sequence[tuple[int, int]]]) -> tuple[int, int, int, int]:
+    points = list(chain.from_iterable(rings))
+    if not points:
+        return (0, 0, 0, 0)
+    xs, ys = zip(*points, strict=True)
+    return (min(xs), min(ys), max(xs), max(ys))
+
+
+def font(
+    style: Style,
+    rings: dict[str, list[list[tuple[int, int]]]],
+    advances: dict[str, int],
+    kern: dict[str, str],
+    by: int,
+) -> Any:
+    """Return the TrueType font; a step of its lines is the line step of the standard."""
+    measures = style.proportions
+    unit = CAP_HEIGHT / measures.cap
+    names = {char: f"uni{ord(char):04X}" if char else ".notdef" for char in rings}
+    builder: Any = FontBuilder(UNITS_PER_EM, isTTF=True)
+    builder.setupGlyphOrder(list(names.values()))
+    builder.setupCharacterMap({ord(char): name for char, name in names.items() if char})
+    glyphs = {}
+    for char, name in names.items():
+        pen = TTGlyphPen(None)
+        for ring in rings[char]:
+            pen.moveTo(ring[0])
+            for point in ring[1:]:
+                pen.lineTo(point)
+            pen.closePath()
+        glyphs[name] = pen.glyph()
+    builder.setupGlyf(glyphs)
+    builder.setupHorizontalMetrics(
+        {name: (advances[char], _bounds(rings[char])[0]) for char, name in names.items()}
     )
-    path = target / f"{NAME}-LICENSE.txt"
-    path.write_text(note + licence, encoding="utf-8", newline="\n")
+    line = round(measures.line_step * unit)
+    ascent = round(0.75 * line)
+    builder.setupHorizontalHeader(ascent=ascent, descent=ascent - line)
+    told = {
+        "familyName": f"Planmethod GOST {style.kind}",
+        "styleName": "Italic" if style.slanted else "Regular",
+        "uniqueFontIdentifier": style.name,
+        "fullName": f"Planmethod GOST {style.kind}{' Slanted' if style.slanted else ''}",
+        "psName": style.name,
+        "version": "Version 1.000",
+        "copyright": "The planmethod developers",
+        "licenseDescription": "MIT License",
+    }
+    builder.setupNameTable(told, mac=False)
+    builder.setupOS2(
+        sTypoAscender=ascent,
+        sTypoDescender=ascent - line,
+        sTypoLineGap=0,
+        usWinAscent=ascent,
+        usWinDescent=line - ascent,
+        sxHeight=round(measures.small * unit),
+        sCapHeight=CAP_HEIGHT,
+        fsSelection=0x01 if style.slanted else 0x40,
+        usWeightClass=300,
+    )
+    builder.setupPost(italicAngle=-15.0 if style.slanted else 0.0)
+    rules = [
+        f"pos {names[left]} [{' '.join(names[char] for char in right)}] {by};"
+        for left, right in kern.items()
+    ]
+    feature = "feature kern {\n" + "\n".join(rules) + "\n} kern;\n"
+    addOpenTypeFeaturesFromString(builder.font, "languagesystem DFLT dflt;\n" + feature)
+    head = builder.font["head"]
+    head.created = head.modified = 3_849_984_000  # a fixed moment: the same bytes every time
+    if style.slanted:
+        head.macStyle = 0x02
+    builder.font.recalcTimestamp = False
+    return builder.font
+
+
+def main(target: Path = FONTS) -> None:
+    """Write the files of all styles."""
+    target.mkdir(parents=True, exist_ok=True)
+    for style in STYLES.values():
+        make(style, target)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else TARGET)
+    main()

@@ -210,7 +210,7 @@ class _RowSetter:
             return self._at(term, max(self.start + lead, self.start + overhang)), self.start
         before = self.terms[-1]
         end = before.x + before.inscription.width
-        x = end + room
+        x = max(end + room, self.start + overhang)
         if before.note.width and term.note.width:
             x = max(x, before.right + _BETWEEN_NOTES * self.size + overhang)
         middle = (end + x) / 2

@@ -25,7 +25,7 @@ from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, S
 from planmethod.render.frame import MARGIN_NOTE, STAMP
 from planmethod.render.remarks import REMARKS, Facts, Severity, action, what
 from planmethod.render.symbols import arc_points
-from planmethod.render.typeset import PART_OF, SMALLEST, text_corners
+from planmethod.render.typeset import PART_OF, SMALLEST, text_bounds, text_corners
 
 CODES = {code: remark.said["en"].title for code, remark in REMARKS.items()}
 """Every code of the norm control, those of `planmethod.render.normcontrol` too, and its title."""
@@ -247,7 +247,7 @@ def _outside(items: Sequence[Item], inner: Bounds | None) -> Iterator[Finding]:
     for run in items:
         if not isinstance(run, Text) or not run.text.strip():
             continue
-        ink = _ink(run).bounds
+        ink = text_bounds(run)
         if run.box is not None and (out := beyond(ink, run.box)) > _TOUCH:
             yield Finding(
                 "PM-D03",

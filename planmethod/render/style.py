@@ -67,9 +67,6 @@ PENS: Mapping[Pen, PenStyle] = MappingProxyType(
 
 # GOST 2.304-81, clause 2.1: heights of capitals; 1.8 only for type B.
 HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0)
-# GOST 2.304-81, table 2 (type B): the step of base lines and the stroke, in parts of h.
-LINE_STEP = 1.7
-LETTER_STROKE = 0.1
 
 
 # A bend sharper than this is a corner, where GOST 2.303 wants strokes to meet.

@@ -14,7 +14,7 @@ backslash is written with a backslash before it (``\_``); `escape` does that for
 from __future__ import annotations
 
 import cmath
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
@@ -22,7 +22,7 @@ from typing import Literal, TypeAlias
 from planmethod.errors import LayoutError
 from planmethod.render.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.lettering import Lettering, in_use
-from planmethod.render.style import HEIGHTS, LINE_STEP
+from planmethod.render.style import HEIGHTS
 
 SMALLEST = 2.5
 """Smallest height of a run that is not an index, mm."""
@@ -151,7 +151,7 @@ def smaller_heights(height: float) -> tuple[float, ...]:
 
 def line_step(height: float) -> float:
     """Return the step of base lines of consecutive lines, mm (GOST 2.304)."""
-    return LINE_STEP * height
+    return in_use().line_step * height
 
 
 def vector_markup(symbol: str) -> str:
@@ -210,27 +210,42 @@ def _typeset(markup: str, height: float, lettering: Lettering) -> Inscription:
     nodes, end = _parse(markup, 0, closing=False)
     assert end == len(markup)
     setter = _Setter(lettering)
-    width = setter.set(nodes, 0.0, 0.0, height)
+    end_x = setter.set(nodes, 0.0, 0.0, height)
+    # Slanted letters lean out of the room that they take along the line.
+    inks = [(run.x, lettering.ink(run.text, run.height)) for run in setter.runs]
+    left = min([0.0, *(x + ink[0] for x, ink in inks)])
+    right = max([end_x, *(x + ink[2] for x, ink in inks)])
     return Inscription(
         markup,
         height,
-        width,
+        right - left,
         setter.ascent,
         setter.descent,
-        tuple(setter.runs),
-        tuple(setter.bars),
+        tuple(replace(run, x=run.x - left) for run in setter.runs),
+        tuple((x0 - left, x1 - left, level) for x0, x1, level in setter.bars),
     )
 
 
+def text_bounds(text: Text) -> Bounds:
+    """Return the least upright box about the ink of a run, mm; about its turned box if turned."""
+    left, low, right, high = in_use().ink(text.text, text.height)
+    turn = cmath.exp(1j * radians(text.angle))
+    corners = [text.at + turn * complex(x, y) for x in (left, right) for y in (low, high)]
+    xs, ys = [corner.real for corner in corners], [corner.imag for corner in corners]
+    return (min(xs), min(ys), max(xs), max(ys))
+
+
 def text_corners(text: Text) -> list[complex]:
-    """Return the corners of the ink box of a run of letters, mm; turned as the text is."""
+    """Return the corners of the ink box of a run, mm, turned as the text and leaning."""
     lettering = in_use()
     wide = lettering.width(text.text, text.height)
+    side = min(lettering.side * text.height, wide / 2)
     up = lettering.ascent(text.text, text.height)
     down = lettering.descent(text.text, text.height)
     turn = cmath.exp(1j * radians(text.angle))
-    corners = (-1j * down, wide - 1j * down, wide + 1j * up, 1j * up)
-    return [text.at + turn * corner for corner in corners]
+    corners = (side - 1j * down, wide - side - 1j * down, wide - side + 1j * up, side + 1j * up)
+    leaning = (corner + lettering.leaning(corner.imag, text.height) for corner in corners)
+    return [text.at + turn * corner for corner in leaning]
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,8 @@ from io import StringIO
 from math import cos, hypot, pi, radians, sin, tau
 from typing import Any
 
+from planmethod.render.lettering import in_use
+
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"
 
@@ -93,7 +95,9 @@ def _svg_run(element: ET.Element, height: float, outlines: set[str]) -> Run:
     for use in element.findall(f"{SVG}use"):
         assert use.attrib[f"{XLINK}href"] in outlines
     assert element.attrib["role"] == "img"
-    return Run(complex(x, height - y), 2048 * unit, -turn, element.attrib["aria-label"])
+    return Run(
+        complex(x, height - y), in_use().units_per_em * unit, -turn, element.attrib["aria-label"]
+    )
 
 
 def _svg_path(data: str, height: float) -> Path:
@@ -222,6 +226,7 @@ def read_dxf(data: bytes) -> Page:
                 if part.dxftype() == "CIRCLE" and part.dxf.lineweight == 0:
                     continue  # the rim of a disc, for the object snap
                 weight = part.dxf.lineweight
+                weight = entity.dxf.lineweight if weight == -2 else weight  # that of the block
                 item.width = (
                     0.0 if item.filled else (weight if weight >= 0 else layer.dxf.lineweight) / 100
                 )
@@ -240,7 +245,7 @@ def _dxf_item(part: Any) -> Path | Run:
     match kind:
         case "TEXT":
             assert dxf.halign == 5, "fitted"
-            em = dxf.height * 2048 / 1493
+            em = in_use().em(dxf.height)
             way = _flat(dxf.align_point) - _flat(dxf.insert)
             angle = phase(way) * 180 / pi
             assert abs((angle - dxf.rotation + 180) % 360 - 180) < 1e-6

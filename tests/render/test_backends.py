@@ -534,7 +534,7 @@ def test_pdf_fonts_are_embedded_subsets(drawing: Drawing, tmp_path: FilePath) ->
     fonts = run("pdffonts", path).splitlines()[2:]
     assert bool(fonts) == bool(drawing.items)
     for line in fonts:
-        assert re.match(r"[A-Z]{6}\+PlanmethodSans\b", line), line
+        assert re.match(r"[A-Z]{6}\+PlanmethodGOST-B-Slanted\b", line), line
         assert re.search(r"\byes\s+yes\s+yes\b", line), line
 
 

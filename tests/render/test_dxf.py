@@ -27,7 +27,7 @@ from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
 from planmethod.problem import load
 from planmethod.render.backends import Options, render
-from planmethod.render.backends.dxf import FONT, LAYERS, LINE_TYPES, layer_of
+from planmethod.render.backends.dxf import LAYERS, LINE_TYPES, layer_of
 from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.lettering import in_use
 from planmethod.render.sheets import kinematics
@@ -306,7 +306,7 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
         Text(70 + 90j, " ^x %%d 50%", 2.5),
     ]
     document = read(render(Drawing(210.0, 297.0, items=[*texts]), "dxf"))
-    assert document.styles.get("SHEET").dxf.font == FONT
+    assert document.styles.get("SHEET").dxf.font == "PlanmethodGOST-B-Slanted.ttf"
     for entity, item in zip(document.modelspace(), texts, strict=True):
         assert entity.dxftype() == "TEXT"
         assert entity.plain_text() == item.text.strip()
@@ -329,17 +329,20 @@ def test_the_words_of_a_sheet_are_found() -> None:
     assert {"План скоростей", "План ускорений", "Кафедра ТММ", "Разраб."} <= words
 
 
-def test_outlines_have_the_extents_of_the_letters() -> None:
+def test_strokes_are_lines_with_the_extents_and_the_weight_of_the_letters() -> None:
     for angle in (0.0, 90.0):
         item = Text(30 + 40j, "Жук b8", 5.0, angle=angle)
         data = render(Drawing(210.0, 297.0, items=[item]), "dxf", options=STROKES)
         assert set(kinds(read(data).modelspace())) == {"INSERT"}
         paths = [path for path in read_dxf(data).items if isinstance(path, Painted)]
-        assert len(paths) == 5
+        assert {path.width for path in paths} == {0.5}
+        assert not any(path.filled for path in paths)
+        assert len(paths) == sum(len(in_use().strokes(char)) for char in item.text)
         flat = [(z - item.at) / turn(angle * pi / 180) for path in paths for z in path.corners]
         xs, ys = [z.real for z in flat], [z.imag for z in flat]
         ink = in_use().ink(item.text, item.height)
-        assert (min(xs), min(ys), max(xs), max(ys)) == pytest.approx(ink, abs=NEAR)
+        edge = (min(xs) - 0.25, min(ys) - 0.25, max(xs) + 0.25, max(ys) + 0.25)
+        assert edge == pytest.approx(ink, abs=NEAR)
 
 
 # Files and the command line -----------------------------------------------------------------------

@@ -41,10 +41,8 @@ def inside(block: EquationBlock, corner: complex, items: list[Item]) -> bool:
     for item in items:
         points = item.points if isinstance(item, Stroke) else ()
         if isinstance(item, Text):
-            wide = in_use().width(item.text, item.height)
-            up = in_use().ascent(item.text, item.height)
-            down = in_use().descent(item.text, item.height)
-            points = (item.at - 1j * down, item.at + wide + 1j * up)
+            left, low, right, high = in_use().ink(item.text, item.height)
+            points = (item.at + complex(left, low), item.at + complex(right, high))
         for p in points:
             x, y = (p - corner).real, (corner - p).imag
             if not (-slack <= x <= block.width + slack and -slack <= y <= block.height + slack):
@@ -120,7 +118,8 @@ def test_nothing_in_an_equation_overlaps(
     notes = [run for run in texts(items) if run.text[0] in "⊥∥"]
     for one, two in pairwise(notes):
         if one.at.imag == two.at.imag:
-            assert two.at.real - one.at.real >= in_use().width(one.text, one.height) + 1
+            end = one.at.real + in_use().ink(one.text, one.height)[2]
+            assert two.at.real + in_use().ink(two.text, two.height)[0] >= end + 1
 
 
 def test_formula_on_one_line() -> None:

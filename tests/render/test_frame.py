@@ -208,6 +208,10 @@ class EvenLettering(OutlineLettering):
     def descent(self, text: str, height: float) -> float:
         return 0.2 * height if any(map(str.isalpha, text)) else 0.0
 
+    def ink(self, text: str, height: float) -> tuple[float, float, float, float]:
+        down = self.descent(text, height)
+        return (0.0, -down, self.width(text, height), self.ascent(text, height))
+
 
 TITLE_BOX = (65.0, 15.0, 135.0, 40.0)
 

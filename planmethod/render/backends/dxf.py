@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from io import StringIO
 from itertools import pairwise
-from math import acos, ceil, degrees, pi, radians, sqrt, tau
+from math import acos, ceil, degrees, pi, radians, tau
 from types import MappingProxyType
 from typing import Any
 
@@ -27,9 +27,6 @@ from planmethod.render.lettering import OutlineLettering
 from planmethod.render.style import ARROW, PENS, PenStyle, sweep
 
 _LIBRARY: Any = ezdxf  # its types are of the parts only
-
-FONT = "DejaVuSans.ttf"
-"""Font of the text style: it has the widths and the signs of the sheets' lettering."""
 
 TEXT_STYLE = "SHEET"
 
@@ -77,10 +74,9 @@ _OF_TAG = {
 }
 
 _WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it stands for
-_LETTER_WITHIN = 2e-4  # the same for the outlines of letters, in parts of h
+_BY_BLOCK = -2  # line weight of what takes that of its block
 _SMOOTH = radians(20.0)
 _NOT_TEXT = re.compile("[\x00-\x1f\x7f-\x9f]")
-_VERBS = re.compile("([MLQZ])([^MLQZ]*)")
 
 
 def layer_of(tag: str, pen: Pen) -> str:
@@ -94,8 +90,11 @@ def layer_of(tag: str, pen: Pen) -> str:
 
 def line_weight(pen: Pen) -> int:
     """Return the width of a pen in hundredths of a millimetre, the nearest that DXF has."""
-    wanted = PENS[pen].width * 100.0
-    return min(VALID_DXF_LINEWEIGHTS, key=lambda weight: abs(weight - wanted))
+    return _nearest_weight(PENS[pen].width)
+
+
+def _nearest_weight(width: float) -> int:
+    return min(VALID_DXF_LINEWEIGHTS, key=lambda weight: abs(weight - width * 100.0))
 
 
 def _grey(style: PenStyle) -> int:
@@ -128,7 +127,7 @@ class DxfCanvas:
 
     def __init__(self, options: Options) -> None:
         self._author = options.author
-        self._outlined = options.dxf_text == "strokes"
+        self._stroked = options.dxf_text == "strokes"
         self._document: Any = None
         self._space: Any = None
         self._lettering: OutlineLettering
@@ -173,7 +172,7 @@ class DxfCanvas:
             )
             if PENS[pen].grey:
                 layer.dxf.true_color = _grey(PENS[pen])
-        document.styles.add(TEXT_STYLE, font=FONT)
+        document.styles.add(TEXT_STYLE, font=lettering.font_file.name)
 
     # Attributes -----------------------------------------------------------------------------------
 
@@ -242,24 +241,25 @@ class DxfCanvas:
         self._let_go()
         layer = _OF_TAG.get(item.tag, "TEXT")
         along = exp(1j * radians(item.angle))
-        if self._outlined:
-            start = 0.0
-            for char in item.text:
+        if self._stroked:
+            unit = item.height / self._lettering.cap_height
+            pen = _nearest_weight(item.height * self._lettering.line)
+            for char, start in self._lettering.places(item.text):
                 name = self._letter(char)
                 if name:
-                    at = item.at + along * start
+                    at = item.at + along * start * unit
                     self._space.add_blockref(
                         name,
                         (at.real, at.imag),
                         dxfattribs={
                             "layer": layer,
+                            "lineweight": pen,
                             "xscale": item.height,
                             "yscale": item.height,
                             "zscale": item.height,
                             "rotation": item.angle,
                         },
                     )
-                start += self._lettering.width(char, item.height)
             return
         bare = item.text.strip()
         lead = len(item.text) - len(item.text.lstrip())
@@ -354,14 +354,17 @@ class DxfCanvas:
         return name
 
     def _letter(self, char: str) -> str:
-        """Return the block of a letter with h = 1, or nothing for a blank."""
+        """Return the block of a letter with h = 1, or nothing for a blank.
+
+        Its lines are as thick as the reference says: line weights do not grow with a block.
+        """
         name = "LETTER_NONE" if self._lettering.missing(char) else f"LETTER_{ord(char):04X}"
-        glyph = self._lettering.outline(char)
-        if glyph.outline and name not in self._document.blocks:
-            hatch = self._document.blocks.new(name).add_hatch(color=256)
-            for contour in _contours(glyph.outline, self._lettering.cap_height):
-                hatch.paths.add_polyline_path(_pairs(contour), is_closed=True)
-        return name if glyph.outline else ""
+        strokes = self._lettering.strokes(char)
+        if strokes and name not in self._document.blocks:
+            block = self._document.blocks.new(name)
+            for line in strokes:
+                block.add_lwpolyline(_pairs(line), dxfattribs={"lineweight": _BY_BLOCK})
+        return name if strokes else ""
 
 
 def _unlike(own: Pen, pen: Pen) -> dict[str, Any]:
@@ -421,21 +424,3 @@ def _leads(shaft: Stroke, tip: complex, along: complex, length: float) -> bool:
     return all(abs(way.imag) < 1e-6 for way in ahead) and (
         ahead[0].real > ahead[1].real and 0.0 <= ahead[1].real <= length
     )
-
-
-def _contours(outline: str, unit: float) -> list[list[complex]]:
-    """Return the contours of a letter as polygons, ``unit`` font units to 1."""
-    contours: list[list[complex]] = []
-    for verb, numbers in _VERBS.findall(outline):
-        values = [float(number) / unit for number in numbers.split()]
-        points = [complex(x, y) for x, y in zip(values[::2], values[1::2], strict=True)]
-        if verb == "M":
-            contours.append(points)
-        elif verb == "L":
-            contours[-1] += points
-        elif verb == "Q":
-            a, (b, c) = contours[-1][-1], points
-            count = max(1, ceil(sqrt(abs(a - 2 * b + c) / (4.0 * _LETTER_WITHIN))))
-            places = (k / count for k in range(1, count + 1))
-            contours[-1] += [a * (1 - t) ** 2 + 2 * b * t * (1 - t) + c * t**2 for t in places]
-    return contours

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import exp
 from functools import cache
 from io import BytesIO
-from math import cos, radians, sin, tau
+from math import radians, tau
 from typing import Any
 
 from reportlab.pdfbase import pdfmetrics
@@ -121,9 +121,12 @@ class PdfCanvas:
         self._take_ink(Ink.BLACK)
         run = self._pdf.beginText()
         run.setFont(self._font, self._lettering.em(item.height))
-        c, s = cos(radians(item.angle)), sin(radians(item.angle))
-        run.setTextTransform(c, s, -s, c, item.at.real, item.at.imag)
-        run.textOut(item.text)
+        along = exp(1j * radians(item.angle))
+        unit = item.height / self._lettering.cap_height
+        for start, piece in self._lettering.pieces(item.text):
+            at = item.at + along * start * unit
+            run.setTextTransform(along.real, along.imag, -along.imag, along.real, at.real, at.imag)
+            run.textOut(piece)
         self._pdf.drawText(run)
 
     def close(self) -> bytes:

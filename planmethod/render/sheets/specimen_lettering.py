@@ -1,0 +1,162 @@
+"""Specimen sheet of the lettering: every letter on the standard's grid, samples, proportions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
+from types import MappingProxyType
+
+from planmethod.note.numbers import russian
+from planmethod.render.block import Column, Lines
+from planmethod.render.drawing import Drawing, Item, Pen, Stroke, Text
+from planmethod.render.frame import paper_format, sheet_frame
+from planmethod.render.lettering import OutlineLettering, in_use
+from planmethod.render.pack import EDGE
+from planmethod.render.style import HEIGHTS
+from planmethod.render.tables import TableColumn, table_block
+from planmethod.render.typeset import escape, line_step, typeset
+
+GRID = "grid"
+"""Tag of the lines of the standard's grid, on which the letters stand."""
+
+PAPER = "A1"
+HEIGHT = 20.0
+"""Height h of the letters on the grid, mm."""
+
+KINDS: Mapping[str, str] = MappingProxyType({"A": "А", "B": "Б"})
+
+ALPHABETS = (
+    "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯ",
+    "абвгдеёжзийклмнопрстуфхцчшщъыьэюя",
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789",
+    "abcdefghijklmnopqrstuvwxyzΓΔΘΛΞΠΣΦΨΩ",
+    "αβγδεζηθικλμνξοπρστυφχψω.,:;!?-–—+−±×·=",
+    "<>≤≥≈≠√∞∠⊥∥№→∅°′″()[]{}/%&«»∑∫∂∇²³ⁿ₁₂△",
+)
+
+SAMPLES = (
+    "План скоростей механизма",
+    "v_{B} = v_{A} + v_{BA}; a^{n}_{BA} = ω^{2}_{2}·l_{AB} = 15,48^{2}·0,145 = 34,9 м/с^{2}",
+    "μ_{v} = 0,05 (м/с)/мм; φ_{1} = 245°; ∥ x–x; ⊥ AB",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A measure of the letters in parts of h: its sign and name, by the standard, on the ink."""
+
+    symbol: str
+    name: str
+    asked: float
+    found: float
+
+
+def measured(lettering: OutlineLettering) -> list[Measured]:
+    """Return the proportions of a lettering as its outlines have them (размеры шрифта)."""
+    kind = lettering.style.proportions
+
+    def ink(text: str) -> tuple[float, float, float, float]:
+        return lettering.ink(text, 1.0)
+
+    def wide(text: str) -> float:
+        # What slanted letters lean is no part of their width.
+        left, low, right, high = ink(text)
+        return right - left - lettering.style.lean * (high - low - lettering.line)
+
+    gap = wide("НН") - 2 * wide("Н")
+    words = wide("Н Н") - 2 * wide("Н")
+    cap = kind.cap
+    return [
+        Measured("h", "высота прописных букв", 1.0, ink("Н")[3]),
+        Measured("c", "высота строчных букв", kind.small / cap, ink("н")[3]),
+        Measured("a", "расстояние между буквами", kind.gap / cap, gap),
+        Measured("b", "шаг строк", kind.line_step / cap, lettering.line_step),
+        Measured("e", "расстояние между словами", kind.word_gap / cap, words),
+        Measured("d", "толщина линий", 1.0 / cap, ink("−")[3] - ink("−")[1]),
+    ]
+
+
+def lettering_specimen() -> Drawing:
+    """Draw the specimen of the lettering in use (образец шрифта)."""
+    used, fmt = in_use(), paper_format(PAPER)
+    slope = "с наклоном" if used.style.slanted else "без наклона"
+    title = f"Шрифт чертёжный типа {KINDS[used.style.kind]} {slope}"
+    fields = {"title": title, "designation": "ГОСТ 2.304–81", "sheets": "1"}
+    drawing = Drawing(fmt.width, fmt.height, title)
+    items, inner, stamp = sheet_frame(fmt, fields)
+    drawing.extend(items)
+    left, top = inner[0] + EDGE, inner[3] - EDGE - 4.0
+    d = HEIGHT * used.line
+    step = used.style.proportions.line_step * d + 4 * d
+    low = top - HEIGHT
+    for row in ALPHABETS:
+        drawing.extend(_on_grid(row, complex(left, low), inner[2] - EDGE))
+        low -= step
+    for heights in ((2.5, 3.5, 5.0, 7.0), (10.0, 14.0)):
+        words = Column([_sample(height) for height in heights], gap=10.0)
+        drawing.extend(words.place(complex(left, low + HEIGHT)))
+        left += words.width + 30.0
+    table = _proportions(used)
+    drawing.extend(table.place(complex(stamp[2] - table.width, stamp[3] + 12.0 + table.height)))
+    return drawing
+
+
+def _sample(height: float) -> Column:
+    """Return words and formulas of a sheet, their base lines a line step apart."""
+    lines = [typeset(text, height) for text in SAMPLES]
+    return Column([Lines(tuple(lines), line_step(height))])
+
+
+def _on_grid(row: str, start: complex, right: float) -> Iterator[Item]:
+    """Yield the letters of a row, each on its piece of the grid; the first ends at the margin."""
+    used = in_use()
+    kind = used.style.proportions
+    d = HEIGHT * used.line
+    room = right - start.real
+    widths = [used.width(char, HEIGHT) for char in row]
+    between = min(3.0 * d, (room - sum(widths)) / max(1, len(row) - 1))
+    x = start.real
+    for char, wide in zip(row, widths, strict=True):
+        at = complex(x, start.imag)
+        yield from _grid(at, wide, d, kind.cap, kind.tail)
+        yield Text(at, char, HEIGHT, label=f"{char}@{x:.1f},{start.imag:.1f}")
+        x += wide + between
+
+
+def _grid(at: complex, wide: float, d: float, cap: int, tail: int) -> Iterator[Item]:
+    """Yield the grid under a letter, whose step is the line thickness; it leans as the letter."""
+    used = in_use()
+    low, high = -tail * d, cap * d
+
+    def place(x: float, y: float) -> complex:
+        return at + complex(x + used.leaning(y, HEIGHT), y)
+
+    for k in range(round(wide / d) + 1):
+        yield Stroke((place(k * d, low), place(k * d, high)), Pen.PALE, tag=GRID)
+    for k in range(-tail, cap + 1):
+        pen = Pen.THIN if k in (0, cap) else Pen.PALE
+        yield Stroke((place(0.0, k * d), place(wide, k * d)), pen, tag=GRID)
+
+
+def _proportions(lettering: OutlineLettering) -> Column:
+    """Return the table of proportions: by the standard, and measured on the letters, mm."""
+    measures = measured(lettering)
+    cap = lettering.style.proportions.cap
+    heights = list(islice((h for h in HEIGHTS if h >= 2.5), 5))
+    columns = [
+        TableColumn("", tuple(m.symbol for m in measures), least=8.0),
+        TableColumn("Размер", tuple(m.name for m in measures)),
+        TableColumn("по ГОСТ", tuple(f"{round(m.asked * cap)}/{cap} h" for m in measures)),
+        TableColumn(
+            "измерено", tuple(russian(f"{m.found * cap:.2f}") + f"/{cap} h" for m in measures)
+        ),
+    ]
+    columns += [
+        TableColumn(
+            f"h = {russian(f'{h:g}')}", tuple(russian(f"{m.found * h:.2f}") for m in measures)
+        )
+        for h in heights
+    ]
+    title = escape("Размеры, измеренные на буквах, мм")
+    return table_block(columns, 3.5, units="none", title=title)
