@@ -1,0 +1,61 @@
+"""The specimen of the lettering: every letter there, on its grid, and the measures it tells."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from planmethod.render.drawing import Stroke, Text
+from planmethod.render.lettering import STYLES, in_use, lettering, using
+from planmethod.render.lint import lint
+from planmethod.render.sheets.specimen_lettering import (
+    ALPHABETS,
+    GRID,
+    HEIGHT,
+    lettering_specimen,
+    measured,
+)
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_specimen_shows_every_letter_and_is_clean(style: str) -> None:
+    with using(lettering(style)) as used:
+        drawing = lettering_specimen()
+        assert drawing.lettering is used
+        assert used.missing("".join(ALPHABETS)) == set()
+        shown = [i for i in drawing.items if isinstance(i, Text) and i.height == HEIGHT]
+        assert [run.text for run in shown] == list("".join(ALPHABETS))
+        rest = [item for item in drawing.items if getattr(item, "tag", "") != GRID]
+        inner = (20.0, 5.0, drawing.width - 5.0, drawing.height - 5.0)
+        assert [finding.message for finding in lint(rest, inner)] == []
+
+
+def test_letters_stand_on_their_grid() -> None:
+    drawing = lettering_specimen()
+    first = next(i for i in drawing.items if isinstance(i, Text) and i.height == HEIGHT)
+    lines = [i for i in drawing.items if isinstance(i, Stroke) and i.tag == GRID]
+    level = [line for line in lines if line.points[0].imag == line.points[1].imag]
+    assert min(abs(line.points[0].imag - first.at.imag) for line in level) < 1e-9
+    steps = sorted({round(line.points[0].imag - first.at.imag, 6) for line in level[:14]})
+    assert steps[1] - steps[0] == pytest.approx(HEIGHT * in_use().line)
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_measures_are_those_of_the_standard(style: str) -> None:
+    """Half a font unit is what rounding the outlines may lose at either side."""
+    for measure in measured(lettering(style)):
+        assert measure.found == pytest.approx(measure.asked, abs=2e-3), measure
+
+
+def test_the_document_has_the_measured_table() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "lettering.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| [a-z ]+ ([habced]) \| (.*) \|$", text, flags=re.M)
+    assert [symbol for symbol, _ in rows] == list("hcabed")
+    for k, (_, cells) in enumerate(rows):
+        a, b = measured(lettering("A"))[k], measured(lettering("B"))[k]
+        assert cells == (
+            f"{round(a.asked * 14)}/14 | {a.found * 14:.2f}/14 | "
+            f"{round(b.asked * 10)}/10 | {b.found * 10:.2f}/10"
+        )
