@@ -22,7 +22,10 @@ class Pen(Enum):
     FRAME = "frame"  # frame and title block
     AXIS = "axis"  # dash-dot: axes, guide lines
     HIDDEN = "hidden"  # dashed
+    THICK_AXIS = "thick axis"  # thick dash-dot: surfaces that are treated
+    PHANTOM = "phantom"  # dash-dot with two dots: a link in another position
     HATCH = "hatch"  # hatching of the frame
+    BREAK = "break"  # wavy or kinked: where a link is broken off
     PALE = "pale"  # other positions of the mechanism
 
 

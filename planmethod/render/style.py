@@ -20,17 +20,36 @@ from planmethod.render.drawing import Arc, Pen, Stroke
 
 @dataclass(frozen=True, slots=True)
 class Dashes:
-    """Dash pattern: stroke, gap, and for a dash-dot line the dot in the middle of the gap.
+    """Dash pattern: stroke, gap, and for a dash-dot line the dots evenly in the gap.
 
     ``stroke`` is the length aimed at; the strokes of one line are equal, stretched or shrunk (to
     ``least`` at most) so that the line starts and ends with a stroke. ``gap`` is the whole gap
-    between two strokes, ``dot`` the length of the short stroke inside it.
+    between two strokes, ``dot`` the length of the short strokes inside it, ``dots`` their number.
     """
 
     stroke: float
     least: float
     gap: float
     dot: float = 0.0
+    dots: int = 1
+
+    @property
+    def inside(self) -> tuple[tuple[float, float], ...]:
+        """Start and end of each dot from the end of the stroke before it, mm."""
+        if not self.dot:
+            return ()
+        white = (self.gap - self.dots * self.dot) / (self.dots + 1)
+        starts = [white + k * (white + self.dot) for k in range(self.dots)]
+        return tuple((start, start + self.dot) for start in starts)
+
+    @property
+    def period(self) -> tuple[float, ...]:
+        """Lengths of one period, mm: strokes and dots positive, whites negative."""
+        parts, reached = [self.stroke], 0.0
+        for start, end in self.inside:
+            parts += [reached - start, end - start]
+            reached = end
+        return (*parts, reached - self.gap)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +66,7 @@ class PenStyle:
 # one type have one width on the whole sheet.
 S = 0.8
 _THIN = 0.3
+_MIDDLE = 0.5
 
 PENS: Mapping[Pen, PenStyle] = MappingProxyType(
     {
@@ -56,10 +76,20 @@ PENS: Mapping[Pen, PenStyle] = MappingProxyType(
         Pen.FRAME: PenStyle(S, cap="butt"),
         # GOST 2.303, dash-dot thin: strokes 5..30, 3..5 between them [mem].
         Pen.AXIS: PenStyle(_THIN, Dashes(stroke=12.0, least=5.0, gap=4.0, dot=1.0), cap="butt"),
+        # GOST 2.303, dash-dot thick: width s/2..2s/3, strokes 3..8, 3..4 between them [mem].
+        Pen.THICK_AXIS: PenStyle(
+            _MIDDLE, Dashes(stroke=5.5, least=3.0, gap=3.5, dot=1.0), cap="butt"
+        ),
+        # GOST 2.303, dash-dot with two dots: strokes 5..30, 4..6 between them [mem].
+        Pen.PHANTOM: PenStyle(
+            _THIN, Dashes(stroke=12.0, least=5.0, gap=5.0, dot=1.0, dots=2), cap="butt"
+        ),
         # GOST 2.303, dashed: width s/3..s/2, strokes 2..8, gaps 1..2 [mem].
         Pen.HIDDEN: PenStyle(_THIN, Dashes(stroke=4.0, least=2.0, gap=1.5), cap="butt"),
         # GOST 2.303: hatching is a solid thin line.
         Pen.HATCH: PenStyle(_THIN, cap="butt"),
+        # GOST 2.303: a break is a thin line by hand; its waves are drawn, not dashed.
+        Pen.BREAK: PenStyle(_THIN),
         # The standard knows no grey: thin lines set back so that the main position stands out.
         Pen.PALE: PenStyle(_THIN, grey=0.5),
     }
@@ -75,15 +105,19 @@ _CORNER = radians(20.0)
 
 @dataclass(frozen=True, slots=True)
 class ArrowStyle:
-    """Swept arrowhead: ``notch`` is how far its back is cut in along the shaft."""
+    """Swept arrowhead: ``notch`` is how far its back is cut in along the shaft.
+
+    There is one shape: an arrowhead of another length is as much narrower or wider.
+    """
 
     length: float
     width: float
     notch: float
 
 
-# GOST 2.307: the arrow follows s; 5..7 mm long on training drawings.
-ARROW = ArrowStyle(length=5.0, width=1.6, notch=1.0)
+# GOST 2.307: the arrow follows s; 5..7 mm long on training drawings. Its sides are at about 20°,
+# and it is more than twice as wide as the main line that it ends.
+ARROW = ArrowStyle(length=5.0, width=1.9, notch=1.0)
 
 
 def dash_spans(
@@ -118,9 +152,9 @@ def dash_spans(
     for index in range(gaps + open_end):
         start = index * (stroke + dashes.gap)
         spans.append((start, start + stroke))
-        if dashes.dot and index < gaps:
-            middle = start + stroke + dashes.gap / 2.0
-            spans.append((middle - dashes.dot / 2.0, middle + dashes.dot / 2.0))
+        if index < gaps:
+            reached = start + stroke
+            spans += [(reached + a, reached + b) for a, b in dashes.inside]
     if not closed:
         spans[-1] = (spans[-1][0], length)
     return tuple(spans)

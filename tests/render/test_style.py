@@ -33,8 +33,9 @@ def length(line: tuple[complex, ...]) -> float:
 def test_every_pen_has_a_style_and_thin_lines_are_a_third_to_a_half() -> None:
     assert set(PENS) == set(Pen)
     assert {PENS[pen].width for pen in (Pen.MAIN, Pen.FRAME)} == {S}
-    thin = set(Pen) - {Pen.MAIN, Pen.FRAME}
+    thin = set(Pen) - {Pen.MAIN, Pen.FRAME, Pen.THICK_AXIS}
     assert all(S / 3 <= PENS[pen].width <= S / 2 for pen in thin)
+    assert S / 2 <= PENS[Pen.THICK_AXIS].width <= 2 * S / 3
     assert list(HEIGHTS) == sorted(HEIGHTS)
 
 
@@ -46,16 +47,49 @@ def test_open_line_starts_and_ends_with_a_stroke(dashes: Dashes, total: float) -
     assert spans[-1][1] == total
     assert all(a[1] < b[0] for a, b in pairwise(spans))
     lengths = [b - a for a, b in spans]
-    strokes = lengths[::2] if dashes.dot else lengths
+    strokes = lengths[:: 1 + len(dashes.inside)]
     assert max(strokes) - min(strokes) < 1e-9
     if len(spans) > 1:
         assert strokes[0] >= dashes.least - 1e-9
         assert strokes[0] < 2.0 * dashes.stroke
         whole = [b[0] - a[1] for a, b in pairwise(spans)]
-        gap = (dashes.gap - dashes.dot) / 2 if dashes.dot else dashes.gap
+        dots = len(dashes.inside)
+        gap = (dashes.gap - dots * dashes.dot) / (dots + 1)
         assert whole == pytest.approx([gap] * len(whole))
     else:
         assert total < 2.0 * dashes.least + dashes.gap or total < dashes.stroke * 2.0
+
+
+# GOST 2.303: least and greatest stroke, least and greatest gap, dots in a gap.
+NORMS = {
+    Pen.AXIS: (5, 30, 3, 5, 1),
+    Pen.THICK_AXIS: (3, 8, 3, 4, 1),
+    Pen.PHANTOM: (5, 30, 4, 6, 2),
+    Pen.HIDDEN: (2, 8, 1, 2, 0),
+}
+
+
+@pytest.mark.parametrize("pen", NORMS)
+def test_dashes_are_those_of_the_standard_on_every_length(pen: Pen) -> None:
+    least, most, narrow, wide, dots = NORMS[pen]
+    dashes = PENS[pen].dashes
+    assert dashes
+    assert narrow <= dashes.gap <= wide
+    shown = 0
+    for tenths in range(50, 4000, 7):
+        spans = dash_spans(tenths / 10, dashes)
+        if len(spans) == 1:
+            continue
+        shown += 1
+        assert (len(spans) - 1) % (dots + 1) == 0
+        assert all(least - 1e-9 <= b - a <= most for a, b in spans[:: dots + 1])
+    assert shown > 500
+
+
+def test_a_period_is_a_stroke_and_its_gap() -> None:
+    assert Dashes(12.0, 5.0, 5.0, 1.0, 2).period == (12.0, -1.0, 1.0, -1.0, 1.0, -1.0)
+    assert Dashes(12.0, 5.0, 4.0, 1.0).period == (12.0, -1.5, 1.0, -1.5)
+    assert Dashes(4.0, 2.0, 1.5).period == (4.0, -1.5)
 
 
 @pytest.mark.parametrize("dashes", DASHED)

@@ -31,7 +31,12 @@ _LIBRARY: Any = ezdxf  # its types are of the parts only
 TEXT_STYLE = "SHEET"
 
 LINE_TYPES: Mapping[Pen, str] = MappingProxyType(
-    {Pen.AXIS: "GOST_DASHDOT", Pen.HIDDEN: "GOST_DASHED"}
+    {
+        Pen.AXIS: "GOST_DASHDOT",
+        Pen.THICK_AXIS: "GOST_DASHDOT_THICK",
+        Pen.PHANTOM: "GOST_DASHDOT2",
+        Pen.HIDDEN: "GOST_DASHED",
+    }
 )
 
 LAYERS: Mapping[str, Pen] = MappingProxyType(
@@ -40,8 +45,11 @@ LAYERS: Mapping[str, Pen] = MappingProxyType(
         "THIN": Pen.THIN,
         "FRAME": Pen.FRAME,
         "AXIS": Pen.AXIS,
+        "THICK_AXIS": Pen.THICK_AXIS,
+        "PHANTOM": Pen.PHANTOM,
         "HIDDEN": Pen.HIDDEN,
         "HATCHING": Pen.HATCH,
+        "BREAKS": Pen.BREAK,
         "PALE": Pen.PALE,
         "LINKS": Pen.MAIN,
         "SYMBOLS": Pen.MAIN,
@@ -157,12 +165,8 @@ class DxfCanvas:
         for pen, name in LINE_TYPES.items():
             dashes = PENS[pen].dashes
             assert dashes is not None
-            pattern = [dashes.stroke, -dashes.gap]
-            if dashes.dot:
-                side = (dashes.gap - dashes.dot) / 2.0
-                pattern = [dashes.stroke, -side, dashes.dot, -side]
             whole = dashes.stroke + dashes.gap
-            document.linetypes.add(name, [whole, *pattern], description="GOST 2.303")
+            document.linetypes.add(name, [whole, *dashes.period], description="GOST 2.303")
         for name, pen in LAYERS.items():
             layer = document.layers.add(
                 name,
