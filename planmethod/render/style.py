@@ -144,7 +144,9 @@ def dash_spans(
         return ()
     open_end = 0 if closed else 1
     gaps = round((length - open_end * dashes.stroke) / (dashes.stroke + dashes.gap))
-    gaps = min(gaps, int((length - open_end * dashes.least) / (dashes.gap + dashes.least)))
+    most = int((length - open_end * dashes.least) / (dashes.gap + dashes.least) + 1e-9)
+    # A line that has room for two strokes shows what it is.
+    gaps = min(max(gaps, open_end), most)
     if gaps < 1:
         return ((0.0, length),)
     stroke = (length - gaps * dashes.gap) / (gaps + open_end)

@@ -311,8 +311,8 @@ def test_the_frame_fills_nothing() -> None:
         (Stroke((AT, AT + 5), Pen.HIDDEN), False),
         (Stroke((AT, AT + 5), Pen.THIN), True),
         (Stroke((AT, AT + 7), Pen.HIDDEN), True),
-        (Stroke((AT, AT + 19), Pen.AXIS), False),
-        (Stroke((AT, AT + 21), Pen.AXIS), True),
+        (Stroke((AT, AT + 13), Pen.AXIS), False),
+        (Stroke((AT, AT + 15), Pen.AXIS), True),
         (Stroke((AT, AT), Pen.AXIS), True),
         (Stroke((AT, AT + 1, AT + 1 + 1j), Pen.HIDDEN, closed=True), False),
         (Stroke((AT, AT + 9, AT + 9 + 9j), Pen.HIDDEN, closed=True), True),
@@ -349,8 +349,8 @@ def test_a_line_that_ends_in_a_gap_is_told(monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_the_length_that_would_show_dashes() -> None:
     for item, least in (
-        (Stroke((AT, AT + 5), Pen.HIDDEN), 6.75),
-        (Stroke((AT, AT + 5), Pen.AXIS), 20.0),
+        (Stroke((AT, AT + 5), Pen.HIDDEN), 5.5),
+        (Stroke((AT, AT + 5), Pen.AXIS), 14.0),
         (Arc(AT, 1.0, pen=Pen.HIDDEN), 8.25),
     ):
         (finding,) = found(sheet(item))
