@@ -81,7 +81,6 @@ def plan_picture(
             at[vector.head],
             pen=Pen.THIN if thin else Pen.MAIN,
             length=5.0 * factor,
-            width=1.6 * factor,
             tag=vector.kind.value,
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))

@@ -116,7 +116,6 @@ def _senses(view: _View, link: str) -> None:
             middle=middle,
             sweep=sweep,
             length=3.5 * scheme.factor,
-            width=1.3 * scheme.factor,
             tag=f"{symbol} {link}",
         )
         view.arrows += arrow
@@ -149,9 +148,7 @@ def _draw_angle(view: _View) -> None:
         if max(abs(pin - centre) for pin in pins) < radius + 4.0:
             return  # no room for an arc around the support: the statement tells the angle
     scheme.guides.append(Stroke((centre, centre + radius + 6), Pen.THIN, tag="phi"))
-    scheme.guides += turn_arrow(
-        centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, width=1.0, tag="phi"
-    )
+    scheme.guides += turn_arrow(centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, tag="phi")
     view.labels.append(
         Label(
             typeset(f"φ_{{{drive.link}}}", 3.5),

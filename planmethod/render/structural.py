@@ -29,7 +29,7 @@ from planmethod.render.chains import (
     mechanism_chain,
     textbook_places,
 )
-from planmethod.render.drawing import Arc, Item, Pen, Stroke
+from planmethod.render.drawing import Item, Pen, Stroke
 from planmethod.render.embedding import embed, turned_outwards
 from planmethod.render.extent import ink_bounds
 from planmethod.render.labels import Label, place_labels, segment_label
@@ -37,6 +37,7 @@ from planmethod.render.symbols import (
     SIZES,
     angle_of,
     arrowhead,
+    before_links,
     fixed_pivot,
     guide_line,
     revolute,
@@ -323,10 +324,7 @@ class _Draft:
             self.grounds.append(Stroke((place, end), Pen.HIDDEN, tag="open"))
             self.segments.append(("", place, end))
             self._number(f"({pin.to})", end, way, gap=0.8)
-        self.joints += revolute(place)
-        for k in range(1, pin.count):
-            # GOST 2.770 shows a joint of several pairs by circles about one another.
-            self.joints.append(Arc(place, SIZES.joint / 2 + 1.1 * k, pen=Pen.THIN))
+        self.joints += revolute(place, count=pin.count)
         lines = self.directions(place)
         away = -sum(lines, 0j)
         stone = any(slide.node == pin.node for slide in self.chain.slides)
@@ -364,7 +362,7 @@ class _Draft:
                 middle = middle if self.directions(place) else middle + 7.5
                 start, end = middle - 6.0 * sense, middle + 6.0 * sense
                 self.grounds.append(Stroke((start, end - 3.0 * sense), Pen.THIN))
-                self.grounds += arrowhead(end, end - start, length=3.5, width=1.3)
+                self.grounds += arrowhead(end, end - start, length=3.5)
                 mark = typeset(f"v_{{{driver}}}", self.letter_height)
                 self.labels.append(Label(mark, end, prefer=end - start, gap=1.0))
 
@@ -385,7 +383,7 @@ class _Draft:
                 longest[link] = (start, end)
         for link, (start, end) in longest.items():
             self.labels.append(segment_label(link, start, end, self.letter_height))
-        items = [*self.grounds, *self.arms, *self.stones, *self.lines, *self.joints]
+        items = before_links([*self.grounds, *self.arms, *self.stones, *self.lines, *self.joints])
         left, low, right, high = ink_bounds(items)
         room = (left - MARGIN, low - MARGIN, right + MARGIN, high + MARGIN)
         for placed in place_labels(self.labels, items, room):

@@ -329,7 +329,7 @@ def test_hinge_of_three_links_is_a_double_joint() -> None:
     assert {pin.node: pin.count for pin in chain.pins}["C"] == 2
     picture = mechanism_picture(problem.mechanism, structure, width=200, height=120)
     rings = [i for i in picture.items if isinstance(i, Arc) and i.pen is Pen.THIN]
-    assert sum(abs(ring.radius - 2.6) < 1e-9 for ring in rings) == 1
+    assert sum(abs(ring.radius - 2.8) < 1e-9 for ring in rings) == 1
     first, second = structure.groups
     assert {p.node: p.count for p in group_chain(problem.mechanism, first).pins}["C"] == 1
     assert {p.node: p.far for p in group_chain(problem.mechanism, second).pins}["C"] is Far.OPEN

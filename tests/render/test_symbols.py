@@ -7,10 +7,11 @@ from math import isclose, pi, tau
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shapely import LineString, Point, Polygon
 
 from planmethod.render import symbols
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.style import sweep
+from planmethod.render.style import ARROW, PENS, stroke_lines, sweep
 from planmethod.render.symbols import SIZES
 
 angles = st.floats(-180, 180)
@@ -192,3 +193,145 @@ def test_triangle_link() -> None:
     assert hatching(items)
     assert isinstance(items[-1], Stroke)
     assert items[-1].closed
+
+
+# Joints ------------------------------------------------------------------------------------------
+
+
+def test_a_joint_of_three_links_has_a_ring_about_it() -> None:
+    items = symbols.revolute(2 + 3j, count=2)
+    arcs = [i for i in items if isinstance(i, Arc)]
+    assert [(a.radius, a.pen) for a in arcs] == [(2.8, Pen.THIN), (1.5, Pen.MAIN)]
+    discs = [i for i in items if isinstance(i, Disc)]
+    assert max(d.radius for d in discs) == 2.8  # links end at the ring
+    assert len([i for i in symbols.revolute(0j, count=3) if isinstance(i, Arc)]) == 3
+    gap = SIZES.ring - (PENS[Pen.MAIN].width + PENS[Pen.THIN].width) / 2
+    assert gap >= 0.7
+
+
+@given(angles, st.sampled_from([1, -1]))
+def test_a_joint_on_a_link_shows_on_one_side(angle: float, side: int) -> None:
+    along = cmath.rect(7, angle / 180 * pi)
+    white, half, piece = symbols.revolute_on(1 + 1j, along, side=side, tag="link 3")
+    assert isinstance(white, Fill)
+    assert isinstance(half, Arc)
+    assert isinstance(piece, Stroke)
+    assert white.ink is Ink.WHITE
+    for point in (*white.points, *symbols.arc_points(half)):
+        assert ((point - 1 - 1j) / along).imag * side >= -1e-9
+    assert sweep(half) == pytest.approx(pi)
+    assert piece.tag == "link 3"
+    assert sum(piece.points) / 2 == pytest.approx(1 + 1j)
+    # What shows of the circle beside the link is as wide as the half of a joint.
+    assert half.radius - PENS[Pen.MAIN].width / 2 == pytest.approx(SIZES.joint / 2)
+
+
+def test_an_offset_slider_is_one_piece_with_its_arm() -> None:
+    items = symbols.offset_slider(0j, 3 + 9j)
+    assert any(isinstance(i, Stroke) and i.points == (0j, 3 + 9j) for i in items)
+    assert isinstance(items[-1], Arc)
+    assert items[-1].centre == 3 + 9j
+
+
+def test_plates_on_one_side_only() -> None:
+    items = symbols.guide_plates(0j, sides=(-1,))
+    assert all(p.imag <= -4 for i in items if isinstance(i, Stroke) for p in i.points)
+
+
+def test_a_bearing_leaves_the_shaft_free() -> None:
+    shaft = LineString([(-20, 0), (20, 0)]).buffer(PENS[Pen.MAIN].width / 2)
+    for item in symbols.bearing(0j):
+        assert isinstance(item, Stroke)
+        edge = LineString([(p.real, p.imag) for p in item.points])
+        assert edge.distance(shaft) >= 0.8
+
+
+# Links -------------------------------------------------------------------------------------------
+
+
+def test_corners_of_a_triangle_are_marked() -> None:
+    marks = fills(symbols.stiff_triangle(0j, 30 + 0j, 10 + 20j, marked=True))
+    assert {mark.points[0] for mark in marks} == {0j, 30 + 0j, 10 + 20j}
+    for mark in marks:
+        assert (
+            Polygon([(0, 0), (30, 0), (10, 20)])
+            .buffer(1e-9)
+            .contains(Polygon([(p.real, p.imag) for p in mark.points]))
+        )
+
+
+def test_a_crank_has_its_path_and_a_rocker_its_dead_positions() -> None:
+    path, bar, *_ = symbols.crank(0j, 12 + 5j, path=True)
+    assert isinstance(path, Arc)
+    assert (path.radius, path.pen) == (13, Pen.THIN)
+    assert isinstance(bar, Stroke)
+    assert not any(isinstance(i, Arc) and i.tag == "path" for i in symbols.crank(0j, 12 + 5j))
+    items = symbols.rocker(0j, 30j, swing=(20.0, 35.0))
+    dead = [i for i in items if isinstance(i, Stroke) and i.pen is Pen.PHANTOM]
+    turns = sorted(round(symbols.angle_of(i.points[1] / 1j)) for i in dead)
+    assert turns == [-20, 35]
+    assert all(len(stroke_lines(i)) > 1 for i in dead)
+
+
+# Arrows ------------------------------------------------------------------------------------------
+
+
+def test_every_arrowhead_has_one_shape() -> None:
+    drawn = [
+        *symbols.arrowhead(0j, 1 + 2j),
+        *symbols.arrowhead(0j, -1j, length=2.5),
+        *symbols.vector_arrow(0j, 40 + 0j),
+        *symbols.vector_arrow(0j, 3 + 4j, pen=Pen.THIN),
+        *symbols.turn_arrow(0j, 10, 1),
+        *symbols.turn_sign(0j, 3.0, -1),
+        *symbols.drive_arrow(0j, 20j),
+    ]
+    shapes = set()
+    for head in fills(drawn):
+        tip, left, notch, right = head.points
+        middle = (left + right) / 2
+        length = abs(tip - middle)
+        shapes.add((round(abs(left - right) / length, 6), round(abs(notch - middle) / length, 6)))
+    assert shapes == {(ARROW.width / ARROW.length, ARROW.notch / ARROW.length)}
+    assert ARROW.width / ARROW.length == pytest.approx(0.36, abs=0.04)  # about 20 degrees
+
+
+# Hatching that gives way -------------------------------------------------------------------------
+
+
+def test_hatching_gives_way_to_what_lies_in_it() -> None:
+    corners = (0j, 40 + 0j, 20 + 25j)
+    joint = symbols.revolute(20 + 10j)
+    free = symbols.hatch(corners)
+    cut = symbols.hatch(corners, keep_off=joint)
+    clear = Point(20, 10).buffer(1.5 + 0.7)
+    assert any(shape(stroke).intersects(clear) for stroke in free)
+    assert not any(shape(stroke).intersects(clear) for stroke in cut)
+    area = Polygon([(p.real, p.imag) for p in corners]).buffer(1e-9)
+    assert all(area.contains(shape(stroke)) for stroke in cut)
+
+
+def test_only_hatching_is_cut() -> None:
+    base = symbols.ground_line(0j, 30 + 0j)
+    taken = symbols.taken_by(symbols.link(15 + 5j, 15 - 5j))
+    assert taken is not None
+    kept = symbols.clipped(base, taken)
+    assert kept[0] == base[0]
+    assert len(hatching(kept)) >= len(hatching(base)) - 2
+    assert not any(shape(stroke).intersects(taken.buffer(-1e-6)) for stroke in hatching(kept))
+    assert all(shape(stroke).length >= 1.2 - 1e-9 for stroke in hatching(kept))
+    assert symbols.taken_by([]) is None
+
+
+def test_the_frame_gives_way_to_links_and_not_to_its_own_lines() -> None:
+    base = symbols.ground_line(0j, 30 + 0j)
+    assert symbols.before_links(base) == base
+    crossed = symbols.before_links([*base, *symbols.link(15 + 5j, 15 - 5j, tag="link 2")])
+    assert len(hatching(crossed)) < len(hatching(base)) or hatching(crossed) != hatching(base)
+    pale = Stroke((15 + 5j, 15 - 5j), Pen.PALE, tag="link 2")
+    assert symbols.before_links([*base, pale]) == [*base, pale]
+
+
+def shape(item: Item) -> LineString:
+    assert isinstance(item, Stroke)
+    return LineString([(p.real, p.imag) for p in item.points])

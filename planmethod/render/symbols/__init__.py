@@ -1,0 +1,78 @@
+"""Scheme symbols (условные обозначения кинематических схем, GOST 2.770) as display-list items.
+
+Places are mm of paper, directions are complex numbers of any length (or degrees where a parameter
+is called an angle). ``factor`` scales a symbol for a small sheet. Where symbols and links overlap
+the order matters: sliders first, links over them, joints last, whose white insides cover the lines.
+
+Here is what schemes and plans are drawn with; wheels, cams and axes have modules of their own:
+`gears`, `cams`, `axes`.
+"""
+
+from planmethod.render.symbols.arrows import (
+    arrowhead,
+    drive_arrow,
+    turn_arrow,
+    turn_sign,
+    vector_arrow,
+)
+from planmethod.render.symbols.grounds import (
+    bearing,
+    fixed_pivot,
+    fixed_pivots,
+    foot_of,
+    ground_line,
+    guide_line,
+    guide_plates,
+)
+from planmethod.render.symbols.hatching import (
+    GROUND,
+    arc_points,
+    before_links,
+    clipped,
+    hatch,
+    taken_by,
+)
+from planmethod.render.symbols.links import crank, link, rigid_corner, rocker, stiff_triangle
+from planmethod.render.symbols.pairs import (
+    offset_slider,
+    revolute,
+    revolute_on,
+    slider,
+    stone,
+)
+from planmethod.render.symbols.sizes import SIZES, Sizes, angle_of, unit
+
+__all__ = [
+    "GROUND",
+    "SIZES",
+    "Sizes",
+    "angle_of",
+    "arc_points",
+    "arrowhead",
+    "bearing",
+    "before_links",
+    "clipped",
+    "crank",
+    "drive_arrow",
+    "fixed_pivot",
+    "fixed_pivots",
+    "foot_of",
+    "ground_line",
+    "guide_line",
+    "guide_plates",
+    "hatch",
+    "link",
+    "offset_slider",
+    "revolute",
+    "revolute_on",
+    "rigid_corner",
+    "rocker",
+    "slider",
+    "stiff_triangle",
+    "stone",
+    "taken_by",
+    "turn_arrow",
+    "turn_sign",
+    "unit",
+    "vector_arrow",
+]

@@ -1,0 +1,141 @@
+"""Hatching (штриховка): of areas, and of what may not be run over by it.
+
+Hatch strokes of the frame have the tag `GROUND`: where a link passes before them they give way.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from math import ceil, radians
+from typing import TYPE_CHECKING
+
+from planmethod.render.drawing import Arc, Disc, Fill, Item, Pen, Stroke
+from planmethod.render.style import PENS, sweep
+from planmethod.render.symbols.sizes import SIZES
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+GROUND = "ground"
+"""Tag of the hatching of the frame."""
+
+WHITE = 0.8
+"""Between a hatch stroke and the edge of what it gives way to, mm."""
+
+_LEAST = 1.2  # mm: what is left of a hatch stroke and shorter is dust
+
+
+def hatch(
+    outline: Sequence[complex],
+    *,
+    step: float = SIZES.hatch_step,
+    angle: float = 45.0,
+    keep_off: Iterable[Item] = (),
+    tag: str = "",
+) -> list[Item]:
+    """Return thin hatching clipped by a polygon (штриховка).
+
+    ``step`` is the distance between the lines, mm; ``angle`` their direction, degrees. The lines
+    lie on one lattice for the whole sheet, so that areas side by side hatch alike. ``keep_off``
+    are items that the hatching gives way to: joints, letters' grounds, links.
+    """
+    from shapely import MultiLineString, Polygon
+
+    turn = cmath.exp(1j * radians(angle))
+    area = Polygon([(p.real, p.imag) for p in outline])
+    turned = [point / turn for point in outline]
+    low, high = min(p.imag for p in turned), max(p.imag for p in turned)
+    left, right = min(p.real for p in turned) - 1, max(p.real for p in turned) + 1
+    levels = [k * step for k in range(ceil(low / step), ceil(high / step))]
+    ends = [((left + 1j * y) * turn, (right + 1j * y) * turn) for y in levels]
+    lines = MultiLineString([[(a.real, a.imag), (b.real, b.imag)] for a, b in ends])
+    strokes: list[Item] = [
+        Stroke(path, Pen.HATCH, tag=tag) for path in _paths(lines.intersection(area), 1e-6)
+    ]
+    taken = taken_by(keep_off)
+    return strokes if taken is None else clipped(strokes, taken)
+
+
+def taken_by(items: Iterable[Item], *, room: float = WHITE) -> BaseGeometry | None:
+    """Return the ground that items take with white of ``room`` mm around, or None without any.
+
+    Lines take the width of their pens, a circle that is drawn around its own white all that is
+    inside it. Letters are not looked at.
+    """
+    from shapely import LineString, Point, Polygon, union_all
+
+    taken = []
+    for item in items:
+        match item:
+            case Stroke(points=path, pen=pen, closed=closed) if len(path) > 1:
+                ends = [(p.real, p.imag) for p in ((*path, path[0]) if closed else path)]
+                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + room, quad_segs=4))
+            case Arc(pen=pen):
+                ends = [(p.real, p.imag) for p in arc_points(item)]
+                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + room, quad_segs=4))
+            case Fill(points=path) if len(path) > 2:
+                taken.append(Polygon([(p.real, p.imag) for p in path]).buffer(room, quad_segs=4))
+            case Disc(centre=centre, radius=radius):
+                taken.append(Point(centre.real, centre.imag).buffer(radius + room, quad_segs=8))
+    return union_all(taken) if taken else None
+
+
+def clipped(items: Iterable[Item], taken: BaseGeometry) -> list[Item]:
+    """Return the items, their hatch strokes cut off where the ground is taken.
+
+    A stroke may come out in several pieces; what is left of it below 1.2 mm is not drawn.
+    """
+    from shapely import LineString, prepare
+
+    prepare(taken)
+    kept: list[Item] = []
+    for item in items:
+        if not isinstance(item, Stroke) or item.pen is not Pen.HATCH:
+            kept.append(item)
+            continue
+        line = LineString([(p.real, p.imag) for p in item.points])
+        if not taken.intersects(line):
+            kept.append(item)
+            continue
+        kept += [replace(item, points=path) for path in _paths(line.difference(taken), _LEAST)]
+    return kept
+
+
+def before_links(items: Sequence[Item]) -> list[Item]:
+    """Return the items of a scheme, the hatching of its frame cut off around its links.
+
+    Links are the main lines tagged ``link ...``; the frame's hatching is tagged `GROUND`.
+    """
+    grounds = [item for item in items if isinstance(item, Stroke) and item.tag == GROUND]
+    links = [
+        item
+        for item in items
+        if isinstance(item, Stroke) and item.pen is Pen.MAIN and item.tag.startswith("link ")
+    ]
+    taken = taken_by(links) if grounds else None
+    if taken is None:
+        return list(items)
+    kept: list[Item] = []
+    for item in items:
+        is_ground = isinstance(item, Stroke) and item.tag == GROUND
+        kept += clipped([item], taken) if is_ground else [item]
+    return kept
+
+
+def _paths(shape: BaseGeometry, least: float) -> list[tuple[complex, ...]]:
+    from shapely import LineString
+
+    parts = [part for part in getattr(shape, "geoms", [shape]) if isinstance(part, LineString)]
+    return [
+        tuple(complex(*point) for point in part.coords) for part in parts if part.length > least
+    ]
+
+
+def arc_points(arc: Arc, *, step: float = 0.25) -> list[complex]:
+    """Return points along an arc, ``step`` radians apart at most."""
+    turn = sweep(arc)
+    count = max(2, ceil(turn / step))
+    angles = (arc.start + turn * k / count for k in range(count + 1))
+    return [arc.centre + cmath.rect(arc.radius, angle) for angle in angles]

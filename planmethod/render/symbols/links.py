@@ -1,0 +1,106 @@
+"""Links (звенья): bars, rigid corners, stiff triangles, cranks and rockers."""
+
+from __future__ import annotations
+
+import cmath
+from math import radians, sin
+
+from planmethod.render.drawing import Arc, Fill, Item, Pen, Stroke
+from planmethod.render.symbols.grounds import fixed_pivot
+from planmethod.render.symbols.hatching import hatch
+from planmethod.render.symbols.pairs import revolute
+from planmethod.render.symbols.sizes import SIZES, unit
+
+
+def link(*points: complex, pen: Pen = Pen.MAIN, tag: str = "") -> list[Item]:
+    """Return a link as a line through points (звено)."""
+    return [Stroke(points, pen, tag=tag)]
+
+
+def rigid_corner(
+    vertex: complex, first: complex, second: complex, *, factor: float = 1.0
+) -> list[Item]:
+    """Return the mark of a rigid joint: a filled triangle in the angle (жёсткое соединение).
+
+    ``first`` and ``second`` are points of the two arms; nothing is drawn where the arms are in
+    one line, for then nothing is to be told apart.
+    """
+    one, two = unit(first - vertex), unit(second - vertex)
+    if abs((one.conjugate() * two).imag) < sin(radians(4)):
+        return []
+    size = min(SIZES.corner * factor, abs(first - vertex) / 2, abs(second - vertex) / 2)
+    return [Fill((vertex, vertex + one * size, vertex + two * size))]
+
+
+def stiff_triangle(
+    *corners: complex,
+    hatched: bool = False,
+    marked: bool = False,
+    factor: float = 1.0,
+    pen: Pen = Pen.MAIN,
+) -> list[Item]:
+    """Return a link with three or more points: its outline, rigid (трёхпарное звено).
+
+    The corners carry joints, so the stiffness is shown by the closed outline, by thin hatching
+    when ``hatched``, or by the marks of rigid corners when ``marked``.
+    """
+    items: list[Item] = []
+    if hatched:
+        items += hatch(corners, step=2 * SIZES.hatch_step * factor)
+    if marked:
+        around = zip((corners[-1], *corners[:-1]), corners, (*corners[1:], corners[0]), strict=True)
+        for before, vertex, after in around:
+            items += rigid_corner(vertex, before, after, factor=factor)
+    return [*items, Stroke(corners, pen, closed=True)]
+
+
+def crank(
+    pivot: complex,
+    pin: complex,
+    *,
+    path: bool = False,
+    support: complex = -1j,
+    factor: float = 1.0,
+    pen: Pen = Pen.MAIN,
+    tag: str = "",
+) -> list[Item]:
+    """Return a crank: a link that turns fully about a pivot of the frame (кривошип).
+
+    ``path`` adds the circle of its pin, a thin line; ``support`` points to the pivot's base.
+    """
+    items: list[Item] = []
+    if path:
+        items.append(Arc(pivot, abs(pin - pivot), pen=Pen.THIN, tag="path"))
+    items += link(pivot, pin, pen=pen, tag=tag)
+    items += fixed_pivot(pivot, direction=support, factor=factor, pen=pen)
+    return items + revolute(pin, factor=factor, pen=pen)
+
+
+def rocker(
+    pivot: complex,
+    pin: complex,
+    *,
+    swing: tuple[float, float] = (0.0, 0.0),
+    support: complex = -1j,
+    factor: float = 1.0,
+    pen: Pen = Pen.MAIN,
+    tag: str = "",
+) -> list[Item]:
+    """Return a rocker: a link that swings about a pivot of the frame (коромысло).
+
+    ``swing`` says how far it goes clockwise and counter-clockwise of the shown position, degrees:
+    the arc of its pin is a thin line, the dead positions are dash-dot lines with two dots.
+    """
+    items: list[Item] = []
+    if any(swing):
+        radius, angle = abs(pin - pivot), cmath.phase(pin - pivot)
+        ends = (angle - radians(swing[0]), angle + radians(swing[1]))
+        items.append(Arc(pivot, radius, *ends, pen=Pen.THIN, tag="path"))
+        clear = SIZES.joint / 2 * factor
+        for end in ends:
+            way = cmath.rect(1.0, end)
+            dead = (pivot + way * clear, pivot + way * radius)
+            items.append(Stroke(dead, Pen.PHANTOM, tag="dead"))
+    items += link(pivot, pin, pen=pen, tag=tag)
+    items += fixed_pivot(pivot, direction=support, factor=factor, pen=pen)
+    return items + revolute(pin, factor=factor, pen=pen)

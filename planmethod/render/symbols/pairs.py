@@ -1,0 +1,125 @@
+"""Lower pairs (низшие кинематические пары): revolutes, sliders, stones."""
+
+from __future__ import annotations
+
+import cmath
+from math import pi, radians
+
+from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.style import PENS
+from planmethod.render.symbols.sizes import SIZES, unit
+
+
+def revolute(
+    at: complex, *, count: int = 1, factor: float = 1.0, pen: Pen = Pen.MAIN
+) -> list[Item]:
+    """Return a revolute pair: a circle, white inside (вращательная пара).
+
+    ``count`` is the number of pairs in the place, one less than that of the links: a joint of
+    three links (двойной шарнир) has one thin ring about it, and one more for each further link.
+    """
+    radius = SIZES.joint / 2 * factor
+    rings = [radius + SIZES.ring * factor * k for k in range(count - 1, 0, -1)]
+    items: list[Item] = []
+    for ring in rings:
+        items += [Disc(at, ring), Arc(at, ring, pen=Pen.THIN)]
+    return [*items, Disc(at, radius), Arc(at, radius, pen=pen)]
+
+
+def revolute_on(
+    at: complex,
+    along: complex,
+    *,
+    side: int = -1,
+    factor: float = 1.0,
+    pen: Pen = Pen.MAIN,
+    tag: str = "",
+) -> list[Item]:
+    """Return a revolute pair on the middle of a link that goes on through it (шарнир на звене).
+
+    The link is drawn over the joint in one piece, and half of the circle shows beside it, as wide
+    as that of a whole joint; the other link ends at it.
+
+    Parameters
+    ----------
+    at : complex, mm
+        The centre, on the link's line.
+    along : complex
+        Direction of the link.
+    side : int
+        Where the half-circle is: +1 left of the direction, -1 right.
+    tag : str
+        Tag of the piece of the link that is drawn again.
+    """
+    turn = unit(along)
+    radius = (SIZES.joint * factor + PENS[pen].width) / 2
+    start = cmath.phase(turn * (1 if side > 0 else -1))
+    around = [at + cmath.rect(radius, start + pi * k / 16) for k in range(17)]
+    piece = Stroke((at - turn * radius, at + turn * radius), pen, tag=tag)
+    return [
+        Fill(tuple(around), Ink.WHITE),
+        Arc(at, radius, start, start + pi, pen),
+        piece,
+    ]
+
+
+def slider(
+    at: complex,
+    *,
+    angle: float = 0.0,
+    length: float = SIZES.slider_length,
+    width: float = SIZES.slider_width,
+    factor: float = 1.0,
+    pen: Pen = Pen.MAIN,
+) -> list[Item]:
+    """Return a slider: a rectangle turned along its guide, white inside (ползун).
+
+    ``angle`` is the direction of the guide, degrees; ``length`` is along it, mm.
+    """
+    turn = cmath.exp(1j * radians(angle))
+    half, tall = length / 2 * factor, width / 2 * factor
+    corners = tuple(
+        at + turn * corner
+        for corner in (-half - 1j * tall, half - 1j * tall, half + 1j * tall, -half + 1j * tall)
+    )
+    return [Fill(corners, Ink.WHITE), Stroke(corners, pen, closed=True)]
+
+
+def offset_slider(
+    foot: complex,
+    pin: complex,
+    *,
+    angle: float = 0.0,
+    factor: float = 1.0,
+    pen: Pen = Pen.MAIN,
+) -> list[Item]:
+    """Return a slider whose pin stands off its axis (ползун с внеосным шарниром).
+
+    ``foot`` is the middle of the slider on its axis, ``pin`` the joint, mm; the arm between them
+    is rigid, one piece with the slider.
+    """
+    block = slider(foot, angle=angle, factor=factor, pen=pen)
+    return [*block, Stroke((foot, pin), pen), *revolute(pin, factor=factor, pen=pen)]
+
+
+def stone(
+    at: complex,
+    *,
+    angle: float = 0.0,
+    pin: bool = True,
+    inside: bool = False,
+    factor: float = 1.0,
+    pen: Pen = Pen.MAIN,
+) -> list[Item]:
+    """Return a slider on a moving guide, its guide's line through it and its pin (камень кулисы).
+
+    Smaller than a slider of the frame, and small enough to lie on one with ``inside``. ``angle`` is
+    the direction of the guide, degrees. Links that end at the pin are drawn after the stone, so
+    give ``pin=False`` and a `revolute` last.
+    """
+    share = (0.5, 0.6) if inside else (0.85, 0.75)
+    length, width = share[0] * SIZES.slider_length, share[1] * SIZES.slider_width
+    turn = cmath.exp(1j * radians(angle)) * length / 2 * factor
+    items = slider(at, angle=angle, length=length, width=width, factor=factor, pen=pen)
+    items.append(Stroke((at - turn, at + turn), pen))
+    return items + revolute(at, factor=factor, pen=pen) if pin else items
