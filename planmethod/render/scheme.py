@@ -2,30 +2,34 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from planmethod.construct.steps import PointName
-from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Slide
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.supports import Support, free_sides, stand
 from planmethod.render.symbols import (
     SIZES,
     angle_of,
-    fixed_pivot,
     guide_plates,
     revolute,
+    revolute_on,
     rigid_corner,
     slider,
     stiff_triangle,
     stone,
     unit,
 )
+from planmethod.render.symbols.axes import axis_line
+
+AXIS = 15.0
+"""Length of a guide's axis beyond the slider before ``factor``, mm."""
 
 OVERHANG = 5.0
 """How far a bar goes on beyond the stone that slides on it, mm."""
@@ -51,6 +55,7 @@ class Scheme:
     named: list[str] = field(default_factory=list)
     segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
     axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
+    supports: list[Support] = field(default_factory=list)
 
     @property
     def factor(self) -> float:
@@ -118,7 +123,7 @@ class Scheme:
         nearest = min(along, key=lambda pair: abs(pair[0] - z))
         self.bar(link, nearest[1], place)
         for other in along:
-            if other != nearest and self.pen is Pen.MAIN:
+            if other != nearest and self._is_marked(link, nearest[1]):
                 self.corners += rigid_corner(nearest[1], place, other[1], factor=self.factor)
                 break
 
@@ -144,9 +149,15 @@ class Scheme:
             return
         self.bar(link, start + u * low, start + u * high)
         for _, place in along:
-            if abs(place - start) > 1.0 and self.pen is Pen.MAIN:
+            if abs(place - start) > 1.0 and self._is_marked(link, start):
                 self.corners += rigid_corner(start, place, start + u * reach, factor=self.factor)
                 break
+
+    def _is_marked(self, link: str, place: complex) -> bool:
+        """Tell whether a corner of a link is marked as rigid: not inside its own slider."""
+        slide = self.solution.problem.slides.get(link)
+        on_block = slide is not None and slide.host == FRAME and abs(self.at(slide.pin) - place) < 1
+        return self.pen is Pen.MAIN and not on_block
 
     def _reaches(self, slide: Slide) -> tuple[float, float]:
         """Return the least and the greatest place of a stone along its line in all positions."""
@@ -210,15 +221,17 @@ class Scheme:
             ((self.at(p) - start) * u.conjugate()).real
             for p in self.solution.problem.bodies[slide.slider].points
         ]
-        half = 22.0 * self.factor
+        edge = SIZES.slider_length / 2 * self.factor
+        half = edge + AXIS * self.factor
         low, high = min(way) - half, max(way) + half
         offset = pin - foot
-        self.guides.append(
-            Stroke((start + u * low + offset, start + u * high + offset), Pen.AXIS, tag="guide")
-        )
-        length, width = SIZES.slider_length + 8.0, SIZES.slider_width + 1.6
+        # Two lines, for each begins with a stroke at the edge of the slider.
+        for end, side in ((low, -edge), (high, edge)):
+            self.guides += axis_line(pin + u * side, start + u * end + offset, tag="guide")
+        length = SIZES.slider_length + 8.0
+        sides = free_sides(pin, self.lines, angle=angle, length=length, factor=self.factor)
         self.bodies += guide_plates(
-            pin, angle=angle, length=length, width=width, factor=self.factor, pen=self.pen
+            pin, angle=angle, length=length, sides=sides, factor=self.factor, pen=self.pen
         )
         self.axis_ends.append((slide.label, start + u * low + offset, start + u * high + offset))
 
@@ -243,16 +256,14 @@ class Scheme:
         """Draw pivots, joints and the other points of the links."""
         problem = self.solution.problem
         named: set[str] = set()
-        for joint in problem.mechanism.revolutes:
+        joints = problem.mechanism.revolutes
+        pivots = [self.at(joint.point) for joint in joints if joint.links[0] == FRAME]
+        self.supports = stand(pivots, [*self.lines, *self.bodies], factor=self.factor)
+        for support in self.supports:
+            self.joints += support.items()
+        for joint in joints:
             place = self.at(joint.point)
-            if joint.links[0] == FRAME:
-                self.joints += fixed_pivot(
-                    place, direction=self.free_direction(place), factor=self.factor
-                )
-            else:
-                self.joints += revolute(place, factor=self.factor, pen=self.pen)
-            for link in joint.links:
-                self._go_through(link, place)
+            self.joints += self._revolute(joint, place)
             named.add(joint.point)
         for link, body in problem.bodies.items():
             for point in body.points:
@@ -261,16 +272,41 @@ class Scheme:
                     named.add(point)
         self.named = sorted(named)
 
-    def _go_through(self, link: str, place: complex) -> None:
-        """Draw a bar through a joint between its ends: the link is one piece there."""
+    def _revolute(self, joint: Revolute, place: complex) -> list[Item]:
+        """Return a joint; a link that goes on through it is seen to be one piece."""
+        passing = {link: way for link in joint.links if (way := self._passes(link, place))}
+        count = joint.pairs
+        if len(passing) == 1 and count == 1:
+            ((link, way),) = passing.items()
+            others = [other for other in joint.links if other != link]
+            leave = sum((self._leaves(other, place) for other in others), 0j)
+            side = 1 if (way.conjugate() * leave).imag > 1e-6 else -1
+            tag = f"link {link}"
+            return revolute_on(place, way, side=side, factor=self.factor, pen=self.pen, tag=tag)
+        items = revolute(place, count=count, factor=self.factor, pen=self.pen)
+        radius = SIZES.joint / 2 * self.factor
+        for link, way in passing.items():
+            ends = (place - way * radius, place + way * radius)
+            items.append(Stroke(ends, self.pen, tag=f"link {link}"))
+        return items
+
+    def _passes(self, link: str, place: complex) -> complex | None:
+        """Return the direction of a bar that goes on through a joint between its ends, if any."""
         radius = SIZES.joint / 2 * self.factor
         for start, end in self.segments.get(link, []):
             along = unit(end - start)
             part = ((place - start) * along.conjugate()).real
             off = abs(place - start - along * part)
             if off < 0.05 and radius < part < abs(end - start) - radius:
-                ends = (place - along * radius, place + along * radius)
-                self.joints.append(Stroke(ends, self.pen, tag=f"link {link}"))
+                return along
+        return None
+
+    def _leaves(self, link: str, place: complex) -> complex:
+        """Return where a link, or the frame's support, lies from a joint: a unit vector."""
+        if link == FRAME:
+            return self.free_direction(place)
+        far = [p for part in self.segments.get(link, []) for p in part if abs(p - place) > 0.5]
+        return unit(far[0] - place) if far else 0j
 
     def directions(self, place: complex) -> list[complex]:
         """Return the directions in which lines leave a place."""
@@ -288,15 +324,9 @@ class Scheme:
         return out
 
     def free_direction(self, place: complex) -> complex:
-        """Return where a pivot's support disturbs the links least; down if it can be."""
-        feet = (0.5 * SIZES.support_height, SIZES.support_height + 2.0)
-
-        def room(way: complex) -> float:
-            lines = min([*(abs(cmath.phase(u / way)) for u in self.directions(place)), 1.2])
-            clear = min(self.clearance(place + way * foot * self.factor) for foot in feet)
-            return round(lines / 1.2, 3) + round(min(1.0, clear / (3.5 * self.factor)), 3)
-
-        return max((-1j, 1j, -1 + 0j, 1 + 0j), key=room)
+        """Return where the support of a pivot stands, once `draw_joints` has chosen it."""
+        ways = (s.direction for s in self.supports for p in s.places if abs(p - place) < 0.01)
+        return next(ways, -1j)
 
     def draw(self) -> None:
         """Draw links, sliders and joints."""

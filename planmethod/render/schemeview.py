@@ -18,7 +18,7 @@ from planmethod.render.ellipses import Ellipses, error_ellipses
 from planmethod.render.extent import lettered
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.scheme import Scheme
-from planmethod.render.symbols import SIZES, angle_of, turn_arrow
+from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.render.typeset import typeset
 
 
@@ -197,10 +197,7 @@ def scheme_picture(
     items = [
         *ghosts,
         *scheme.guides,
-        *scheme.bodies,
-        *scheme.lines,
-        *scheme.corners,
-        *scheme.joints,
+        *before_links([*scheme.bodies, *scheme.lines, *scheme.corners, *scheme.joints]),
         *view.arrows,
         # After the joints, whose white would cover them.
         *ellipses.strokes,

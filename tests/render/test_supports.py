@@ -1,0 +1,196 @@
+"""Supports and guides stand where links leave room, and not in each other."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Sequence
+from itertools import combinations, pairwise
+
+import pytest
+from shapely import LineString, union_all
+from shapely.geometry.base import BaseGeometry
+from worked import SIX, problem_of
+
+from planmethod.errors import AssemblyError
+from planmethod.plans.solution import Solution
+from planmethod.render.drawing import Arc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.scheme import Scheme
+from planmethod.render.schemeview import scheme_picture
+from planmethod.render.style import PENS
+from planmethod.render.supports import free_sides, stand
+from planmethod.render.symbols import GROUND, SIZES, fixed_pivots, foot_of, slider
+
+UNREACHED = {("levers/six-link", 40.0), ("levers/six-link", 75.0)}
+"""Positions in which a mechanism cannot be assembled."""
+
+DOWN, UP, LEFT = -1j, 1j, -1 + 0j
+
+
+def bar(start: complex, end: complex) -> Stroke:
+    return Stroke((start, end), tag="link 1")
+
+
+def lines_of(items: Sequence[Item], pen: Pen | None = None) -> BaseGeometry:
+    paths = [
+        [(p.real, p.imag) for p in item.points]
+        for item in items
+        if isinstance(item, Stroke) and (pen is None or item.pen is pen)
+    ]
+    return union_all([LineString(path) for path in paths])
+
+
+# Supports ----------------------------------------------------------------------------------------
+
+
+def test_a_support_stands_down_where_it_can() -> None:
+    (support,) = stand([0j], [bar(0j, 30 + 20j)])
+    assert (support.places, support.direction, support.factor) == ((0j,), DOWN, 1.0)
+    (alone,) = stand([3 + 4j], [])
+    assert alone.direction == DOWN
+
+
+@pytest.mark.parametrize("way", [-1j, 1 - 2j, -1 - 3j])
+def test_a_support_turns_away_from_a_link_below_it(way: complex) -> None:
+    (support,) = stand([0j], [bar(0j, 40 * way / abs(way))])
+    assert support.direction == UP
+    ground = lines_of(support.items())
+    link = LineString([(0.1 * way.real, 0.1 * way.imag), (40 * way.real, 40 * way.imag)])
+    assert ground.distance(link) == 0.0 or ground.intersection(link).length < 0.2
+
+
+def test_a_support_turns_aside_between_links_above_and_below() -> None:
+    links = [bar(0j, 40j), bar(0j, -40j)]
+    (support,) = stand([0j], links)
+    assert support.direction == LEFT
+    (other,) = stand([0j], [*links, bar(0j, -40 + 0j)])
+    assert other.direction == 1
+
+
+def test_a_line_that_passes_below_turns_the_support() -> None:
+    (support,) = stand([0j], [bar(-30 - 8j, 30 - 8j), bar(0j, 30 + 0j)])
+    assert support.direction == UP
+
+
+@pytest.mark.parametrize("apart", [5.0, 7.0, 9.0, 12.0, 15.0, 18.0, 25.0])
+@pytest.mark.parametrize("step", [0.0, 3.0, 5.5, 8.0, 12.0])
+def test_supports_of_near_pivots_do_not_run_into_each_other(apart: float, step: float) -> None:
+    pivots = [0j, complex(apart, step)]
+    found = stand(pivots, [])
+    assert sorted((p for s in found for p in s.places), key=abs) == pivots
+    for one, two in combinations(found, 2):
+        assert lines_of(one.items()).distance(lines_of(two.items())) > PENS[Pen.MAIN].width
+    if step <= 5.5 and apart < 14:
+        (common,) = found
+        assert common.direction == DOWN
+
+
+def test_one_base_under_two_pivots() -> None:
+    legs, others, base, *hatching = fixed_pivots([0j, 7 + 2j], joints=False)
+    for triangle, at in ((legs, 0j), (others, 7 + 2j)):
+        assert isinstance(triangle, Stroke)
+        left, top, right = triangle.points
+        assert top == at
+        assert left.imag == right.imag == -9
+        assert right.real - left.real == pytest.approx(2 * foot_of([0j, 7 + 2j]))
+    assert isinstance(base, Stroke)
+    assert sorted(p.real for p in base.points) == [-7, 14]
+    assert all(isinstance(s, Stroke) and s.tag == GROUND for s in hatching)
+    # 1 mm is left between the feet.
+    assert 7 - 2 * foot_of([0j, 7 + 2j]) == pytest.approx(1.0)
+    assert foot_of([0j, 40 + 0j]) == SIZES.support_width / 2
+    assert foot_of([0j]) == SIZES.support_width / 2
+
+
+def test_pivots_one_over_the_other_look_away() -> None:
+    low, high = stand([0j, 8j], [])
+    assert {low.direction, high.direction} != {DOWN}
+    assert lines_of(low.items()).distance(lines_of(high.items())) > PENS[Pen.MAIN].width
+
+
+# Guides ------------------------------------------------------------------------------------------
+
+
+def test_a_guide_leaves_out_the_plate_that_a_link_crosses() -> None:
+    above, below = bar(0j, -20 + 30j), bar(0j, 20 - 30j)
+    assert free_sides(0j, [], angle=0.0, length=22.0) == (1, -1)
+    assert free_sides(0j, [above], angle=0.0, length=22.0) == (-1,)
+    assert free_sides(0j, [below], angle=0.0, length=22.0) == (1,)
+    assert free_sides(0j, [below], angle=180.0, length=22.0) == (-1,)
+    assert free_sides(0j, [above, below], angle=0.0, length=22.0) == (1, -1)
+    # A link that leaves between the plates crosses none.
+    assert free_sides(0j, [bar(0j, 60 + 4j)], angle=0.0, length=22.0) == (1, -1)
+
+
+# Schemes -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", SIX)
+@pytest.mark.parametrize("turn", [None, 40.0, 75.0, 160.0, 200.0, 305.0])
+def test_no_hatching_runs_over_links_or_neighbours(name: str, turn: float | None) -> None:
+    solution = Solution(problem_of(name), positions=None if turn is None else [turn])
+    try:
+        picture = scheme_picture(solution, 0)
+    except AssemblyError:
+        assert (name, turn) in UNREACHED
+        return
+    items = list(picture.items)
+    links = [i for i in items if isinstance(i, Stroke) and i.tag.startswith("link ")]
+    hatching = [i for i in items if isinstance(i, Stroke) and i.tag == GROUND]
+    assert hatching
+    strip = lines_of(links).buffer(PENS[Pen.MAIN].width / 2)
+    assert not lines_of(hatching).intersects(strip)
+    # A slider or a joint that lies on hatching hides it.
+    for k, item in enumerate(items):
+        if isinstance(item, Fill) and item.ink is Ink.WHITE:
+            body = LineString([(p.real, p.imag) for p in (*item.points, item.points[0])])
+            after = [i for i in items[k:] if i in hatching]
+            assert not after or not lines_of(after).intersects(body.buffer(-0.01))
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_supports_of_the_shipped_schemes_stand_free(name: str) -> None:
+    scheme = Scheme(Solution(problem_of(name)), 0, 5.0)
+    scheme.draw()
+    scheme.draw_joints()
+    links = lines_of(scheme.lines)
+    for support in scheme.supports:
+        feet = [i for i in support.items() if isinstance(i, Stroke) and len(i.points) == 2]
+        assert lines_of(feet).distance(links) > 1.0
+        (place,) = support.places
+        assert scheme.free_direction(place) == support.direction
+    for one, two in combinations(scheme.supports, 2):
+        assert lines_of(one.items()).distance(lines_of(two.items())) > 2.0
+
+
+def test_a_link_that_goes_on_through_a_joint_is_one_piece() -> None:
+    """N is between the ends of link 3, C of task 12 is a pivot there."""
+    for name, point, across in (("press/press", "N", DOWN), ("levers/task12", "C", DOWN)):
+        scheme = Scheme(Solution(problem_of(name)), 0, 5.0)
+        scheme.draw()
+        scheme.draw_joints()
+        place = scheme.at(point)
+        (half,) = (i for i in scheme.joints if isinstance(i, Arc) and abs(i.centre - place) < 1e-9)
+        assert half.end - half.start == pytest.approx(cmath.pi)
+        middle = cmath.rect(1.0, (half.start + half.end) / 2)
+        assert (middle * across.conjugate()).real > 0.9
+        own = [i for i in scheme.joints if isinstance(i, Stroke) and i.tag == "link 3"]
+        assert any(abs(sum(i.points) / 2 - place) < 1e-9 for i in own)
+
+
+def test_no_rigid_corner_is_marked_inside_a_slider() -> None:
+    scheme = Scheme(Solution(problem_of("levers/task12")), 0, 5.0)
+    scheme.draw()
+    assert scheme.corners == []
+    other = Scheme(Solution(problem_of("levers/six-link")), 0, 5.0)
+    other.draw()
+    assert len(other.corners) == 1
+
+
+def test_the_axis_of_a_guide_begins_at_the_slider() -> None:
+    scheme = Scheme(Solution(problem_of("linkages/ex3")), 0, 5.0)
+    scheme.draw()
+    (outline,) = (i for i in slider(scheme.at("E")) if isinstance(i, Stroke))
+    xs = sorted({round(p.real, 6) for p in outline.points})
+    starts = sorted(round(g.points[0].real, 6) for g in scheme.guides if isinstance(g, Stroke))
+    assert starts == xs
+    assert all(a < b for a, b in pairwise(starts))
