@@ -17,7 +17,7 @@ import click
 
 from planmethod.errors import ExitCode
 
-COMMANDS = ("sheet", "solve", "structure", "protocol", "audit", "lint", "new", "bench")
+COMMANDS = ("sheet", "solve", "structure", "protocol", "audit", "lint", "specimen", "new", "bench")
 """Names of the commands; each is a function of the module of its name in `planmethod.commands`."""
 
 

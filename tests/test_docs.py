@@ -229,6 +229,7 @@ def test_pictures_are_small_and_made_by_make() -> None:
     recipe = text_of("Makefile").partition("\ngallery:")[2].partition("\n\n")[0]
     assert "planmethod sheet" in recipe
     drawn = re.findall(r"problems/\w+/([\w-]+)\.toml", recipe)
+    drawn += [f"specimen-{name}" for name in re.findall(r"planmethod specimen (\w+) ", recipe)]
     assert sorted(drawn) == [path.stem for path in PICTURES]
     for path in PICTURES:
         data = path.read_bytes()

@@ -21,6 +21,7 @@ from planmethod.render.symbols.axes import (
 )
 from planmethod.render.symbols.cams import ROLLER, cam, rest_on_cam
 from planmethod.render.symbols.gears import (
+    bell_profile,
     carrier_profile,
     mesh_front,
     rack_front,
@@ -86,11 +87,9 @@ def test_centre_lines_of_small_circles_are_solid() -> None:
 
 @pytest.mark.parametrize("place", [3.0, 10.5, 20.0, 31.0, 40.0])
 def test_an_axis_is_crossed_in_a_stroke(place: float) -> None:
-    items = axis_line(0j, 60 + 0j, through=place + 0j)
-    assert (
-        inked(items, place + 0j)
-        or [item.points[0] for item in items if isinstance(item, Stroke)] == [place + 0j] * 2
-    )
+    items = axis_line(0j, 60 + 0j, place + 0j)
+    met = [i for i in items if isinstance(i, Stroke) and place + 0j in i.points]
+    assert inked(items, place + 0j) or len(met) == 2
 
 
 @pytest.mark.parametrize("radius", [6.0, 9.0, 14.5, 22.0, 61.0])
@@ -113,6 +112,11 @@ def test_pitch_circles_touch_in_the_pitch_point(internal: bool) -> None:
     apart = abs(first.centre - second.centre)
     sign = -1 if internal else 1
     assert apart == pytest.approx(second.radius + sign * first.radius)
+    # One line through both centres, crossed in both by a stroke.
+    axis = [i for i in items if isinstance(i, Stroke) and abs((i.points[1] - i.points[0]).imag) > 9]
+    for centre in (first.centre, second.centre):
+        met = [i for i in axis if centre in i.points]
+        assert inked(items, centre) or len(met) == 2
     rims = [i for i in items if isinstance(i, Arc) and i.pen is Pen.MAIN]
     assert len(rims) == internal
     assert all(rim.radius > second.radius for rim in rims)
@@ -142,9 +146,15 @@ def test_cross_bars_of_wheels_in_mesh_stand_apart_about_the_pitch_point() -> Non
     # Between the lines of a mesh there is white, 0.8 mm at least.
     assert SIZES.mesh - PENS[Pen.MAIN].width >= 0.8
     assert any(isinstance(i, Stroke) and i.tag == GROUND for i in ring)
-    assert not any(
-        isinstance(i, Stroke) and i.tag == GROUND for i in ring_profile(0j, 22.0, fixed=False)
-    )
+
+
+@pytest.mark.parametrize("web", [8.0, -8.0])
+def test_a_ring_that_turns_comes_down_beside_its_mesh(web: float) -> None:
+    (bell,) = bell_profile(0j, 22.0, web=web)
+    assert isinstance(bell, Stroke)
+    tooth, corner, foot = bell.points
+    assert (corner, foot) == (web + 23j, web + 0j)
+    assert tooth.real * web < 0
 
 
 def test_a_loose_wheel_has_its_shaft_between_two_bars() -> None:

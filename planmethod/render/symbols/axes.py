@@ -7,6 +7,7 @@ circle below 12 mm are solid thin lines.
 from __future__ import annotations
 
 import cmath
+from itertools import pairwise
 from math import ceil, pi, sin, tau
 
 from planmethod.render.drawing import Arc, Item, Pen, Stroke
@@ -22,23 +23,22 @@ _BEYOND = (3.0, 2.5, 3.5, 2.0, 4.0, 4.5, 5.0)
 _SURE = 1.0  # mm: how far a crossing is from the ends of its stroke
 
 
-def axis_line(
-    start: complex, end: complex, *, through: complex | None = None, tag: str = ""
-) -> list[Item]:
-    """Return a dash-dot line that another one crosses at ``through`` in a stroke (осевая линия).
+def axis_line(start: complex, end: complex, *through: complex, tag: str = "") -> list[Item]:
+    """Return a dash-dot line that others cross at ``through`` in a stroke (осевая линия).
 
-    Where the pattern has a gap in that place, the line is drawn as two that begin there. A line too
-    short for two strokes is solid and thin.
+    Where the pattern has a gap in one of these places, the line is drawn in parts that begin and
+    end there. What is too short for two strokes is solid and thin.
     """
-    if not _shows(abs(end - start)):
+    length = abs(end - start)
+    if not _shows(length):
         return [Stroke((start, end), Pen.THIN, tag=tag)]
-    if through is None or _in_a_stroke(abs(end - start), abs(through - start)):
+    if all(_in_a_stroke(length, abs(place - start)) for place in through):
         return [Stroke((start, end), Pen.AXIS, tag=tag)]
-    ends = [(through, start), (through, end)]
+    stops = sorted((start, *through, end), key=lambda place: abs(place - start))
     return [
-        Stroke(pair, Pen.AXIS if _shows(abs(pair[1] - through)) else Pen.THIN, tag=tag)
-        for pair in ends
-        if abs(pair[1] - through) > 1e-6
+        Stroke(pair, Pen.AXIS if _shows(abs(pair[1] - pair[0])) else Pen.THIN, tag=tag)
+        for pair in pairwise(stops)
+        if abs(pair[1] - pair[0]) > 1e-6
     ]
 
 
@@ -77,7 +77,7 @@ def centre_lines(
         if is_small:
             items.append(Stroke((centre - reach, centre + reach), Pen.THIN, tag=tag))
         else:
-            items += axis_line(centre - reach, centre + reach, through=centre, tag=tag)
+            items += axis_line(centre - reach, centre + reach, centre, tag=tag)
     return items
 
 

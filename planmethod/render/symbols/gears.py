@@ -47,21 +47,26 @@ def mesh_front(
 
     Notes
     -----
-    A ring has its rim outside the pitch circle, a main line; a dot marks the pitch point.
+    One line goes through both centres. A ring has its rim outside the pitch circle, a main line; a
+    dot marks the pitch point.
     """
     apart = abs(second - first)
     way = unit(second - first)
     point = first - way * radius if internal else first + way * radius
     other = apart + radius if internal else apart - radius
+    rim = other + SIZES.slider_width / 2 if internal else other
     items = [
-        *wheel_front(first, radius, touch=point, tag=tag),
+        *pitch_circle(first, radius, touch=point, tag=tag),
         *pitch_circle(second, other, touch=point, tag=tag),
+        *centre_lines(first, radius, directions=(way * 1j,), tag=tag),
+        *centre_lines(second, rim, directions=(way * 1j,), tag=tag),
     ]
+    ends = [second - way * (rim + 3.0), second + way * (rim + 3.0)]
     if internal:
-        rim = other + SIZES.slider_width / 2
-        items += [Arc(second, rim, tag=tag), *centre_lines(second, rim, tag=tag)]
+        items.append(Arc(second, rim, tag=tag))
     else:
-        items += centre_lines(second, other, tag=tag)
+        ends[0] = first - way * (radius + 3.0)
+    items += axis_line(*ends, first, second, tag=tag)
     return [*items, Disc(point, PITCH_POINT, Ink.BLACK, tag=tag)]
 
 
@@ -79,7 +84,7 @@ def rack_front(
     over = unit(end - start) * 3.0
     return [
         Stroke(body, tag=tag, closed=True),
-        *axis_line(start - over, end + over, through=(start + end) / 2, tag=tag),
+        *axis_line(start - over, end + over, (start + end) / 2, tag=tag),
     ]
 
 
@@ -133,15 +138,14 @@ def ring_profile(
     *,
     axis: complex = 1 + 0j,
     ways: tuple[int, ...] = (1,),
-    fixed: bool = True,
     stem: float = 6.0,
     factor: float = 1.0,
     tag: str = "",
 ) -> list[Item]:
-    """Return a wheel with inner teeth from the side, fixed or not (колесо с внутренними зубьями).
+    """Return a fixed wheel with inner teeth from the side (неподвижное колесо).
 
     Its cross-bar stands half a mesh outside the pitch radius; from there a stem of ``stem`` mm goes
-    to the hatched frame, when ``fixed``, or to what the caller draws.
+    to the hatched frame.
     """
     along = unit(axis)
     tooth = along * SIZES.teeth / 2 * factor
@@ -153,8 +157,33 @@ def ring_profile(
         foot = centre + out * (rim + stem * factor)
         items.append(Stroke((centre + out * rim - tooth, centre + out * rim + tooth), tag=tag))
         items.append(Stroke((centre + out * rim, foot), tag=tag))
-        if fixed:
-            items += ground_line(foot - base, foot + base, side=way, factor=factor)
+        items += ground_line(foot - base, foot + base, side=way, factor=factor)
+    return items
+
+
+def bell_profile(
+    centre: complex,
+    radius: float,
+    *,
+    web: float,
+    axis: complex = 1 + 0j,
+    ways: tuple[int, ...] = (1,),
+    factor: float = 1.0,
+    tag: str = "",
+) -> list[Item]:
+    """Return a wheel with inner teeth that turns, from the side (колесо с внутренними зубьями).
+
+    Its rim stands half a mesh outside the pitch radius and goes ``web`` mm beside the mesh
+    (negative: against the axis) to the web, which comes down to the axis.
+    """
+    along = unit(axis)
+    tooth = along * SIZES.teeth / 2 * factor * (-1 if web > 0 else 1)
+    rim = radius + SIZES.mesh / 2 * factor
+    items: list[Item] = []
+    for way in ways:
+        out = along * 1j * way * rim
+        beside = centre + along * web
+        items.append(Stroke((centre + out + tooth, beside + out, beside), tag=tag))
     return items
 
 

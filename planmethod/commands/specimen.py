@@ -1,0 +1,66 @@
+"""Command ``specimen``: sheets that show the symbols, the lines, the letters (листы образцов)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+import click
+
+from planmethod.commands.output import write_drawings
+from planmethod.commands.problems import guarded
+from planmethod.options import dxf_text_option, format_option, out_option, stamp_option
+
+
+def read_specimens(
+    ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
+) -> tuple[str, ...]:
+    """Return the names of specimen sheets, each known; all of them when none is given."""
+    from planmethod.render.sheets.specimen import SPECIMENS
+
+    names = tuple(dict.fromkeys(name.strip().lower() for name in value))
+    for name in names:
+        if name not in SPECIMENS:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, SPECIMENS, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else "."
+            raise click.BadParameter(
+                f"no specimen sheet {name!r}{hint} Known: {', '.join(SPECIMENS)}."
+            )
+    return names or tuple(SPECIMENS)
+
+
+@click.command()
+@click.argument("sheets", nargs=-1, metavar="[SHEET]...", callback=read_specimens)
+@out_option
+@format_option("svg,pdf")
+@stamp_option
+@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
+@dxf_text_option
+@guarded
+def specimen(
+    sheets: tuple[str, ...],
+    out: Path,
+    formats: tuple[str, ...],
+    stamp: dict[str, str],
+    dpi: int,
+    dxf_text: Literal["text", "strokes"],
+) -> None:
+    """Draw the specimen sheets: every symbol, every line, at working size (листы образцов).
+
+    SHEET is symbols or lines; all of them when none is given. The files are specimen-symbols.svg
+    and so on. What is on them: docs/symbols.md.
+    """
+    from planmethod.render.sheets.specimen import SPECIMENS
+
+    for name in sheets:
+        write_drawings(
+            [SPECIMENS[name](stamp)],
+            out,
+            f"specimen-{name}",
+            formats,
+            dpi=dpi,
+            author=stamp.get("author"),
+            dxf_text=dxf_text,
+        )

@@ -1,0 +1,25 @@
+"""Specimen sheets (листы образцов): what the drawing is made of, shown at working size.
+
+A specimen is a function that takes the fields of the title block and returns a framed sheet; to add
+one, add a line to `SPECIMENS`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import TypeAlias
+
+from planmethod.render.drawing import Drawing
+from planmethod.render.sheets.specimen.lines import lines_sheet
+from planmethod.render.sheets.specimen.symbols import symbols_sheet
+
+Specimen: TypeAlias = Callable[[Mapping[str, str]], Drawing]
+
+SPECIMENS: Mapping[str, Specimen] = MappingProxyType(
+    {
+        "symbols": symbols_sheet,
+        "lines": lines_sheet,
+    }
+)
+"""Specimen sheets by the names of the command line."""

@@ -1,0 +1,87 @@
+"""Cells of a specimen sheet (клетки листа образцов): a picture, its name, where it is from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from planmethod.render.block import paragraph
+from planmethod.render.drawing import Bounds, Item, Pen, Stroke
+from planmethod.render.extent import lettered
+from planmethod.render.labels import Label
+from planmethod.render.typeset import line_step, typeset
+
+NUMBER, NAME, CLAUSE = 2.5, 3.5, 2.5
+"""Heights of the letters of a cell, mm."""
+
+EDGE = 3.0
+"""Between the lines of a cell and what is in it, mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One symbol with its letters (клетка).
+
+    Attributes
+    ----------
+    name : str
+        What it is called, Russian.
+    clause : str
+        The clause of the standard that it stands for, or whose practice it is.
+    items : tuple of Item
+        The symbol in its own coordinates, mm, as it is drawn on a scheme.
+    labels : tuple of Label
+        Its letters; they find places about it.
+    """
+
+    name: str
+    clause: str
+    items: tuple[Item, ...]
+    labels: tuple[Label, ...] = ()
+
+
+def letter(text: str, at: complex, prefer: complex = 1 + 1j, *, gap: float = 3.0) -> Label:
+    """Return the letter of a point or the number of a link, 3.5 mm."""
+    return Label(typeset(text, NAME), at, prefer=prefer, gap=gap)
+
+
+def drawn_cell(cell: Cell, number: int, box: Bounds) -> list[Item]:
+    """Return a cell in its box: number, picture in the middle, name and clause below it."""
+    left, low, right, high = box
+    middle, inner = (left + right) / 2, right - left - 2 * EDGE
+    # Base lines are those of the grid, whatever the letters hang below them.
+    base = low + EDGE + 0.3 * CLAUSE
+    items = list(typeset(cell.clause, CLAUSE).at(complex(middle, base), anchor="centre"))
+    base += CLAUSE + 2.5
+    for line in reversed(paragraph(cell.name, NAME, inner).inscriptions):
+        items += line.at(complex(middle, base), anchor="centre")
+        base += line_step(NAME)
+    picture = lettered(cell.items, cell.labels)
+    room = (base - line_step(NAME) + NAME + EDGE, high - EDGE)
+    corner = complex(middle - picture.width / 2, (sum(room) + picture.height) / 2)
+    items += picture.place(corner)
+    mark = typeset(str(number), NUMBER)
+    return items + mark.at(complex(left + 1.5, high - 1.5 - NUMBER))
+
+
+def drawn_grid(
+    cells: Sequence[Cell], corner: complex, *, across: int, width: float, height: float
+) -> list[Item]:
+    """Return cells in rows from an upper left corner, with the lines between them, mm."""
+    items: list[Item] = []
+    sides: dict[tuple[complex, complex], None] = {}
+    for k, cell in enumerate(cells):
+        row, column = divmod(k, across)
+        left, high = corner.real + column * width, corner.imag - row * height
+        box = (left, high - height, left + width, high)
+        items += drawn_cell(cell, k + 1, box)
+        sides |= dict.fromkeys(_sides(box))
+    return [*(Stroke(side, Pen.THIN, tag="grid") for side in sides), *items]
+
+
+def _sides(box: Bounds) -> Iterable[tuple[complex, complex]]:
+    x0, y0, x1, y1 = (round(value, 6) for value in box)
+    yield complex(x0, y0), complex(x1, y0)
+    yield complex(x0, y1), complex(x1, y1)
+    yield complex(x0, y0), complex(x0, y1)
+    yield complex(x1, y0), complex(x1, y1)
