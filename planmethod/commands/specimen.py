@@ -49,8 +49,8 @@ def specimen(
 ) -> None:
     """Draw the specimen sheets: every symbol, every line, at working size (листы образцов).
 
-    SHEET is symbols or lines; all of them when none is given. The files are specimen-symbols.svg
-    and so on. What is on them: docs/symbols.md.
+    SHEET is symbols, lines or lettering; all of them when none is given. The files are
+    specimen-symbols.svg and so on. What is on them: docs/symbols.md, docs/lettering.md.
     """
     from planmethod.render.sheets.specimen import SPECIMENS
 

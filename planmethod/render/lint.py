@@ -33,6 +33,9 @@ CODES = {code: remark.said["en"].title for code, remark in REMARKS.items()}
 SMALLEST_OF_ALL = 1.8
 """Smallest height of an index and in the title block, mm (the smallest of GOST 2.304)."""
 
+GRID = "grid"
+"""Tag of the lines of the grid that letters are shown on: they are meant to run through them."""
+
 _TOUCH = 0.05  # mm: what is not yet an overlap
 
 
@@ -188,7 +191,8 @@ def _crossed(
     writings: Sequence[Writing], items: Sequence[Item], ignore: frozenset[Pen]
 ) -> Iterator[Finding]:
     """Find lines and areas that run through letters and are not hidden by white."""
-    things = [(k, shape) for k, item in enumerate(items) if (shape := _shape(item, ignore))]
+    seen = ((k, item) for k, item in enumerate(items) if item.tag != GRID)
+    things = [(k, shape) for k, item in seen if (shape := _shape(item, ignore))]
     whites = [(k, s) for k, s in things if _is_white(items[k])]
     tree = STRtree([shape for _, shape in things])
     for writing in writings:

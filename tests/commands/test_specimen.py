@@ -60,7 +60,7 @@ def test_an_unknown_sheet_is_refused_with_the_names(tmp_path: Path) -> None:
     refused = run("symbol")
     assert refused.exit_code == ExitCode.USAGE
     assert "no specimen sheet 'symbol'; did you mean 'symbols'?" in refused.output
-    assert "Known: symbols, lines" in refused.output
+    assert "Known: symbols, lines, lettering" in refused.output
     assert "Traceback" not in refused.output
     assert not (tmp_path / "out").exists()
 

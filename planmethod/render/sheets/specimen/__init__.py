@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from planmethod.render.drawing import Drawing
+from planmethod.render.sheets.specimen.lettering import lettering_sheet
 from planmethod.render.sheets.specimen.lines import lines_sheet
 from planmethod.render.sheets.specimen.symbols import symbols_sheet
 
@@ -20,6 +21,7 @@ SPECIMENS: Mapping[str, Specimen] = MappingProxyType(
     {
         "symbols": symbols_sheet,
         "lines": lines_sheet,
+        "lettering": lettering_sheet,
     }
 )
 """Specimen sheets by the names of the command line."""

@@ -12,16 +12,14 @@ from planmethod.render.block import Column, Lines
 from planmethod.render.drawing import Drawing, Item, Pen, Stroke, Text
 from planmethod.render.frame import paper_format, sheet_frame
 from planmethod.render.lettering import OutlineLettering, in_use
+from planmethod.render.lint import GRID
 from planmethod.render.pack import EDGE
 from planmethod.render.style import HEIGHTS
 from planmethod.render.tables import TableColumn, table_block
 from planmethod.render.typeset import escape, line_step, typeset
 
-GRID = "grid"
-"""Tag of the lines of the standard's grid, on which the letters stand."""
-
-PAPER = "A1"
-HEIGHT = 20.0
+PAPER = "A2"
+HEIGHT = 14.0
 """Height h of the letters on the grid, mm."""
 
 KINDS: Mapping[str, str] = MappingProxyType({"A": "А", "B": "Б"})
@@ -77,14 +75,17 @@ def measured(lettering: OutlineLettering) -> list[Measured]:
     ]
 
 
-def lettering_specimen() -> Drawing:
-    """Draw the specimen of the lettering in use (образец шрифта)."""
+def lettering_sheet(fields: Mapping[str, str] = MappingProxyType({})) -> Drawing:
+    """Draw the specimen of the lettering in use (образец шрифта).
+
+    ``fields`` are texts of the title block that outrank those of the specimen.
+    """
     used, fmt = in_use(), paper_format(PAPER)
     slope = "с наклоном" if used.style.slanted else "без наклона"
     title = f"Шрифт чертёжный типа {KINDS[used.style.kind]} {slope}"
-    fields = {"title": title, "designation": "ГОСТ 2.304–81", "sheets": "1"}
+    texts = {"title": title, "material": "ГОСТ 2.304-81", **fields}
     drawing = Drawing(fmt.width, fmt.height, title)
-    items, inner, stamp = sheet_frame(fmt, fields)
+    items, inner, _ = sheet_frame(fmt, texts)
     drawing.extend(items)
     left, top = inner[0] + EDGE, inner[3] - EDGE - 4.0
     d = HEIGHT * used.line
@@ -93,12 +94,10 @@ def lettering_specimen() -> Drawing:
     for row in ALPHABETS:
         drawing.extend(_on_grid(row, complex(left, low), inner[2] - EDGE))
         low -= step
-    for heights in ((2.5, 3.5, 5.0, 7.0), (10.0, 14.0)):
-        words = Column([_sample(height) for height in heights], gap=10.0)
-        drawing.extend(words.place(complex(left, low + HEIGHT)))
-        left += words.width + 30.0
+    words = Column([_sample(height) for height in HEIGHTS if 2.5 <= height <= 10.0], gap=10.0)
+    drawing.extend(words.place(complex(left, low + HEIGHT)))
     table = _proportions(used)
-    drawing.extend(table.place(complex(stamp[2] - table.width, stamp[3] + 12.0 + table.height)))
+    drawing.extend(table.place(complex(inner[2] - EDGE - table.width, low + HEIGHT - 10.0)))
     return drawing
 
 

@@ -9,12 +9,11 @@ import pytest
 
 from planmethod.render.drawing import Stroke, Text
 from planmethod.render.lettering import STYLES, in_use, lettering, using
-from planmethod.render.lint import lint
-from planmethod.render.sheets.specimen_lettering import (
+from planmethod.render.lint import GRID, lint
+from planmethod.render.sheets.specimen.lettering import (
     ALPHABETS,
-    GRID,
     HEIGHT,
-    lettering_specimen,
+    lettering_sheet,
     measured,
 )
 
@@ -22,18 +21,17 @@ from planmethod.render.sheets.specimen_lettering import (
 @pytest.mark.parametrize("style", STYLES)
 def test_specimen_shows_every_letter_and_is_clean(style: str) -> None:
     with using(lettering(style)) as used:
-        drawing = lettering_specimen()
+        drawing = lettering_sheet()
         assert drawing.lettering is used
         assert used.missing("".join(ALPHABETS)) == set()
         shown = [i for i in drawing.items if isinstance(i, Text) and i.height == HEIGHT]
         assert [run.text for run in shown] == list("".join(ALPHABETS))
-        rest = [item for item in drawing.items if getattr(item, "tag", "") != GRID]
         inner = (20.0, 5.0, drawing.width - 5.0, drawing.height - 5.0)
-        assert [finding.message for finding in lint(rest, inner)] == []
+        assert [finding.message for finding in lint(drawing.items, inner)] == []
 
 
 def test_letters_stand_on_their_grid() -> None:
-    drawing = lettering_specimen()
+    drawing = lettering_sheet()
     first = next(i for i in drawing.items if isinstance(i, Text) and i.height == HEIGHT)
     lines = [i for i in drawing.items if isinstance(i, Stroke) and i.tag == GRID]
     level = [line for line in lines if line.points[0].imag == line.points[1].imag]
