@@ -18,7 +18,8 @@ from planmethod.plans.solution import Solution
 from planmethod.render.drawing import Drawing, Stroke
 from planmethod.render.ellipses import TAG
 from planmethod.render.frame import FORMATS
-from planmethod.render.sheets.kinematics import kinematics_sheets, result_columns
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.results import result_columns
 
 
 def count_ellipses(sheet: Drawing) -> int:

@@ -1,0 +1,129 @@
+"""Table of results of a sheet (таблица результатов): values, senses and drafting errors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planmethod.note.given import asked_links, asked_points, number, solution_peak
+from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
+from planmethod.note.sigmas import DRAWN, label_of, marked, rounded_to, sigma_text
+from planmethod.note.wording import wording
+from planmethod.plans.solution import Reals, Solution
+from planmethod.render.block import Block, Column, paragraph
+from planmethod.render.tables import Cell, TableColumn, table_block
+
+
+def position_text(solution: Solution, index: int) -> str:
+    """Return a driver position as the sheet writes it: an angle within one turn, two decimals."""
+    value = float(solution.positions[index])
+    if not solution.problem.drive.is_crank:
+        return number(value)
+    return number(round(value % 360.0, 2) % 360.0)
+
+
+def _sense(value: float) -> int:
+    return 0 if value == 0 else (1 if value > 0 else -1)
+
+
+def _as_long(text: str, value: float, sigma: float) -> str:
+    """Return an exact value with no fewer decimals than its error has."""
+    longer = rounded_to(value, sigma) if value and sigma else text
+    return longer if len(longer.partition(".")[2]) > len(text.partition(".")[2]) else text
+
+
+def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple[Cell, Cell]:
+    """Return what was read on the drawing, to the place of its error, and the error."""
+    hand, which = solution.by_hand_results, symbol in "aε"
+    read = float((hand.links if symbol in "ωε" else hand.points)[name][which][index])
+    sigma, mark = marked(solution.drafting, label_of(symbol, name), index)
+    turns = symbol in "ωε"
+    return (
+        Cell(russian(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
+        Cell(russian(sigma_text(sigma)) + mark, 0 if turns else None),
+    )
+
+
+def result_columns(
+    solution: Solution, indices: Sequence[int], *, sigma: bool = False
+) -> list[TableColumn]:
+    """Return the columns of the result table: v, ω, a, ε with values and senses.
+
+    With ``sigma`` a single position has rows for what was read and for its error, and the values
+    of many have their errors beside them.
+    """
+    alone = len(solution.positions) == 1
+
+    def column(symbol: str, name: str, unit: str, numbers: Reals) -> TableColumn:
+        peak = solution_peak(solution, symbol)
+        shown = [float(numbers[i]) for i in indices]
+        shown = [0.0 if is_nothing(value, peak) else value for value in shown]
+        texts = alike([abs(value) for value in shown])
+        turns = symbol in "ωε"
+        errors = [(0.0, "") for _ in shown]
+        if sigma:
+            errors = [marked(solution.drafting, label_of(symbol, name), i) for i in indices]
+        cells = []
+        for text, value, (error, mark) in zip(texts, shown, errors, strict=True):
+            written = russian(_as_long(text, abs(value), error))
+            if error and not alone:
+                written += f" ± {russian(sigma_text(error))}{mark}"
+            cells.append(Cell(written, _sense(value) if turns else None))
+        if sigma and alone:
+            cells += _sigma_rows(solution, symbol, name, indices[0])
+        return TableColumn(f"{symbol}_{{{name}}}", tuple(cells), unit=UNITS_RU[unit])
+
+    points, links = asked_points(solution), asked_links(solution)
+    motions = [solution.points[name] for name in points]
+    turnings = [solution.links[link] for link in links]
+    columns = [
+        column("v", name, "m/s", np.abs(motion.velocity))
+        for name, motion in zip(points, motions, strict=True)
+    ]
+    columns += [
+        column("ω", link, "1/s", turning.omega)
+        for link, turning in zip(links, turnings, strict=True)
+    ]
+    columns += [
+        column("a", name, "m/s²", np.abs(motion.acceleration))
+        for name, motion in zip(points, motions, strict=True)
+    ]
+    columns += [
+        column("ε", link, "1/s²", turning.epsilon)
+        for link, turning in zip(links, turnings, strict=True)
+    ]
+    if sigma and alone:
+        columns.insert(0, TableColumn("", ("точно", "снято", "±σ")))
+    if not alone:
+        drive = solution.problem.drive
+        symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
+        asked = tuple(Cell(position_text(solution, i)) for i in indices)
+        columns.insert(0, TableColumn(symbol, asked, unit=unit))
+        columns.insert(0, TableColumn("№", tuple(Cell(str(i)) for i in indices), least=8.0))
+    return columns
+
+
+def results_block(
+    solution: Solution, indices: Sequence[int], height: float, width: float, *, sigma: bool
+) -> Block:
+    """Return the table of results and, with ``sigma``, what its errors are."""
+    alone = len(solution.positions) == 1
+    title = "Результаты (точные значения)"
+    if sigma:
+        title = "Результаты" if alone else "Результаты (точные значения ± погрешность построения σ)"
+    columns = result_columns(solution, indices, sigma=sigma)
+    table = table_block(
+        columns,
+        height,
+        max_width=width,
+        leading=(1 if sigma else 0) if alone else 2,
+        title=title,
+    )
+    if not sigma:
+        return table
+    words, name = wording("ru"), solution.profile.name
+    said = f"±σ — погрешность построения (СКО), {words.profiles.get(name, name)}."
+    if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
+        said += " " + words.drawn_note.format(count=solution.drafting.draws)
+    return Column([table, paragraph(said, min(height, 3.5), table.width)], gap=3.0)

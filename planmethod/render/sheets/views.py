@@ -1,0 +1,181 @@
+"""Views of a sheet (виды): a picture with its name and scale, and what is measured on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from planmethod.construct.scale import Scale
+from planmethod.note.given import number
+from planmethod.note.letters import shown_letters
+from planmethod.note.numbers import UNITS_RU, is_nothing
+from planmethod.note.plaintext import plain_text
+from planmethod.plans.model import PlanKind
+from planmethod.plans.scaling import own_scale
+from planmethod.plans.solution import Solution
+from planmethod.problem.model import Convention
+from planmethod.render.block import Block, Column, Line, Row
+from planmethod.render.drawing import Disc, Item, Span, View
+from planmethod.render.ellipses import ellipse_inscription
+from planmethod.render.planview import POLE, plan_picture, plan_places
+from planmethod.render.sheets.results import position_text
+from planmethod.render.typeset import typeset
+
+TITLES = {
+    PlanKind.POSITION: "План положения механизма",
+    PlanKind.VELOCITY: "План скоростей",
+    PlanKind.ACCELERATION: "План ускорений",
+}
+MANY_TITLES = {
+    PlanKind.POSITION: "Планы положений механизма",
+    PlanKind.VELOCITY: "Планы скоростей",
+    PlanKind.ACCELERATION: "Планы ускорений",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Heights:
+    """Letter heights of a sheet, mm (высота шрифта)."""
+
+    letter: float
+    title: float
+    text: float
+
+
+def scale_inscription(scale: Scale, convention: Convention) -> str:
+    """Return the inscription under a view: ``μ_v = 0,05 (м/с)/мм`` or ``μ_v = 20 мм/(м/с)``."""
+    letter = scale.symbol.removeprefix("mu_")
+    unit = UNITS_RU[scale.unit]
+    grouped = f"({unit})" if "/" in unit else unit
+    if convention is Convention.MM_PER_UNIT:
+        return f"μ_{{{letter}}} = {number(1.0 / scale.per_mm)} мм/{grouped}"
+    return f"μ_{{{letter}}} = {number(scale.per_mm)} {grouped}/мм"
+
+
+@dataclass(frozen=True)
+class Viewed:
+    """A view among the blocks of a sheet (вид): it knows what is measured on it.
+
+    ``indices`` are the positions whose plans it shows, in the order in which they are drawn.
+    """
+
+    block: Block
+    solution: Solution
+    kind: PlanKind
+    indices: tuple[int, ...]
+
+    @property
+    def width(self) -> float:
+        """Width, mm."""
+        return self.block.width
+
+    @property
+    def height(self) -> float:
+        """Height, mm."""
+        return self.block.height
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of the view."""
+        return self.block.place(corner)
+
+    def view(self, items: Sequence[Item], corner: complex) -> View:
+        """Return what is told of the view whose items were placed at a corner."""
+        left, top = corner.real, corner.imag
+        scale = self.solution.scales[self.kind]
+        letter = scale.symbol.removeprefix("mu_")
+        poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
+        return View(
+            self.kind.value,
+            (left, top - self.height, left + self.width, top),
+            f"μ_{{{letter}}}",
+            scale.per_mm,
+            tuple(
+                span
+                for pole, index in zip(poles, self.indices, strict=False)
+                for span in plan_spans(self.solution, self.kind, index, pole)
+            ),
+        )
+
+
+def plan_spans(solution: Solution, kind: PlanKind, index: int, pole: complex) -> list[Span]:
+    """Return the measured segments of a plan whose pole lies at ``pole`` on the sheet.
+
+    A vector that is nothing beside the plan is zero by nature and no segment.
+    """
+    plan = solution.construction.plan(kind)
+    at = plan_places(solution, kind, index)
+    sizes = [abs(at[vector.head] - at[vector.tail]) for vector in plan.vectors]
+    letters = shown_letters(solution.problem, plan)
+    position = index if len(solution.positions) > 1 else None
+    named = {
+        frozenset((vector.tail, vector.head)): vector
+        for vector, size in zip(plan.vectors, sizes, strict=True)
+        if not is_nothing(size, max(sizes))
+    }
+    return [
+        Span(
+            plain_text(letters[vector.tail][0] + letters[vector.head][0]),
+            position,
+            pole + at[vector.tail],
+            pole + at[vector.head],
+        )
+        for vector in named.values()
+    ]
+
+
+def named_view(
+    solution: Solution,
+    kind: PlanKind,
+    picture: Block,
+    size: Heights,
+    title: str,
+    indices: Sequence[int],
+    ellipses: Sequence[int] = (),
+) -> Viewed:
+    """Return a picture with its title and scale; ``ellipses`` are the positions that have them."""
+    convention = solution.problem.scales.convention
+    said = [scale_inscription(solution.scales[kind], convention)]
+    said += ellipse_inscription(solution, kind, ellipses) if ellipses else []
+    block = Column(
+        [
+            picture,
+            Column(
+                [
+                    Line(typeset(title, size.title), underline=True),
+                    *(Line(typeset(text, size.text)) for text in said),
+                ],
+                gap=2.5,
+                align="centre",
+            ),
+        ],
+        gap=5.0,
+        align="centre",
+    )
+    return Viewed(block, solution, kind, tuple(indices))
+
+
+def plan_grid(
+    solution: Solution, kind: PlanKind, indices: Sequence[int], size: Heights, *, errors: bool
+) -> Block:
+    """Return the plans of many positions in rows, each with its number."""
+    drive = solution.problem.drive
+    cells: list[Block] = []
+    convention = solution.problem.scales.convention
+    for i in indices:
+        value = position_text(solution, i)
+        said = f"{i}: φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"{i}: s = {value} м"
+        own = own_scale(solution, kind, i)
+        caption: Block = Line(typeset(said, 3.5))
+        if own != solution.scales[kind]:
+            scale = Line(typeset(scale_inscription(own, convention), 3.5))
+            caption = Column([caption, scale], gap=2.0, align="centre")
+        picture = plan_picture(solution, kind, i, letter_height=3.5, errors=errors)
+        cells.append(Column([picture, caption], gap=3.0, align="centre"))
+    per_row = {2: 2, 3: 3, 4: 4}.get(len(cells), 6 if len(cells) > 5 else 5)
+    rows = [
+        Row(cells[k : k + per_row], gap=6.0, align="bottom") for k in range(0, len(cells), per_row)
+    ]
+    ellipses = indices if errors else ()
+    return named_view(
+        solution, kind, Column(rows, gap=6.0), size, MANY_TITLES[kind], indices, ellipses
+    )
