@@ -17,7 +17,18 @@ import click
 
 from planmethod.errors import ExitCode
 
-COMMANDS = ("sheet", "solve", "structure", "protocol", "audit", "lint", "specimen", "new", "bench")
+COMMANDS = (
+    "sheet",
+    "solve",
+    "structure",
+    "protocol",
+    "audit",
+    "lint",
+    "specimen",
+    "layouts",
+    "new",
+    "bench",
+)
 """Names of the commands; each is a function of the module of its name in `planmethod.commands`."""
 
 

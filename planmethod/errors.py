@@ -49,13 +49,21 @@ class ProblemError(PlanMethodError):
     """A problem file is faulty; all its faults are in `faults`."""
 
     exit_code = ExitCode.PROBLEM
+    kind = "problem file"
 
     def __init__(self, source: str, faults: Sequence[Fault]) -> None:
         self.source = source
         self.faults = tuple(faults)
         count = len(self.faults)
-        head = f"{source}: {count} fault{'s' if count != 1 else ''} in the problem file"
+        head = f"{source}: {count} fault{'s' if count != 1 else ''} in the {self.kind}"
         super().__init__("\n".join([head, *(f"  {fault}" for fault in self.faults)]))
+
+
+class CompositionError(ProblemError):
+    """A file that says how sheets are composed is faulty (файл компоновки)."""
+
+    exit_code = ExitCode.USAGE
+    kind = "layout file"
 
 
 class ProgramError(PlanMethodError):

@@ -211,6 +211,15 @@ def stamp_option(command: F) -> F:
     )(command)
 
 
+def layout_option(command: F) -> F:
+    """Add what is on the sheets and how it is arranged."""
+    return click.option(
+        "--layout",
+        metavar="NAME|FILE",
+        help="What is on the sheets: a name of planmethod layouts, or a file of your own.",
+    )(command)
+
+
 def format_option(default: str) -> Callable[[F], F]:
     """Add the output formats."""
 

@@ -85,6 +85,7 @@ def test_the_package_alone_imports_nothing(tmp_path: Path) -> None:
         (("structure", EX3, "--no-drawing"), set(), {*ALL, *FONTS}),
         (("structure", EX3, "--json"), set(), {*ALL, *FONTS} - {"numpy"}),
         (("new", "four-bar"), set(), {*ALL, *FONTS}),
+        (("layouts",), set(), {*ALL, *FONTS}),
         (("--help",), set(), {*ALL, *FONTS}),
         (("sheet", "--help"), set(), {*ALL, *FONTS}),
     ],

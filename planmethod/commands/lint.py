@@ -14,6 +14,7 @@ from planmethod.options import (
     Positions,
     drawn_by,
     lang_option,
+    layout_option,
     problem_options,
     reading_options,
     stamp_option,
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 @reading_options
 @click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
 @stamp_option
+@layout_option
 @click.option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
 @click.option("--sigma", is_flag=True, help="With the drafting errors in the table of results.")
 @click.option(
@@ -47,6 +49,7 @@ def lint(
     profile: str,
     paper: str | None,
     stamp: dict[str, str],
+    layout: str | None,
     errors: bool,
     sigma: bool,
     structural: bool,
@@ -61,13 +64,16 @@ def lint(
     there are errors. The codes: docs/normcontrol.md.
     """
     from planmethod.render.remarks import Severity
+    from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.control_report import control_record, control_text, counted
     from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
 
-    if structural and (phi is not None or errors or sigma):
+    if structural and (phi is not None or errors or sigma or layout is not None):
         raise click.UsageError(
-            "--phi, --errors and --sigma are of the plans; the sheet of --structure has none"
+            "--phi, --errors, --sigma and --layout are of the plans; "
+            "the sheet of --structure has none"
         )
+    composed = None if layout is None else composition(layout)
     positions = None if phi is None else phi.tolist()
     records: list[dict[str, Any]] = []
     found: list[Controlled] = []
@@ -84,6 +90,7 @@ def lint(
                 fields=stamp,
                 errors=errors,
                 sigma=sigma,
+                layout=composed,
             )
         found.extend(sheets)
         if as_json:

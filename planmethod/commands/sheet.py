@@ -14,6 +14,7 @@ from planmethod.options import (
     drawn_by,
     dxf_text_option,
     format_option,
+    layout_option,
     out_option,
     problem_options,
     reading_options,
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 @format_option("svg,pdf")
 @click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
 @stamp_option
+@layout_option
 @click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
 @click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
@@ -47,14 +49,17 @@ def sheet(
     formats: tuple[str, ...],
     paper: str | None,
     stamp: dict[str, str],
+    layout: str | None,
     errors: bool,
     sigma: bool,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
+    from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
+    composed = None if layout is None else composition(layout)
     positions = None if phi is None else phi.tolist()
 
     def draw(problem: Problem) -> None:
@@ -66,6 +71,7 @@ def sheet(
             fields=stamp,
             errors=errors,
             sigma=sigma,
+            layout=composed,
         )
         write_drawings(
             drawings,

@@ -40,9 +40,9 @@ def read_source(path: Path) -> str:
     try:
         mode = path.stat().st_mode
         if stat.S_ISDIR(mode):
-            raise _fail(name, "this is a directory", "Name the problem file itself, *.toml.")
+            raise _fail(name, "this is a directory", "Name the file itself, *.toml.")
         if not stat.S_ISREG(mode):
-            raise _fail(name, "this is not an ordinary file", "Name a problem file, *.toml.")
+            raise _fail(name, "this is not an ordinary file", "Name a file, *.toml.")
         with path.open("rb") as stream:
             data = stream.read(SIZE_LIMIT + 1)
     except FileNotFoundError:
@@ -114,7 +114,7 @@ def _quoted(header: re.Match[str]) -> str:
     return f"{start}{name}" if name.isascii() else f'{start}"{name}"'
 
 
-_DEPTH_HINT = "A problem file needs no more than links.2.D.at."
+_DEPTH_HINT = "No more is needed than links.2.D.at."
 
 
 def _fail(name: str, message: str, hint: str = "") -> ProblemError:
@@ -125,7 +125,7 @@ def _too_large(name: str) -> ProblemError:
     return _fail(
         name,
         f"the file is larger than {SIZE_LIMIT} bytes ({SIZE_LIMIT // 1024} KiB)",
-        "A problem is a few kilobytes; is this the right file?",
+        "A few kilobytes are enough; is this the right file?",
     )
 
 

@@ -1,163 +1,248 @@
 """Packing of a sheet's blocks (компоновка листа): rows within columns within rows.
 
 Blocks keep the order in which they are read: from left to right and from the top down. The sheet is
-cut again and again by a straight line, across or along, between two neighbours of the sequence
-(a guillotine cutting); of all cuttings that fit, the one that spreads the white most evenly is
-taken. The last block stands on the title block in the lower right corner.
+cut again and again by a straight line, across or along, between two neighbours of the sequence (a
+guillotine cutting); a group is cut as a whole first, and then within itself. Of the cuttings that
+fit, that of the least cost is taken, of equals the first. The cost is the sum of three parts:
+
+1. uneven white: over the blocks, the squares of the white that a block has in its box, as parts of
+   the paper's width and height; texts that stand together count as one block;
+2. `BACK` for every paper's height that the eye goes back up from a group to the next one;
+3. `VOID` times the part of the paper that the largest empty rectangle takes.
+
+Views stand in the middle of their boxes. Neighbouring texts stand together: set to one left edge
+under one another, to one upper edge side by side. The last block stands on the title block in the
+lower right corner.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TypeAlias
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
-from planmethod.render.block import Block
+from planmethod.render.cuttings import (
+    GAP,
+    Group,
+    Leaf,
+    Node,
+    Unit,
+    box_of,
+    corners_of,
+    cuttings,
+    fits,
+    units_of,
+)
 from planmethod.render.drawing import Bounds
-
-GAP = 9.0
-"""Least white between two blocks, mm."""
 
 EDGE = 5.0
 """Least white between a block and the frame, mm."""
 
-_OPTIONS = 7  # cuttings kept for one run of blocks: widths from the narrowest to the widest
+BACK = 0.15
+"""What it costs when the reader goes back up by the height of the paper."""
+
+VOID = 1.0
+"""What it costs when all of the paper were one empty rectangle."""
+
+_LOOKED_AT = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
 
 
-@dataclass(frozen=True, slots=True)
-class _Leaf:
-    number: int
-    width: float
-    height: float
-
-
-@dataclass(frozen=True, slots=True)
-class _Cut:
-    """Two parts side by side (``across`` false) or one above the other."""
-
-    first: _Node
-    second: _Node
-    across: bool
-    width: float
-    height: float
-
-
-_Node: TypeAlias = "_Leaf | _Cut"
-
-
-def pack(blocks: Sequence[Block], inner: Bounds, stamp: Bounds) -> list[complex] | None:
+def pack(
+    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds] = ()
+) -> list[complex] | None:
     """Return where the upper left corners of blocks go, mm, or None when they do not fit a sheet.
 
     Parameters
     ----------
-    blocks : sequence of Block
-        In reading order; the last one stands directly above the title block.
+    whole : Group
+        The blocks in reading order; the last one stands directly above the title block.
     inner, stamp : Bounds, mm
         Inside of the frame, and the title block in its lower right corner.
+    taken : sequence of Bounds, mm
+        Boxes inside the frame that must stay free, such as graph 26. The block that would stand
+        there is moved aside within its room; if it cannot be, all blocks keep clear of the strip
+        along the frame that the box lies in.
     """
+    for free in (inner, *_without(inner, stamp, taken)):
+        corners = _packed(whole, free, stamp, taken)
+        if corners is not None:
+            return corners
+    return None
+
+
+def _packed(
+    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
+) -> list[complex] | None:
+    """Return the corners of the cheapest cutting of a group, if one fits."""
+    parts = tuple(whole.parts())
     room = (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
-    sizes = [(block.width, block.height) for block in blocks]
-    last_width, last_height = sizes[-1]
+    leaves = [Leaf(k, p.block.width, p.block.height, p.text) for k, p in enumerate(parts)]
     # The last block and the title block under it are one leaf.
-    sizes[-1] = (
-        max(last_width, min(stamp[2] - stamp[0] - EDGE, room[0])),
-        last_height + (stamp[3] - stamp[1]) - EDGE + GAP / 2,
+    leaves[-1] = Leaf(
+        len(leaves) - 1,
+        max(leaves[-1].width, min(stamp[2] - stamp[0] - EDGE, room[0])),
+        leaves[-1].height + (stamp[3] - stamp[1]) - EDGE + GAP / 2,
+        text=False,
     )
-    fitting = [node for node in _cuttings(sizes, room) if _fits(node, room)]
-    if not fitting:
-        return None
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
-    boxes = min((_boxes(node, box) for node in fitting), key=lambda b: _unevenness(b, sizes, room))
-    corners: list[complex] = []
-    for number, block in enumerate(blocks):
-        left, low, right, high = boxes[number]
-        if number == len(blocks) - 1:
-            corners.append(complex(right - block.width, stamp[3] + GAP / 2 + block.height))
-        else:
-            middle = complex(left + right, low + high) / 2
-            corners.append(middle + complex(-block.width, block.height) / 2)
-    return corners
+    last = complex(box[2] - parts[-1].block.width, stamp[3] + GAP / 2 + parts[-1].block.height)
+    place = (last.real, stamp[3], box[2], last.imag)
+    turns = _turns(whole)
+    found: list[tuple[float, list[Unit]]] = []
+    for node in (
+        node
+        for asked in (whole, *_with_the_last(whole))
+        for node in cuttings(asked, iter(leaves), room, whole=True)
+    ):
+        units = list(units_of(node, box, anchored=True))
+        if taken:
+            moved = [_clear(unit, taken) for unit in units[:-1]]
+            if None in moved or any(_meet(place, other) for other in taken):
+                continue
+            units = [*(unit for unit in moved if unit is not None), units[-1]]
+        found.append((_unevenness(units, room) + BACK * _way_back(units, turns, room), units))
+    found.sort(key=lambda pair: pair[0])
+
+    def cost(pair: tuple[float, list[Unit]]) -> float:
+        boxes = [box_of(unit) for unit in pair[1][:-1]]
+        return pair[0] + VOID * emptiest_share([*boxes, place, stamp, *taken], inner)
+
+    if not found:
+        return None
+    _, units = min(found[:_LOOKED_AT], key=cost)
+    corners = dict(corner for unit in units for corner in corners_of(unit))
+    corners[len(parts) - 1] = last
+    return [corners[number] for number in range(len(parts))]
 
 
-def _fits(node: _Node, room: tuple[float, float]) -> bool:
-    return node.width <= room[0] + 1e-6 and node.height <= room[1] + 1e-6
+def _with_the_last(whole: Group) -> Iterator[Group]:
+    """Yield the sheet whose last block stands among the blocks of the group before it.
+
+    So the results may stand under the texts of a plan, to the right of the plan.
+    """
+    *others, group, last = (None, *whole.members)
+    if isinstance(group, Group) and {whole.arrange, group.arrange} == {"free"}:
+        assert last is not None
+        yield Group((*whole.members[: len(others) - 1], Group((*group.members, last))))
 
 
-def _cuttings(sizes: Sequence[tuple[float, float]], room: tuple[float, float]) -> list[_Node]:
-    """Return cuttings of the whole sequence, none narrower and lower than another."""
-    count = len(sizes)
-    kept: dict[tuple[int, int], list[_Node]] = {
-        (k, k + 1): [_Leaf(k, *sizes[k])] for k in range(count)
-    }
-    for length in range(2, count + 1):
-        for start in range(count - length + 1):
-            end = start + length
-            found: list[_Node] = []
-            for middle in range(start + 1, end):
-                for one in kept[start, middle]:
-                    for two in kept[middle, end]:
-                        found += [cut for cut in _joined(one, two) if _fits(cut, room)]
-            kept[start, end] = _pareto(found)
-    return kept[0, count]
+# Cost ---------------------------------------------------------------------------------------------
 
 
-def _joined(one: _Node, two: _Node) -> tuple[_Cut, _Cut]:
-    wide = one.width + GAP + two.width
-    tall = one.height + GAP + two.height
+def _unevenness(units: Sequence[Unit], room: tuple[float, float]) -> float:
+    """Return how unevenly white is spread: squares of what each unit leaves of its box."""
+    total = 0.0
+    for node, (left, low, right, high) in units:
+        total += ((right - left - node.width) / room[0]) ** 2
+        total += ((high - low - node.height) / room[1]) ** 2
+    return total
+
+
+def _turns(whole: Group) -> list[int]:
+    """Return to which member of the whole sheet every block belongs."""
+    return [
+        turn
+        for turn, member in enumerate(whole.members)
+        for _ in (member.parts() if isinstance(member, Group) else (member,))
+    ]
+
+
+def _way_back(units: Sequence[Unit], turns: Sequence[int], room: tuple[float, float]) -> float:
+    """Return how far up the eye goes from members of the sheet to the next, in paper heights."""
+    spans: dict[int, tuple[float, float]] = {}
+    for node, (_, low, _, high) in units:
+        turn = turns[_first(node)]
+        before = spans.get(turn, (low, high))
+        spans[turn] = (min(low, before[0]), max(high, before[1]))
+    middles = [(low + high) / 2 for _, (low, high) in sorted(spans.items())]
+    return sum(max(0.0, after - before) for before, after in pairwise(middles)) / room[1]
+
+
+def _first(node: Node) -> int:
+    return node.number if isinstance(node, Leaf) else _first(node.first)
+
+
+def emptiest_share(boxes: Sequence[Bounds], inner: Bounds) -> float:
+    """Return the part of the paper inside the frame that the largest rectangle without boxes takes.
+
+    A largest one has its sides on the sides of boxes: only these are tried.
+    """
+    left, low, right, high = inner
+    most = 0.0
+    floors = sorted({low, *(box[3] for box in boxes)})
+    ceilings = sorted({high, *(box[1] for box in boxes)})
+    for floor in floors:
+        for ceiling in ceilings:
+            if (ceiling - floor) * (right - left) <= most:
+                continue
+            walls = sorted((b[0], b[2]) for b in boxes if b[1] < ceiling and b[3] > floor)
+            edge, widest = left, 0.0
+            for wall in [*walls, (right, right)]:
+                widest = max(widest, wall[0] - edge)
+                edge = max(edge, wall[1])
+            most = max(most, widest * (ceiling - floor))
+    return most / ((right - left) * (high - low))
+
+
+# Boxes that must stay free ------------------------------------------------------------------------
+
+
+def _clear(unit: Unit, taken: Sequence[Bounds]) -> Unit | None:
+    """Return a unit with that part of its room where it is clear of boxes, or None without one.
+
+    It is moved as little as can be.
+    """
+    start = _middle(unit)
+    for other in taken:
+        if not _meet(box_of(unit), other):
+            continue
+        node, box = unit
+        others = [(node, part) for part in _beside(box, other) if _holds(part, node)]
+        if not others:
+            return None
+        unit = min(others, key=lambda moved: abs(_middle(moved) - start))
+    return None if any(_meet(box_of(unit), other) for other in taken) else unit
+
+
+def _middle(unit: Unit) -> complex:
+    left, low, right, high = unit[1]
+    return complex(left + right, low + high) / 2
+
+
+def _meet(one: Bounds, two: Bounds) -> bool:
+    """Tell whether two boxes are nearer than a block may be to the frame."""
     return (
-        _Cut(one, two, False, wide, max(one.height, two.height)),
-        _Cut(one, two, True, max(one.width, two.width), tall),
+        one[0] < two[2] + EDGE - 1e-9
+        and two[0] - EDGE < one[2] - 1e-9
+        and one[1] < two[3] + EDGE - 1e-9
+        and two[1] - EDGE < one[3] - 1e-9
     )
 
 
-def _pareto(nodes: list[_Node]) -> list[_Node]:
-    """Return the nodes that no other beats in both sizes, thinned to a few."""
-    nodes.sort(key=lambda node: (node.width, node.height))
-    best: list[_Node] = []
-    for node in nodes:
-        if not best or node.height < best[-1].height - 1e-9:
-            best.append(node)
-    if len(best) <= _OPTIONS:
-        return best
-    step = (len(best) - 1) / (_OPTIONS - 1)
-    return [best[round(k * step)] for k in range(_OPTIONS)]
-
-
-def _boxes(node: _Node, box: Bounds) -> dict[int, Bounds]:
-    """Return the room that each leaf gets when the spare white is shared at every cut."""
-    if isinstance(node, _Leaf):
-        return {node.number: box}
+def _beside(box: Bounds, taken: Bounds) -> tuple[Bounds, ...]:
+    """Return the parts of a box below, right of, left of and above a taken one."""
     left, low, right, high = box
-    if node.across:
-        spare = high - low - node.height
-        cut = high - node.first.height - spare * _share(node, across=True) - GAP / 2
-        parts = ((left, cut + GAP / 2, right, high), (left, low, right, cut - GAP / 2))
-    else:
-        spare = right - left - node.width
-        cut = left + node.first.width + spare * _share(node, across=False) + GAP / 2
-        parts = ((left, low, cut - GAP / 2, high), (cut + GAP / 2, low, right, high))
-    return {**_boxes(node.first, parts[0]), **_boxes(node.second, parts[1])}
+    return (
+        (left, low, right, min(high, taken[1] - EDGE)),
+        (max(left, taken[2] + EDGE), low, right, high),
+        (left, low, min(right, taken[0] - EDGE), high),
+        (left, max(low, taken[3] + EDGE), right, high),
+    )
 
 
-def _share(node: _Cut, *, across: bool) -> float:
-    """Return the first part's share of spare white: by the number of blocks in that direction."""
-    one, two = _steps(node.first, across=across), _steps(node.second, across=across)
-    return one / (one + two)
+def _holds(box: Bounds, node: Node) -> bool:
+    return fits(node, (box[2] - box[0], box[3] - box[1]))
 
 
-def _steps(node: _Node, *, across: bool) -> int:
-    if isinstance(node, _Leaf):
-        return 1
-    one, two = _steps(node.first, across=across), _steps(node.second, across=across)
-    return one + two if node.across is across else max(one, two)
-
-
-def _unevenness(
-    boxes: dict[int, Bounds], sizes: Sequence[tuple[float, float]], room: tuple[float, float]
-) -> float:
-    """Return how unevenly white is spread: squares of what each block leaves of its box."""
-    total = 0.0
-    for number, (left, low, right, high) in boxes.items():
-        width, height = sizes[number]
-        total += ((right - left - width) / room[0]) ** 2 + ((high - low - height) / room[1]) ** 2
-    return total
+def _without(inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> list[Bounds]:
+    """Return the inside of the frame below or right of the taken boxes, title block and all."""
+    rooms = [inner] if taken else []
+    for box in taken:
+        rooms = [
+            part
+            for left, low, right, high in rooms
+            for part in (
+                (left, low, right, min(high, box[1])),
+                (max(left, box[2]), low, right, high),
+            )
+        ]
+    return [room for room in rooms if room[0] <= stamp[0] and room[3] >= stamp[3]]

@@ -64,14 +64,12 @@ def test_missing_folder(tmp_path: Path) -> None:
 
 
 def test_directory(tmp_path: Path) -> None:
-    assert message_of(tmp_path).endswith(
-        "this is a directory. Name the problem file itself, *.toml."
-    )
+    assert message_of(tmp_path).endswith("this is a directory. Name the file itself, *.toml.")
 
 
 def test_device() -> None:
     assert message_of(Path("/dev/null")).endswith(
-        "this is not an ordinary file. Name a problem file, *.toml."
+        "this is not an ordinary file. Name a file, *.toml."
     )
 
 
@@ -107,7 +105,7 @@ def test_too_large_a_file(tmp_path: Path) -> None:
     path.write_bytes(b"# " * (SIZE_LIMIT // 2) + b"\n")
     assert message_of(path).endswith(
         "the file is larger than 262144 bytes (256 KiB). "
-        "A problem is a few kilobytes; is this the right file?"
+        "A few kilobytes are enough; is this the right file?"
     )
     with pytest.raises(ProblemError, match="larger than 262144 bytes"):
         loads("# ы" * (SIZE_LIMIT // 3), name="large")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import series_near
@@ -15,6 +16,7 @@ from planmethod.render.drawing import Bounds, Drawing, Span, Text, View
 from planmethod.render.frame import FORMATS
 from planmethod.render.lint import Finding
 from planmethod.render.normcontrol import SHORTEST, inspect
+from planmethod.render.sheets.composition.model import Composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
 
@@ -56,6 +58,7 @@ def controlled_kinematics(
     fields: Mapping[str, str] | None = None,
     errors: bool = False,
     sigma: bool = False,
+    layout: str | Path | Composition | None = None,
 ) -> list[Controlled]:
     """Draw the sheets of the kinematic analysis and look them over.
 
@@ -77,6 +80,7 @@ def controlled_kinematics(
             fields=fields,
             errors=errors,
             sigma=sigma,
+            layout=layout,
         )
 
     drawings = draw(problem, paper)

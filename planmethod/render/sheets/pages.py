@@ -1,62 +1,221 @@
-"""Pages: blocks put on sheets, and what the title blocks of the sheets say."""
+"""Pages: the blocks of a composition put on sheets, and what the title blocks of the sheets say."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from itertools import combinations, groupby, pairwise
+from typing import TypeAlias
 
+from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
 from planmethod.render.block import Block
+from planmethod.render.cuttings import Arrange, Group, Part
 from planmethod.render.drawing import Bounds, Item, View
 from planmethod.render.pack import pack
+from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.composition.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
 
+Tried: TypeAlias = tuple[bool, int, tuple[int, ...]]
 
-def stamp_fields(
-    problem: Problem, sheet: int, sheets: int, extra: Mapping[str, str]
-) -> dict[str, str]:
-    """Return the texts of the title block: the defaults, the problem's, then the asked ones.
+MOST_EXTRA = 4
+"""Sheets that one sheet of a composition may take on a format that was asked for."""
 
-    The number of the sheet stays empty on a single one, as the standard has it; of several sheets
-    the computed numbers outrank the file's.
-    """
-    numbers = {"sheet": str(sheet), "sheets": str(sheets)}
-    fields = {"title": problem.title, "sheets": "1", **problem.stamp}
-    fields.update(numbers if sheets > 1 else {})
-    fields.update(extra)
-    return {key: value for key, value in fields.items() if value}
+MOST_TURNS = 60
+"""Most ways to divide blocks among pages that are tried."""
 
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """What is inside the frame of one sheet."""
+    """What is inside the frame of one sheet.
+
+    ``title`` is its name, if it has one of its own; ``tried`` says what was given up for it: blocks
+    left out, letter heights passed over, groups taken apart.
+    """
 
     items: list[Item]
     views: list[View]
+    title: str = ""
+    tried: Tried = (False, 0, ())
 
 
-def divided(blocks: Sequence[Block], count: int, inner: Bounds, stamp: Bounds) -> list[Page] | None:
-    """Return blocks put on so many sheets in reading order, the sheets as evenly full as can be."""
-    areas = [block.width * block.height for block in blocks]
+@dataclass(frozen=True, slots=True)
+class Made:
+    """A block that was made, and what the file says of it."""
 
-    def fullest(cuts: tuple[int, ...]) -> float:
-        edges = (0, *cuts, len(blocks))
-        return max(sum(areas[i:j]) for i, j in pairwise(edges))
+    entry: Entry
+    block: Block
 
-    for cuts in sorted(combinations(range(1, len(blocks)), count - 1), key=fullest):
-        parts = [blocks[i:j] for i, j in pairwise((0, *cuts, len(blocks)))]
-        packed = [pack(part, inner, stamp) for part in parts]
-        if None not in packed:
-            return [_page(part, at) for part, at in zip(parts, packed, strict=True) if at]
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """Room of a sheet: inside of the frame, title block, other boxes that must stay free, mm."""
+
+    inner: Bounds
+    stamp: Bounds
+    taken: tuple[Bounds, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """Paper that sheets are drawn on: its format, and the room of the sheet of a number, from 1.
+
+    ``forced``: the format was asked for, so that a sheet of one position may take several pages.
+    """
+
+    name: str
+    room: Callable[[int], Room]
+    forced: bool = False
+
+
+def stamp_fields(
+    problem: Problem, sheet: int, sheets: int, extra: Mapping[str, str], title: str = ""
+) -> dict[str, str]:
+    """Return the texts of the title block: the defaults, the problem's, then the asked ones.
+
+    The number of the sheet stays empty on a single one, as the standard has it; of several sheets
+    the computed numbers outrank the file's, and so does the ``title`` that a composition gives.
+    """
+    numbers = {"sheet": str(sheet), "sheets": str(sheets)}
+    fields = {"title": problem.title, "sheets": "1", **problem.stamp}
+    fields.update(numbers if sheets > 1 else {})
+    fields.update({"title": title} if title else {})
+    fields.update(extra)
+    return {key: value for key, value in fields.items() if value}
+
+
+def pages_of(
+    composition: Composition,
+    solution: Solution,
+    indices: Sequence[int],
+    paper: Paper,
+    extras: Extras,
+    *,
+    first: int = 1,
+) -> list[Page] | None:
+    """Return the sheets that show some positions, or None when one of them does not fit.
+
+    ``first`` is the number of the first of them.
+    """
+    pages: list[Page] = []
+    for number in composition.sheets:
+        at = first + len(pages)
+        found = _sheet(composition, number, solution, indices, paper, extras, first=at)
+        if found is None:
+            return None
+        pages += found
+    return pages
+
+
+def _sheet(
+    composition: Composition,
+    number: int,
+    solution: Solution,
+    indices: Sequence[int],
+    paper: Paper,
+    extras: Extras,
+    *,
+    first: int,
+) -> list[Page] | None:
+    """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
+
+    What is tried is told by `_tries`.
+    """
+    entries = [entry for entry in composition.blocks if entry.sheet == number]
+    sizes = composition.sizes_for(paper.name)
+    kept: dict[tuple[int, bool], list[Made]] = {}
+    for count, level, dropped, taken_apart in _tries(
+        composition.levels,
+        droppable=any(entry.droppable for entry in entries),
+        most=MOST_EXTRA if paper.forced and len(solution.positions) == 1 else 1,
+    ):
+        rooms = [paper.room(first + k) for k in range(count)]
+        inside = rooms[0].inner[2] - rooms[0].inner[0]
+        if (level, dropped) not in kept:
+            kept[level, dropped] = [
+                Made(entry, BLOCKS[entry.kind].make(solution, indices, manner))
+                for entry in entries
+                if not (dropped and entry.droppable)
+                for manner in [Manner(entry, sizes, inside, extras, level)]
+            ]
+        parts = _divided(kept[level, dropped], rooms, composition.arranged, taken_apart)
+        if parts is not None:
+            title, tried = composition.titles.get(number, ""), (dropped, level, taken_apart)
+            return [_page(part, corners, title, tried) for part, corners in parts]
     return None
 
 
-def _page(blocks: Sequence[Block], corners: Sequence[complex]) -> Page:
-    page = Page([], [])
-    for block, corner in zip(blocks, corners, strict=True):
-        items = block.place(corner)
+def _tries(
+    levels: int, *, droppable: bool, most: int
+) -> Iterator[tuple[int, int, bool, tuple[int, ...]]]:
+    """Yield what is tried in turn.
+
+    How many pages; how many letter heights are passed over; whether blocks are left out that may
+    be; how far groups are taken apart: not at all, then into the innermost groups however they have
+    room, then altogether. Letters shrink before groups are taken apart, and groups are taken apart
+    before anything is left out.
+    """
+    for count in range(1, most + 1):
+        if count < MOST_EXTRA:
+            for apart in ((0, 1), (2,)):
+                yield from ((count, level, False, apart) for level in range(levels))
+        if droppable and count != 2:
+            yield count, levels - 1, True, (0, 1, 2)
+
+
+def _divided(
+    made: Sequence[Made],
+    rooms: Sequence[Room],
+    arranged: Mapping[tuple[str, ...], Arrange],
+    taken_apart: tuple[int, ...],
+) -> list[tuple[Sequence[Made], list[complex]]] | None:
+    """Return blocks put on pages in reading order, and their corners.
+
+    Pages are turned between groups rather than within one, and are as evenly full as can be.
+    """
+    areas = [one.block.width * one.block.height for one in made]
+
+    def worth(cuts: tuple[int, ...]) -> tuple[int, float]:
+        edges = (0, *cuts, len(made))
+        broken = sum(made[k - 1].entry.group == made[k].entry.group != () for k in cuts)
+        return broken, max(sum(areas[i:j]) for i, j in pairwise(edges))
+
+    for apart in taken_apart:
+        every = combinations(range(1, len(made)), len(rooms) - 1)
+        for cuts in sorted(every, key=worth)[:MOST_TURNS]:
+            pages: list[tuple[Sequence[Made], list[complex]]] = []
+            for room, (i, j) in zip(rooms, pairwise((0, *cuts, len(made))), strict=True):
+                whole = grouped(made[i:j], arranged)
+                group = (whole, whole.inner(), whole.flat())[apart]
+                corners = pack(group, room.inner, room.stamp, room.taken)
+                if corners is None:
+                    break
+                pages.append((made[i:j], corners))
+            else:
+                return pages
+    return None
+
+
+def grouped(
+    made: Sequence[Made], arranged: Mapping[tuple[str, ...], Arrange], path: tuple[str, ...] = ()
+) -> Group:
+    """Return blocks as the tree of their groups."""
+    depth = len(path)
+    members: list[Part | Group] = []
+    for name, run in groupby(made, lambda one: one.entry.group[depth : depth + 1]):
+        if name:
+            members.append(grouped(list(run), arranged, path + name))
+        else:
+            members += [Part(one.block, not isinstance(one.block, Viewed)) for one in run]
+    return Group(tuple(members), arranged.get(path, "free"))
+
+
+def _page(made: Sequence[Made], corners: Sequence[complex], title: str, tried: Tried) -> Page:
+    page = Page([], [], title, tried)
+    for one, corner in zip(made, corners, strict=True):
+        items = one.block.place(corner)
         page.items.extend(items)
-        if isinstance(block, Viewed):
-            page.views.append(block.view(items, corner))
+        if isinstance(one.block, Viewed):
+            page.views.append(one.block.view(items, corner))
     return page

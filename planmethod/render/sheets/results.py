@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from planmethod.note.sigmas import DRAWN, label_of, marked, rounded_to, sigma_te
 from planmethod.note.wording import wording
 from planmethod.plans.solution import Reals, Solution
 from planmethod.render.block import Block, Column, paragraph
+from planmethod.render.frame import STAMP_WIDTH
+from planmethod.render.pack import EDGE
+from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.tables import Cell, TableColumn, table_block
 
 
@@ -46,10 +49,15 @@ def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple
 
 
 def result_columns(
-    solution: Solution, indices: Sequence[int], *, sigma: bool = False
+    solution: Solution,
+    indices: Sequence[int],
+    *,
+    sigma: bool = False,
+    kinds: Collection[str] = (),
 ) -> list[TableColumn]:
     """Return the columns of the result table: v, ω, a, ε with values and senses.
 
+    ``kinds`` are the quantities that are shown, all when there are none.
     With ``sigma`` a single position has rows for what was read and for its error, and the values
     of many have their errors beside them.
     """
@@ -76,23 +84,17 @@ def result_columns(
 
     points, links = asked_points(solution), asked_links(solution)
     motions = [solution.points[name] for name in points]
-    turnings = [solution.links[link] for link in links]
-    columns = [
-        column("v", name, "m/s", np.abs(motion.velocity))
-        for name, motion in zip(points, motions, strict=True)
-    ]
-    columns += [
-        column("ω", link, "1/s", turning.omega)
-        for link, turning in zip(links, turnings, strict=True)
-    ]
-    columns += [
-        column("a", name, "m/s²", np.abs(motion.acceleration))
-        for name, motion in zip(points, motions, strict=True)
-    ]
-    columns += [
-        column("ε", link, "1/s²", turning.epsilon)
-        for link, turning in zip(links, turnings, strict=True)
-    ]
+    turns = [solution.links[link] for link in links]
+    columns: list[TableColumn] = []
+    for symbol, unit, names, values in (
+        ("v", "m/s", points, [np.abs(motion.velocity) for motion in motions]),
+        ("ω", "1/s", links, [turn.omega for turn in turns]),
+        ("a", "m/s²", points, [np.abs(motion.acceleration) for motion in motions]),
+        ("ε", "1/s²", links, [turn.epsilon for turn in turns]),
+    ):
+        if not kinds or symbol in kinds:
+            pairs = zip(names, values, strict=True)
+            columns += [column(symbol, name, unit, numbers) for name, numbers in pairs]
     if sigma and alone:
         columns.insert(0, TableColumn("", ("точно", "снято", "±σ")))
     if not alone:
@@ -104,21 +106,23 @@ def result_columns(
     return columns
 
 
-def results_block(
-    solution: Solution, indices: Sequence[int], height: float, width: float, *, sigma: bool
-) -> Block:
-    """Return the table of results and, with ``sigma``, what its errors are."""
-    alone = len(solution.positions) == 1
+def results_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the table of results and, with sigmas, what its errors are."""
+    alone, sigma = len(solution.positions) == 1, manner.extras.sigma
+    size = manner.sizes.text
+    height = manner.text(size if len(indices) == 1 else min(size, 3.5))
+    room = manner.inside - 2 * EDGE
+    width = min(max(STAMP_WIDTH, manner.width(room)), room)
     title = "Результаты (точные значения)"
     if sigma:
         title = "Результаты" if alone else "Результаты (точные значения ± погрешность построения σ)"
-    columns = result_columns(solution, indices, sigma=sigma)
+    columns = result_columns(solution, indices, sigma=sigma, kinds=manner.entry.columns)
     table = table_block(
         columns,
         height,
         max_width=width,
         leading=(1 if sigma else 0) if alone else 2,
-        title=title,
+        title=manner.entry.title or title,
     )
     if not sigma:
         return table

@@ -2,42 +2,69 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from planmethod.note.calculation import calculation
 from planmethod.note.given import given, wanted
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Block, Column, heading, paragraph
 from planmethod.render.equations import equation_block, formula_block
-from planmethod.render.sheets.views import Heights
+from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.views import shown_position
 
 NBSP = "\u00a0"
 
+TITLES = {
+    PlanKind.VELOCITY: ("Уравнения скоростей", "Расчёт скоростей"),
+    PlanKind.ACCELERATION: ("Уравнения ускорений", "Расчёт ускорений"),
+}
+"""Headings of the equations and of the calculation of a plan."""
 
-def statement_block(solution: Solution, size: Heights, width: float) -> Block:
+
+def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" and "Определить"."""
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     facts = given(solution.problem, list(solution.positions))
     said = "; ".join(fact.replace(" ", NBSP) for fact in facts)
-    return Column(
-        [
-            paragraph(f"Дано: {said}.", size.text, width=width),
-            paragraph(f"Определить: {wanted(solution)}.", size.text, width=width),
-        ],
-        gap=3.0,
-    )
+    lines: list[Block] = [
+        paragraph(f"Дано: {said}.", height, width=width),
+        paragraph(f"Определить: {wanted(solution)}.", height, width=width),
+    ]
+    if manner.entry.title:
+        lines.insert(0, heading(manner.entry.title, height, width=width))
+    return Column(lines, gap=3.0)
 
 
-def equations_block(solution: Solution, kind: PlanKind, size: Heights, width: float) -> Block:
+def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the vector equations of a plan, one under another."""
+    kind = manner.entry.of
+    assert kind is not None
     plan = solution.construction.plan(kind)
-    title = "Уравнения скоростей" if kind is PlanKind.VELOCITY else "Уравнения ускорений"
-    height = max(3.5, min(5.0, size.text))
-    blocks: list[Block] = [heading(title, size.text)]
+    size = manner.text(manner.sizes.text)
+    height, width = max(3.5, min(5.0, size)), manner.width(manner.sizes.column)
+    blocks: list[Block] = [heading(manner.entry.title or TITLES[kind][0], size)]
     blocks += [equation_block(e, height, width=width) for e in plan.equations]
     return Column(blocks, gap=4.0)
 
 
-def calculation_block(solution: Solution, kind: PlanKind, index: int, height: float) -> Block:
-    """Return the formulas with the read segments."""
+def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the formulas with the read segments; of many positions those of one."""
+    kind = manner.entry.of
+    assert kind is not None
+    index = shown_position(solution, indices, manner)
+    height = manner.text(min(3.5, manner.sizes.text))
+    title = manner.entry.title or TITLES[kind][1]
+    if len(solution.positions) > 1:
+        title += f" (положение {index})"
     lines = calculation(solution, kind, index)
-    title = "Расчёт скоростей" if kind is PlanKind.VELOCITY else "Расчёт ускорений"
     return Column([heading(title, height), *(formula_block(x, height) for x in lines)], gap=2.2)
+
+
+def text_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return a text of the composition's own."""
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    lines: list[Block] = [paragraph(manner.entry.text, height, width=width)]
+    if manner.entry.title:
+        lines.insert(0, heading(manner.entry.title, height, width=width))
+    return Column(lines, gap=3.0)

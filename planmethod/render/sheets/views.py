@@ -18,28 +18,23 @@ from planmethod.render.block import Block, Column, Line, Row
 from planmethod.render.drawing import Disc, Item, Span, View
 from planmethod.render.ellipses import ellipse_inscription
 from planmethod.render.planview import POLE, plan_picture, plan_places
+from planmethod.render.schemeview import scheme_picture
+from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.render.typeset import typeset
 
 TITLES = {
-    PlanKind.POSITION: "План положения механизма",
-    PlanKind.VELOCITY: "План скоростей",
-    PlanKind.ACCELERATION: "План ускорений",
+    PlanKind.POSITION: ("План положения механизма", "Планы положений механизма"),
+    PlanKind.VELOCITY: ("План скоростей", "Планы скоростей"),
+    PlanKind.ACCELERATION: ("План ускорений", "Планы ускорений"),
 }
-MANY_TITLES = {
-    PlanKind.POSITION: "Планы положений механизма",
-    PlanKind.VELOCITY: "Планы скоростей",
-    PlanKind.ACCELERATION: "Планы ускорений",
-}
+"""Names of views: of one position, of many."""
 
+PER_ROW = {2: 2, 3: 3, 4: 4, 5: 5}
+"""Plans in a row by their number; of more there are six."""
 
-@dataclass(frozen=True, slots=True)
-class Heights:
-    """Letter heights of a sheet, mm (высота шрифта)."""
-
-    letter: float
-    title: float
-    text: float
+CAPTION = 3.5
+"""Height of the letters of one of many plans, and of its caption, mm."""
 
 
 def scale_inscription(scale: Scale, convention: Convention) -> str:
@@ -123,26 +118,71 @@ def plan_spans(solution: Solution, kind: PlanKind, index: int, pole: complex) ->
     ]
 
 
+def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return the scheme; of many positions one in full, the others thin."""
+    bold = shown_position(solution, indices, manner)
+    alone = len(solution.positions) == 1
+    picture = scheme_picture(
+        solution,
+        bold,
+        letter_height=manner.letter,
+        overlay=() if alone else tuple(indices),
+        errors=manner.extras.errors,
+    )
+    return named_view(solution, PlanKind.POSITION, picture, manner, indices, (bold,))
+
+
+def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return a plan, or the plans of many positions in rows."""
+    kind = manner.entry.of
+    assert kind is not None
+    errors = manner.extras.errors
+    if manner.entry.position is not None:
+        indices = (manner.entry.position,)
+    if len(solution.positions) > 1:
+        picture = plan_grid(solution, kind, indices, per_row=manner.entry.per_row, errors=errors)
+    else:
+        picture = plan_picture(
+            solution, kind, indices[0], letter_height=manner.letter, errors=errors
+        )
+    return named_view(solution, kind, picture, manner, indices, indices)
+
+
+def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
+    """Return the position that stands for all: the asked one, else the furthest from a dead one."""
+    asked = manner.entry.position
+    if asked is not None and asked in indices:
+        return asked
+    return max(indices, key=lambda i: float(solution.margin[i]))
+
+
+def _is_alone(solution: Solution, kind: PlanKind, manner: Manner) -> bool:
+    """Tell whether a view shows one position only."""
+    chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
+    return len(solution.positions) == 1 or chosen
+
+
 def named_view(
     solution: Solution,
     kind: PlanKind,
     picture: Block,
-    size: Heights,
-    title: str,
+    manner: Manner,
     indices: Sequence[int],
-    ellipses: Sequence[int] = (),
+    ellipses: Sequence[int],
 ) -> Viewed:
-    """Return a picture with its title and scale; ``ellipses`` are the positions that have them."""
-    convention = solution.problem.scales.convention
-    said = [scale_inscription(solution.scales[kind], convention)]
-    said += ellipse_inscription(solution, kind, ellipses) if ellipses else []
+    """Return a picture with its name and scale; ``ellipses`` are the positions that have them."""
+    one, many = TITLES[kind]
+    title = manner.entry.title or (one if _is_alone(solution, kind, manner) else many)
+    said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention)]
+    said += ellipse_inscription(solution, kind, ellipses) if manner.extras.errors else []
+    height = manner.text(manner.sizes.text)
     block = Column(
         [
             picture,
             Column(
                 [
-                    Line(typeset(title, size.title), underline=True),
-                    *(Line(typeset(text, size.text)) for text in said),
+                    Line(typeset(title, manner.title), underline=True),
+                    *(Line(typeset(text, height)) for text in said),
                 ],
                 gap=2.5,
                 align="centre",
@@ -155,7 +195,12 @@ def named_view(
 
 
 def plan_grid(
-    solution: Solution, kind: PlanKind, indices: Sequence[int], size: Heights, *, errors: bool
+    solution: Solution,
+    kind: PlanKind,
+    indices: Sequence[int],
+    *,
+    per_row: int | None = None,
+    errors: bool = False,
 ) -> Block:
     """Return the plans of many positions in rows, each with its number."""
     drive = solution.problem.drive
@@ -165,17 +210,12 @@ def plan_grid(
         value = position_text(solution, i)
         said = f"{i}: φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"{i}: s = {value} м"
         own = own_scale(solution, kind, i)
-        caption: Block = Line(typeset(said, 3.5))
+        caption: Block = Line(typeset(said, CAPTION))
         if own != solution.scales[kind]:
-            scale = Line(typeset(scale_inscription(own, convention), 3.5))
+            scale = Line(typeset(scale_inscription(own, convention), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        picture = plan_picture(solution, kind, i, letter_height=3.5, errors=errors)
+        picture = plan_picture(solution, kind, i, letter_height=CAPTION, errors=errors)
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
-    per_row = {2: 2, 3: 3, 4: 4}.get(len(cells), 6 if len(cells) > 5 else 5)
-    rows = [
-        Row(cells[k : k + per_row], gap=6.0, align="bottom") for k in range(0, len(cells), per_row)
-    ]
-    ellipses = indices if errors else ()
-    return named_view(
-        solution, kind, Column(rows, gap=6.0), size, MANY_TITLES[kind], indices, ellipses
-    )
+    step = per_row or PER_ROW.get(len(cells), 6)
+    rows = [Row(cells[k : k + step], gap=6.0, align="bottom") for k in range(0, len(cells), step)]
+    return Column(rows, gap=6.0)

@@ -1,0 +1,44 @@
+"""Command ``layouts``: the shipped compositions of sheets, to look at or to start from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from planmethod.commands.problems import guarded
+
+
+@click.command()
+@click.argument("name", required=False)
+@click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--force", is_flag=True, help="Write over an existing file.")
+@guarded
+def layouts(name: str | None, file: Path | None, force: bool) -> None:
+    """List the shipped layouts of sheets, print the one called NAME, or write it into a FILE.
+
+    Edit the file and draw with it: planmethod sheet --layout FILE PROBLEM. The keys:
+    docs/layout.md.
+    """
+    from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
+
+    if name is None:
+        width = max(map(len, SHIPPED))
+        for shipped in SHIPPED:
+            click.echo(f"{shipped.ljust(width)}  {about(shipped)}")
+        return
+    if name not in SHIPPED:
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, SHIPPED, 1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise click.UsageError(f"no layout {name!r}{hint} Known: {', '.join(SHIPPED)}.")
+    if file is None:
+        click.echo(shipped_text(name), nl=False)
+        return
+    if file.exists() and not force:
+        raise click.UsageError(f"{file} exists; name another file or give --force")
+    from planmethod.render.output import write
+
+    write(file, shipped_text(name).encode())
+    click.echo(str(file))

@@ -1,0 +1,50 @@
+"""Kinds of blocks that a composition may name: for each the function that makes it, and its keys.
+
+A new kind is one function and one line here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TypeAlias
+
+from planmethod.plans.solution import Solution
+from planmethod.render.block import Block
+from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.results import results_block
+from planmethod.render.sheets.texts import (
+    calculation_block,
+    equations_block,
+    statement_block,
+    text_block,
+)
+from planmethod.render.sheets.views import plan_view, scheme_view
+
+Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
+"""From a solution and the positions of a sheet to a block."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """Kind of block: what makes it, and the keys of a composition file that it listens to."""
+
+    make: Maker
+    keys: tuple[str, ...]
+
+
+_VIEW = ("title", "title_height", "letter", "height", "position")
+_TEXT = ("title", "height", "width")
+
+BLOCKS: Mapping[str, Kind] = MappingProxyType(
+    {
+        "scheme": Kind(scheme_view, _VIEW),
+        "statement": Kind(statement_block, _TEXT),
+        "plan": Kind(plan_view, ("of", *_VIEW, "per_row")),
+        "equations": Kind(equations_block, ("of", *_TEXT)),
+        "calculation": Kind(calculation_block, ("of", "title", "height", "position")),
+        "results": Kind(results_block, (*_TEXT, "columns")),
+        "text": Kind(text_block, ("text", *_TEXT)),
+    }
+)

@@ -1,0 +1,1 @@
+"""Compositions of sheets (компоновка): what they are, and how their files are read."""

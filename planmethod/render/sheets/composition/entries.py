@@ -1,0 +1,184 @@
+"""Blocks of a composition file, ``[[blocks]]``, in the order in which they are read."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import Any
+
+from planmethod.plans.model import PlanKind
+from planmethod.problem.fields import Faults, Table, read_keys, read_text, show
+from planmethod.problem.names import is_label
+from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.composition.model import Entry
+from planmethod.render.sheets.composition.values import (
+    read_choice,
+    read_height,
+    read_heights,
+    read_list,
+    read_markup,
+    read_paragraph,
+    read_size,
+    read_switch,
+    read_whole,
+)
+
+ALWAYS = ("kind", "group", "sheet", "droppable")
+"""Keys of every block; the others are those of its kind."""
+
+GROUP = ("arrange",)
+"""Keys of a group: no group can be called so."""
+
+BLOCK_LIMIT = 60
+ON_SHEET_LIMIT = 16
+"""Most blocks on one sheet: the time to arrange them grows with the third power."""
+SHEET_LIMIT = 12
+GROUP_DEPTH = 4
+MOST_PER_ROW = 12
+
+OF = {"velocity": PlanKind.VELOCITY, "acceleration": PlanKind.ACCELERATION}
+COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
+
+
+def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
+    """Read ``[[blocks]]``: every block, and the order they stand in."""
+    example = 'Give the blocks: [[blocks]] kind = "scheme".'
+    if value is None:
+        faults.add("blocks", "missing", example)
+        return ()
+    if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
+        faults.add("blocks", f"expected tables [[blocks]], got {show(value)}", example)
+        return ()
+    if not 1 <= len(value) <= BLOCK_LIMIT:
+        faults.add("blocks", f"expected 1 to {BLOCK_LIMIT} blocks, got {len(value)}")
+        return ()
+    entries: list[tuple[int, Entry]] = []
+    for k, item in enumerate(value):
+        before = entries[-1][1].sheet if entries else 1
+        entry = _read_block(faults, f"blocks[{k}]", item, before)
+        if entry is not None:
+            entries.append((k, entry))
+    _check_order(faults, entries)
+    for number, count in Counter(entry.sheet for _, entry in entries).items():
+        if count > ON_SHEET_LIMIT:
+            limit = f"sheet {number} has {count} blocks, the limit is {ON_SHEET_LIMIT}"
+            faults.add("blocks", limit, f"Put some on another sheet: sheet = {number + 1}.")
+    return tuple(entry for _, entry in entries)
+
+
+def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | None:
+    """Read a block; it stands on the ``sheet`` of the one before unless it names another."""
+    if "kind" not in table:
+        faults.add(f"{path}.kind", "missing", f"The kinds are {', '.join(BLOCKS)}.")
+        return None
+    kind = read_choice(faults, f"{path}.kind", table["kind"], tuple(BLOCKS))
+    if kind is None:
+        return None
+    known = BLOCKS[kind].keys
+    given = read_keys(faults, path, table, (*ALWAYS, *known))
+    for key in ("of", "text"):
+        if key in known and key not in given:
+            hint = 'Say whose: of = "velocity".' if key == "of" else 'For example: text = "...".'
+            faults.add(f"{path}.{key}", f"missing in a block of kind {kind}", hint)
+    values: dict[str, Any] = {"sheet": sheet}
+    for key, item in given.items():
+        at = f"{path}.{key}"
+        match key:
+            case "kind":
+                continue
+            case "of":
+                word = read_choice(faults, at, item, tuple(OF))
+                values["of"] = OF.get(word or "")
+            case "group":
+                values["group"] = _read_group(faults, at, item)
+            case "sheet":
+                values["sheet"] = read_whole(faults, at, item, 1, SHEET_LIMIT) or sheet
+            case "droppable":
+                values["droppable"] = read_switch(faults, at, item)
+            case "title":
+                values["title"] = read_markup(faults, at, item)
+            case "text":
+                values["text"] = read_paragraph(faults, at, item)
+            case "height":
+                values["heights"] = read_heights(faults, at, item)
+            case "letter" | "title_height":
+                values[key] = read_height(faults, at, item)
+            case "width":
+                values["width"] = _read_width(faults, at, item)
+            case "per_row":
+                values["per_row"] = read_whole(faults, at, item, 1, MOST_PER_ROW)
+            case "position":
+                values["position"] = read_whole(faults, at, item, 0, 119)
+            case "columns":
+                values["columns"] = _read_columns(faults, at, item)
+            case _:
+                raise AssertionError(f"nobody reads the key {key}")
+    return Entry(kind, **values)
+
+
+def _read_group(faults: Faults, path: str, value: object) -> tuple[str, ...]:
+    text = read_text(faults, path, value, limit=100)
+    names = tuple(text.split(".")) if text else ()
+    if text is None or (names and len(names) <= GROUP_DEPTH and all(map(_names_group, names))):
+        return names
+    faults.add(
+        path,
+        f"expected names with dots between, {GROUP_DEPTH} at the most, got {show(value)}",
+        'For example: "left" or "left.equations".',
+    )
+    return ()
+
+
+def _names_group(name: str) -> bool:
+    return is_label(name) and name not in GROUP
+
+
+def _read_width(faults: Faults, path: str, value: object) -> float | None:
+    if isinstance(value, int | float) and value is not True and 0.1 <= value <= 1.0:
+        return float(value)
+    return read_size(faults, path, value, "a width (or a part of the paper, to 1)", 40.0, 1200.0)
+
+
+def _read_columns(faults: Faults, path: str, value: object) -> tuple[str, ...]:
+    found = []
+    for k, item in enumerate(read_list(faults, path, value, "quantities", len(COLUMNS))):
+        word = read_choice(faults, f"{path}[{k}]", item, tuple(COLUMNS))
+        if word is not None:
+            found.append(COLUMNS[word])
+    return tuple(found)
+
+
+def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
+    """Note sheets that go back, and groups that are taken up again."""
+    last, before = 1, Entry("")
+    closed: set[tuple[int, tuple[str, ...]]] = set()
+    for k, entry in entries:
+        path = f"blocks[{k}]"
+        if entry.sheet < last:
+            faults.add(
+                f"{path}.sheet",
+                f"sheet {entry.sheet} after sheet {last}",
+                "Blocks stand in the order of the sheets.",
+            )
+        elif entry.sheet > last + 1 or (k == 0 and entry.sheet != 1):
+            faults.add(
+                f"{path}.sheet",
+                f"sheet {entry.sheet}, but no sheet {last + 1 if k else 1}",
+                "Number the sheets from 1 without gaps.",
+            )
+        last = max(last, entry.sheet)
+        same = entry.sheet == before.sheet
+        for depth in range(1, len(before.group) + 1):
+            group = before.group[:depth]
+            if not same or entry.group[:depth] != group:
+                closed.add((before.sheet, group))
+        for depth in range(1, len(entry.group) + 1):
+            if (entry.sheet, entry.group[:depth]) in closed:
+                name = ".".join(entry.group[:depth])
+                faults.add(
+                    f"{path}.group",
+                    f"group '{name}' is taken up again after another",
+                    "Put the blocks of a group one after another.",
+                )
+                break
+        before = entry

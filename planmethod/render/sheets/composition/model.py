@@ -1,0 +1,190 @@
+"""What a sheet is composed of (компоновка): blocks in reading order, their groups and sizes.
+
+A composition is data: the shipped ones are TOML files beside this module, and a department may give
+its own. `planmethod.render.sheets.composition.reader` reads them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from planmethod.plans.model import PlanKind
+from planmethod.plans.scaling import AS_HIGH, Box, Views
+from planmethod.render.cuttings import Arrange
+
+FORMATS = ("A4", "A3", "A2", "A1", "A0")
+"""Basic formats: those that sizes are given for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Letter heights and widths of a sheet, mm (высота шрифта, ширина столбца).
+
+    ``letter``: letters of views; ``title``: names of views; ``text``: everything else;
+    ``column``: the width that texts are set to; ``boxes``: what the views shall fill, where it is
+    not the rule of the format.
+    """
+
+    letter: float
+    title: float
+    text: float
+    column: float
+    boxes: tuple[tuple[PlanKind, Box], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One block of a composition, as the file asks for it (блок компоновки).
+
+    Attributes
+    ----------
+    kind : str
+        A name of `planmethod.render.sheets.blocks.BLOCKS`.
+    of : PlanKind or None
+        Whose plan, equations or calculation.
+    group : tuple of str
+        The groups it stands in, the outer one first.
+    sheet : int
+        Number of the sheet, from 1.
+    droppable : bool
+        It may be left out where the paper has no room.
+    heights : tuple of float, mm
+        Letter heights to try, the first that fits; empty for that of the format.
+    letter, title_height : float or None, mm
+        Letters on a view, and of its name.
+    width : float or None
+        Width to set to, mm; to 1, a part of the paper's width inside the frame.
+    per_row : int or None
+        Plans in a row.
+    position : int or None
+        The only position that is shown.
+    columns : tuple of str
+        Kinds of columns of a table: v, ω, a, ε; empty for all.
+    """
+
+    kind: str
+    of: PlanKind | None = None
+    group: tuple[str, ...] = ()
+    sheet: int = 1
+    droppable: bool = False
+    title: str | None = None
+    text: str = ""
+    heights: tuple[float, ...] = ()
+    letter: float | None = None
+    title_height: float | None = None
+    width: float | None = None
+    per_row: int | None = None
+    position: int | None = None
+    columns: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Composition:
+    """Blocks of the sheets, and how they are arranged (компоновка листов).
+
+    Attributes
+    ----------
+    formats : tuple of str
+        Formats tried in turn when none is asked for.
+    per_sheet : tuple of int
+        Positions on one sheet: as many as fit; the others go on further sheets.
+    grow : bool
+        Plans whose scale is free are drawn larger where the paper has room.
+    sizes : mapping
+        By basic format.
+    arranged : mapping
+        How the members of a group stand, by its path; ``()`` is the whole sheet.
+    titles : mapping
+        Names of sheets for the title block, by their numbers.
+    """
+
+    name: str
+    about: str
+    formats: tuple[str, ...]
+    per_sheet: tuple[int, ...]
+    grow: bool
+    sizes: Mapping[str, Sizes]
+    arranged: Mapping[tuple[str, ...], Arrange]
+    titles: Mapping[int, str]
+    blocks: tuple[Entry, ...]
+
+    @property
+    def sheets(self) -> tuple[int, ...]:
+        """Numbers of the sheets that have blocks."""
+        return tuple(sorted({entry.sheet for entry in self.blocks}))
+
+    @property
+    def levels(self) -> int:
+        """How many letter heights there are to try."""
+        return max((len(entry.heights) for entry in self.blocks), default=1) or 1
+
+    def at_most(self, positions: int) -> tuple[int, ...]:
+        """Return the numbers of positions on one sheet to try for so many positions."""
+        if positions == 1:
+            return (1,)
+        room = min((n for n in self.per_sheet if n >= positions), default=max(self.per_sheet))
+        return tuple(n for n in self.per_sheet if n <= room)
+
+    def sizes_for(self, paper: str) -> Sizes:
+        """Return the sizes of a format; an elongated one has those of the basic one as high."""
+        basic = AS_HIGH.get(paper, paper)
+        return self.sizes[basic if basic in self.sizes else paper[:2]]
+
+    def views_for(self, paper: str, positions: int) -> Views:
+        """Return the boxes that the views shall fill on a format."""
+        views = Views.for_paper(paper, positions)
+        for kind, box in self.sizes_for(paper).boxes:
+            if kind is PlanKind.POSITION:
+                views = replace(views, position=box)
+            elif kind is PlanKind.VELOCITY:
+                views = replace(views, velocity=box)
+            else:
+                views = replace(views, acceleration=box)
+        return views
+
+
+@dataclass(frozen=True, slots=True)
+class Extras:
+    """What a sheet shows of the drafting errors: ellipses around points, sigmas in the table."""
+
+    errors: bool = False
+    sigma: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How a block is drawn on a certain sheet: what the file asks for, and the format's sizes.
+
+    ``level`` counts the letter heights that did not fit; ``inside`` is the width inside the frame,
+    mm.
+    """
+
+    entry: Entry
+    sizes: Sizes
+    inside: float
+    extras: Extras = Extras()
+    level: int = 0
+
+    @property
+    def letter(self) -> float:
+        """Height of the letters on a view, mm."""
+        return self.sizes.letter if self.entry.letter is None else self.entry.letter
+
+    @property
+    def title(self) -> float:
+        """Height of the name of a view, mm."""
+        asked = self.entry.title_height
+        return self.sizes.title if asked is None else asked
+
+    def text(self, usual: float) -> float:
+        """Return the height of a text, mm; ``usual`` where the file asks for none."""
+        heights = self.entry.heights
+        return heights[min(self.level, len(heights) - 1)] if heights else usual
+
+    def width(self, usual: float) -> float:
+        """Return the width to set to, mm; ``usual`` where the file asks for none."""
+        asked = self.entry.width
+        if asked is None:
+            return usual
+        return asked if asked > 1.0 else asked * self.inside

@@ -1,0 +1,78 @@
+"""Plans drawn larger where the paper has room (увеличение масштаба по свободному полю)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from planmethod.construct.scale import Scale, series_near
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Convention, Scales
+from planmethod.render.sheets.pages import Page
+
+STEPS = 3
+"""Most members of the series that a scale goes on by."""
+
+_KEYS = {
+    PlanKind.ACCELERATION: "mu_a",
+    PlanKind.VELOCITY: "mu_v",
+    PlanKind.POSITION: "mu_l",
+}
+"""Keys of the scales, the plan that is to be largest first."""
+
+
+def grown(
+    pages: list[Page],
+    scales: dict[PlanKind, Scale],
+    asked: Scales,
+    draw: Callable[[Scales], list[Page] | None],
+) -> list[Page]:
+    """Return the pages with every free scale as large as they bear.
+
+    Parameters
+    ----------
+    pages, scales
+        What was drawn, and at which scales.
+    asked : Scales
+        The scales of the file: those that it gives are kept.
+    draw : callable
+        Draws the pages with other scales; None when they do not fit.
+
+    Notes
+    -----
+    A larger plan is accepted when it takes no more pages, no smaller letters and no groups apart.
+    """
+    inverse = asked.convention is Convention.MM_PER_UNIT
+    free = [kind for kind, key in _KEYS.items() if getattr(asked, key) is None]
+    now = {_KEYS[kind]: scales[kind].per_mm for kind in free}
+    for _ in range(STEPS):
+        before = dict(now)
+        for key in before:
+            wish = {**now, key: _larger(now[key], inverse=inverse)}
+            tried = draw(
+                replace(
+                    asked,
+                    mu_l=wish.get("mu_l", asked.mu_l),
+                    mu_v=wish.get("mu_v", asked.mu_v),
+                    mu_a=wish.get("mu_a", asked.mu_a),
+                )
+            )
+            if tried is not None and _as_good(tried, pages):
+                pages, now = tried, wish
+        if now == before:
+            break
+    return pages
+
+
+def _larger(per_mm: float, *, inverse: bool) -> float:
+    """Return the next scale of the series that draws larger, units per mm."""
+    if inverse:
+        return 1.0 / series_near(1.0 / per_mm * 1.01, up=True)
+    return series_near(per_mm / 1.01, up=False)
+
+
+def _as_good(pages: Sequence[Page], others: Sequence[Page]) -> bool:
+    if len(pages) != len(others):
+        return False
+    pairs = zip(pages, others, strict=True)
+    return all(page.tried <= other.tried for page, other in pairs)

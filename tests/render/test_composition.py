@@ -1,0 +1,475 @@
+"""Compositions: the shipped ones draw everything, files are read with all their faults at once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from worked import ROOT, SIX, path_of, problem_of
+
+from planmethod.errors import CompositionError, ExitCode, LayoutError
+from planmethod.plans.model import PlanKind
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+from planmethod.render.block import Block, Column, heading
+from planmethod.render.drawing import Drawing, Text, View
+from planmethod.render.frame import FORMATS
+from planmethod.render.lint import lint
+from planmethod.render.sheets import blocks as kinds
+from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.composition import entries, reader
+from planmethod.render.sheets.composition.model import Composition, Entry, Manner
+from planmethod.render.sheets.composition.reader import composition, read_composition, shipped
+from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+FAULTY = sorted((Path(__file__).parent / "faulty_layouts").glob("*.toml"))
+TURN = [30.0 * k for k in range(12)]
+SHEETS = ROOT / "planmethod/render/sheets"
+
+
+def positions_of(name: str, layout: str) -> list[float] | None:
+    if layout not in ("many-positions", "coursework-12"):
+        return None
+    return [150.0 + 10.0 * k for k in range(12)] if name == "levers/six-link" else TURN
+
+
+def shown(sheet: Drawing) -> str:
+    """Return the texts of a sheet in one line."""
+    texts = " ".join(item.text for item in sheet.items if isinstance(item, Text))
+    return re.sub(r"\s+", " ", texts)
+
+
+def marks(sheet: Drawing) -> list[str]:
+    (fmt,) = (f for f in FORMATS.values() if (f.width, f.height) == (sheet.width, sheet.height))
+    return [f"{finding.code} {finding.message}" for finding in lint(sheet.items, fmt.inner)]
+
+
+def place(sheet: Drawing, start: str) -> complex:
+    """Return where the first text begins that starts so."""
+    found = (i for i in sheet.items if isinstance(i, Text) and i.text.startswith(start))
+    return next(found).at
+
+
+def view(sheet: Drawing, kind: str) -> View:
+    return next(v for v in sheet.views if v.kind == kind)
+
+
+def made(text: str) -> Composition:
+    return read_composition(text, name="mine.toml")
+
+
+# Shipped ones -------------------------------------------------------------------------------------
+
+
+def test_the_shipped_are_the_files_that_lie_there() -> None:
+    files = {path.stem for path in (SHEETS / "compositions").glob("*.toml")}
+    assert files == set(SHIPPED)
+    for name in SHIPPED:
+        assert shipped(name).about == about(name) != ""
+        assert re.search("[а-я]", shipped_text(name).splitlines()[0])  # a comment, in Russian
+
+
+@pytest.mark.parametrize("layout", SHIPPED)
+@pytest.mark.parametrize("name", SIX)
+def test_every_shipped_composition_draws_every_problem(name: str, layout: str) -> None:
+    sheets = kinematics_sheets(
+        problem_of(name), layout=layout, positions=positions_of(name, layout)
+    )
+    assert sheets
+    for sheet in sheets:
+        assert marks(sheet) == []
+        assert {v.kind for v in sheet.views} == {"position", "velocity", "acceleration"}
+        for part in ("Дано:", "Определить:", "Уравнения"):
+            assert part in shown(sheet)
+
+
+@pytest.mark.parametrize("layout", SHIPPED)
+def test_a_composition_for_many_positions_draws_one_and_the_other_way_round(layout: str) -> None:
+    for positions in ([20.0], [20.0, 50.0, 80.0]):
+        sheets = kinematics_sheets(problem_of("linkages/ex3"), layout=layout, positions=positions)
+        assert all(marks(sheet) == [] for sheet in sheets)
+
+
+def test_what_is_taken_when_nothing_is_asked() -> None:
+    problem = problem_of("linkages/ex1")
+    for positions, name in ((None, "one-position"), (TURN, "many-positions")):
+        plain = kinematics_sheets(problem, positions=positions)
+        asked = kinematics_sheets(problem, positions=positions, layout=name)
+        assert [sheet.items for sheet in plain] == [sheet.items for sheet in asked]
+
+
+def test_the_order_of_the_textbook() -> None:
+    """The scheme upper left, Дано under it; the velocity plan right of it, the next one below."""
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), layout="homework")
+    scheme, velocity, acceleration = (
+        view(sheet, kind).box for kind in ("position", "velocity", "acceleration")
+    )
+    assert place(sheet, "Дано").imag < scheme[1]
+    assert velocity[0] > scheme[2]
+    assert acceleration[3] < velocity[1]
+    results = place(sheet, "Таблица")
+    assert results.real > acceleration[2]
+    assert 60.0 < results.imag < acceleration[3]
+    assert "Схема механизма" in shown(sheet)
+    assert sheet.title == "Кинематический анализ механизма"
+
+
+def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
+    """The scheme left, velocity plans in two rows of six, accelerations below, then the table."""
+    (sheet,) = kinematics_sheets(problem_of("press/press"), layout="coursework-12", positions=TURN)
+    scheme, velocity, acceleration = (
+        view(sheet, kind).box for kind in ("position", "velocity", "acceleration")
+    )
+    assert scheme[2] < min(velocity[0], acceleration[0])
+    assert velocity[1] > acceleration[3]
+    assert place(sheet, "Результаты").imag < acceleration[1]
+    captions = [
+        item.at.imag
+        for item in sheet.items
+        if isinstance(item, Text)
+        and re.fullmatch(r"\d+: φ", item.text)
+        and item.at.imag > velocity[1]
+    ]
+    rows = sorted({round(y, 1) for y in captions})
+    assert len(rows) == 2
+    assert [sum(abs(y - row) < 0.1 for y in captions) for row in rows] == [6, 6]
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_a_plan_stands_with_its_equations_and_its_calculation(name: str) -> None:
+    """Nothing else is in the hull of a plan, its equations and its calculation."""
+    (sheet,) = kinematics_sheets(problem_of(name))
+    own = {}
+    for kind, genitive in (("velocity", "скоростей"), ("acceleration", "ускорений")):
+        box = view(sheet, kind).box
+        places = [place(sheet, f"{what} {genitive}") for what in ("Уравнения", "Расчёт")]
+        own[kind] = (
+            min(box[0], *(at.real for at in places)),
+            min(box[1], *(at.imag for at in places)),
+            max(box[2], *(at.real for at in places)),
+            max(box[3], *(at.imag for at in places)),
+        )
+    own["position"] = view(sheet, "position").box
+    for one, two in combinations(own.values(), 2):
+        across = min(one[2], two[2]) - max(one[0], two[0])
+        along = min(one[3], two[3]) - max(one[1], two[1])
+        assert min(across, along) <= 0.0
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_scales_of_the_default_are_those_that_solve_prints(name: str) -> None:
+    text = re.sub(r"(?m)^\[scales\]\n(?:[^\[\n].*\n|\n)*", "", path_of(name).read_text("utf-8"))
+    problem = loads(text, name="free")
+    solution = Solution(problem)
+    (sheet,) = kinematics_sheets(problem)
+    for kind in PlanKind:
+        assert view(sheet, kind.value).per_mm == solution.scales[kind].per_mm
+
+
+# A composition of one's own -----------------------------------------------------------------------
+
+
+TWO_SHEETS = """
+formats = ["A3", "A2"]
+[sheets.1]
+title = "Схема и скорости"
+[sheets.2]
+title = "Ускорения"
+[[blocks]]
+kind = "scheme"
+title = "Кинематическая схема"
+title_height = 7
+[[blocks]]
+kind = "plan"
+of = "velocity"
+letter = 3.5
+[[blocks]]
+kind = "results"
+title = "Скорости"
+columns = ["v", "omega"]
+[[blocks]]
+kind = "plan"
+of = "acceleration"
+title = "План ускорений a_{B}"
+sheet = 2
+[[blocks]]
+kind = "text"
+title = "Примечание"
+text = \"\"\"
+1. Масштаб a_{B} выбран по ряду.
+2. Отрезки сняты линейкой.
+\"\"\"
+height = 5
+"""
+
+
+def test_sheets_titles_columns_and_texts_are_as_the_file_says() -> None:
+    one, two = kinematics_sheets(problem_of("linkages/ex3"), layout=made(TWO_SHEETS))
+    assert (one.title, two.title) == ("Схема и скорости", "Ускорения")
+    assert [v.kind for v in one.views] == ["position", "velocity"]
+    assert [v.kind for v in two.views] == ["acceleration"]
+    assert "Кинематическая схема" in shown(one)
+    assert "ω" in shown(one)
+    assert "м/с2" not in shown(one).replace(" ", "")
+    assert "Уравнения" not in shown(one) + shown(two)
+    assert "1. Масштаб a" in shown(two)
+    heights = {i.text: i.height for i in [*one.items, *two.items] if isinstance(i, Text)}
+    assert heights["Кинематическая схема"] == 7
+    assert heights["2. Отрезки сняты линейкой."] == 5
+    assert marks(one) == marks(two) == []
+
+
+def test_the_title_asked_for_outranks_that_of_the_layout() -> None:
+    sheets = kinematics_sheets(
+        problem_of("linkages/ex3"), layout=made(TWO_SHEETS), fields={"title": "Мой лист"}
+    )
+    assert {sheet.title for sheet in sheets} == {"Мой лист"}
+
+
+def test_blocks_stand_in_the_order_of_the_file() -> None:
+    text = """
+formats = ["A2"]
+arrange = "column"
+[[blocks]]
+kind = "statement"
+[[blocks]]
+kind = "plan"
+of = "velocity"
+[[blocks]]
+kind = "scheme"
+[[blocks]]
+kind = "results"
+"""
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), layout=made(text))
+    levels = [
+        place(sheet, "Дано").imag,
+        view(sheet, "velocity").box[3],
+        view(sheet, "position").box[3],
+        place(sheet, "Результаты").imag,
+    ]
+    assert levels == sorted(levels, reverse=True)
+
+
+def test_a_block_that_must_stay_is_never_left_out() -> None:
+    """The calculation of the default is left out on a small format, a required one is not."""
+    default = shipped_text("one-position")
+    strict = made(default.replace("droppable = true", "droppable = false"))
+    problem = problem_of("linkages/ex2")
+    loose = kinematics_sheets(problem, paper="A4", layout=made(default))
+    assert "Расчёт" not in "".join(map(shown, loose))
+    asked = kinematics_sheets(problem, paper="A4", layout=strict)
+    assert "".join(map(shown, asked)).count("Расчёт") == 2
+    assert len(asked) > len(loose)
+
+
+def test_one_position_of_many_and_its_calculation() -> None:
+    text = """
+formats = ["A2", "A1"]
+[[blocks]]
+kind = "scheme"
+position = 2
+[[blocks]]
+kind = "plan"
+of = "velocity"
+position = 2
+[[blocks]]
+kind = "calculation"
+of = "velocity"
+position = 2
+[[blocks]]
+kind = "results"
+"""
+    problem = problem_of("linkages/ex3")
+    (sheet,) = kinematics_sheets(problem, layout=made(text), positions=[20.0, 50.0, 80.0])
+    assert "План скоростей" in shown(sheet)
+    assert "Расчёт скоростей (положение 2)" in shown(sheet)
+    assert {span.position for span in view(sheet, "velocity").spans} == {2}
+    with pytest.raises(LayoutError, match=r"blocks\[0\]\.position is 2, but of 2"):
+        kinematics_sheets(problem, layout=made(text), positions=[20.0, 50.0])
+
+
+def test_boxes_of_views_set_their_scales() -> None:
+    text = shipped_text("one-position")
+    wide = text.replace(
+        "A1 = { letter = 5, title = 7, text = 5, column = 250 }",
+        "A1 = { letter = 5, title = 7, text = 5, column = 250, velocity = [60, 60] }",
+    )
+    problem = problem_of("press/press")
+    usual = kinematics_sheets(problem, paper="A1", layout=made(text))[0]
+    small = kinematics_sheets(problem, paper="A1", layout=made(wide))[0]
+    assert view(small, "velocity").per_mm > 2 * view(usual, "velocity").per_mm
+    assert view(small, "acceleration").per_mm == view(usual, "acceleration").per_mm
+
+
+def test_plans_grow_where_the_paper_has_room_and_given_scales_stay() -> None:
+    text = shipped_text("one-position")
+    grows = made(text.replace("grow = false", "grow = true"))
+    free, given_ = problem_of("press/press"), problem_of("linkages/ex3")
+    (usual,) = kinematics_sheets(free, paper="A1", layout=made(text))
+    (large,) = kinematics_sheets(free, paper="A1", layout=grows)
+    pairs = [
+        (view(large, kind).per_mm, view(usual, kind).per_mm)
+        for kind in ("position", "velocity", "acceleration")
+    ]
+    assert all(new <= old for new, old in pairs)
+    assert any(new < old for new, old in pairs)
+    assert marks(large) == []
+    assert "Расчёт ускорений" in shown(large)
+    (kept,) = kinematics_sheets(given_, layout=grows)
+    (same,) = kinematics_sheets(given_)
+    assert [v.per_mm for v in kept.views] == [v.per_mm for v in same.views]
+
+
+def test_a_new_kind_of_block_is_a_function_and_a_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    def signature(solution: Solution, indices: object, manner: Manner) -> Block:
+        return Column([heading(f"Подпись: {solution.problem.title}", manner.text(3.5))])
+
+    monkeypatch.setattr(
+        kinds, "BLOCKS", {**BLOCKS, "signature": kinds.Kind(signature, ("height",))}
+    )
+    monkeypatch.setattr(entries, "BLOCKS", kinds.BLOCKS)
+    monkeypatch.setattr("planmethod.render.sheets.pages.BLOCKS", kinds.BLOCKS)
+    text = '[[blocks]]\nkind = "scheme"\n[[blocks]]\nkind = "signature"\nheight = 5\n'
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), layout=made(text))
+    assert "Подпись:" in shown(sheet)
+
+
+# Files --------------------------------------------------------------------------------------------
+
+
+def test_sizes_that_are_left_out_are_those_of_the_first_composition() -> None:
+    mine = made('[sizes]\nA2 = { text = 5 }\n[[blocks]]\nkind = "scheme"\n')
+    usual = shipped("one-position").sizes
+    assert mine.sizes["A2"].text == 5
+    assert mine.sizes["A2"].letter == usual["A2"].letter
+    assert mine.sizes["A1"] == usual["A1"]
+    assert mine.sizes_for("A3x3") == mine.sizes["A2"]
+
+
+@pytest.mark.parametrize(
+    ("per_sheet", "count", "tried"),
+    [
+        ((12, 6, 4, 2, 1), 12, (12, 6, 4, 2, 1)),
+        ((12, 6, 4, 2, 1), 3, (4, 2, 1)),
+        ((12, 6, 4, 2, 1), 30, (12, 6, 4, 2, 1)),
+        ((12, 6), 3, (6,)),
+        ((12, 6), 1, (1,)),
+        ((4,), 7, (4,)),
+    ],
+)
+def test_positions_on_one_sheet(
+    per_sheet: tuple[int, ...], count: int, tried: tuple[int, ...]
+) -> None:
+    mine = made(f'per_sheet = {list(per_sheet)}\n[[blocks]]\nkind = "scheme"\n')
+    assert mine.at_most(count) == tried
+
+
+def test_the_sheet_of_a_block_is_that_of_the_one_before() -> None:
+    blocks = '[[blocks]]\nkind = "scheme"\nsheet = {}\n' * 2 + '[[blocks]]\nkind = "results"\n'
+    mine = made(blocks.format(1, 2))
+    assert [entry.sheet for entry in mine.blocks] == [1, 2, 2]
+    assert mine.sheets == (1, 2)
+
+
+def test_defaults_of_a_block() -> None:
+    (entry,) = made('[[blocks]]\nkind = "scheme"\n').blocks
+    assert entry == Entry("scheme")
+
+
+@pytest.mark.parametrize("path", FAULTY, ids=lambda path: path.stem)
+def test_every_fault_of_a_file_is_reported_and_no_other(path: Path) -> None:
+    mark = "# fault: "
+    text = path.read_text("utf-8")
+    expected = [line.removeprefix(mark) for line in text.splitlines() if line.startswith(mark)]
+    with pytest.raises(CompositionError) as caught:
+        composition(path)
+    assert [str(fault) for fault in caught.value.faults] == expected
+    assert caught.value.exit_code is ExitCode.USAGE
+    plural = "s" if len(expected) > 1 else ""
+    head = f"{path}: {len(expected)} fault{plural} in the layout file"
+    assert str(caught.value).splitlines()[0] == head
+
+
+def test_there_are_faulty_files_of_many_kinds() -> None:
+    assert len(FAULTY) >= 15
+
+
+@pytest.mark.parametrize("markup", ["_{" * 900, "x" + "_{a" * 60 + "}" * 60, "\\bar{" * 30])
+def test_rich_text_is_bounded(markup: str) -> None:
+    with pytest.raises(CompositionError):
+        made(f"[[blocks]]\nkind = 'text'\ntext = '{markup}'\n")
+
+
+VALUES = st.recursive(
+    st.none().map(lambda _: "1979-05-27")
+    | st.booleans().map(lambda value: str(value).lower())
+    | st.integers(-5, 5).map(str)
+    | st.sampled_from(
+        ['"row"', '"velocity"', '"left"', '"a.b"', '"v"', '""', '"A2"', "nan", "0.5"]
+    ),
+    lambda inner: st.lists(inner, max_size=3).map(lambda items: f"[{', '.join(items)}]"),
+    max_leaves=4,
+)
+KEYS = st.sampled_from(
+    sorted({*reader.TOP, *entries.ALWAYS, *(key for kind in BLOCKS.values() for key in kind.keys)})
+)
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    st.dictionaries(KEYS, VALUES, max_size=4),
+    st.lists(st.tuples(st.sampled_from(list(BLOCKS)), st.dictionaries(KEYS, VALUES, max_size=4))),
+)
+def test_random_files_are_read_or_refused(
+    top: dict[str, str], blocks: list[tuple[str, dict[str, str]]]
+) -> None:
+    def lines() -> Iterator[str]:
+        yield from (f"{key} = {value}" for key, value in top.items())
+        for kind, keys in blocks:
+            yield "[[blocks]]"
+            yield from (f"{k} = {v}" for k, v in {**keys, "kind": f'"{kind}"'}.items())
+
+    try:
+        found = made("\n".join(lines()))
+    except CompositionError as error:
+        assert error.faults
+    else:
+        assert found.blocks
+
+
+# Documentation ------------------------------------------------------------------------------------
+
+
+def test_the_document_names_every_key_and_no_other() -> None:
+    text = (ROOT / "docs/layout.md").read_text("utf-8")
+    tables = re.findall(r"(?m)^\| key \| value \|\n(?:\|.*\n)*", text)
+    named = {key for table in tables for key in re.findall(r"(?m)^\| `([a-z_]+)` \|", table)}
+    known = {
+        *reader.TOP,
+        *reader.SIZES,
+        *reader.SHEET,
+        *entries.GROUP,
+        *entries.ALWAYS,
+        *(key for kind in BLOCKS.values() for key in kind.keys),
+    }
+    assert named == known
+    for name, kind in BLOCKS.items():
+        (row,) = re.findall(rf"(?m)^\| `{name}` \|.*\| (.*) \|$", text)
+        assert tuple(row.split(", ")) == kind.keys
+    for name in SHIPPED:
+        assert f"`{name}`" in text
+
+
+def test_the_examples_of_the_document_can_be_read() -> None:
+    text = (ROOT / "docs/layout.md").read_text("utf-8")
+    examples = re.findall(r"(?ms)^```toml\n(.*?)^```$", text)
+    assert examples
+    for example in examples:
+        whole = example if "[[blocks]]" in example else f'{example}\n[[blocks]]\nkind = "scheme"\n'
+        assert made(whole).blocks

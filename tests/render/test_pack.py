@@ -1,0 +1,212 @@
+"""Packing: order, groups, the cost of a cutting, boxes that stay free."""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planmethod.render.block import Spacer
+from planmethod.render.cuttings import GAP, Arrange, Group, Part
+from planmethod.render.drawing import Bounds
+from planmethod.render.pack import EDGE, emptiest_share, pack
+
+INNER: Bounds = (20.0, 5.0, 589.0, 415.0)  # A2
+STAMP: Bounds = (404.0, 5.0, 589.0, 60.0)
+LEFT: Bounds = (20.0, 401.0, 90.0, 415.0)  # graph 26 in the upper left corner
+RIGHT: Bounds = (575.0, 345.0, 589.0, 415.0)  # and in the upper right one, turned
+
+
+def part(width: float, height: float, *, text: bool = False) -> Part:
+    return Part(Spacer(width, height), text)
+
+
+def boxes(
+    whole: Group, inner: Bounds = INNER, taken: tuple[Bounds, ...] = ()
+) -> list[Bounds] | None:
+    """Return the boxes of the blocks, in reading order."""
+    corners = pack(whole, inner, STAMP, taken)
+    if corners is None:
+        return None
+    return [
+        (at.real, at.imag - one.block.height, at.real + one.block.width, at.imag)
+        for one, at in zip(whole.parts(), corners, strict=True)
+    ]
+
+
+def gap(one: Bounds, two: Bounds) -> float:
+    """Return the white between two boxes in the direction that has more; negative on overlap."""
+    across = max(one[0] - two[2], two[0] - one[2])
+    along = max(one[1] - two[3], two[1] - one[3])
+    return max(across, along)
+
+
+def hull(some: list[Bounds]) -> Bounds:
+    left, low, right, high = zip(*some, strict=True)
+    return min(left), min(low), max(right), max(high)
+
+
+def check(found: list[Bounds], inner: Bounds = INNER, taken: tuple[Bounds, ...] = ()) -> None:
+    for box in found:
+        assert box[0] >= inner[0] + EDGE - 1e-6
+        assert box[1] >= inner[1] + EDGE - 1e-6
+        assert box[2] <= inner[2] - EDGE + 1e-6
+        assert box[3] <= inner[3] - EDGE + 1e-6
+    for one, two in combinations(found, 2):
+        assert gap(one, two) >= GAP - 1e-6
+    for one in found:
+        assert gap(one, STAMP) >= GAP / 2 - 1e-6
+        assert all(gap(one, box) >= EDGE - 1e-6 for box in taken)
+
+
+ONE_POSITION = Group(
+    (
+        Group((part(150, 110), part(175, 24, text=True))),
+        Group((part(100, 90), part(60, 60, text=True), part(150, 75, text=True))),
+        Group((part(140, 100), part(70, 85, text=True), part(150, 105, text=True))),
+        part(260, 28),
+    )
+)
+
+
+def test_blocks_keep_clear_of_each_other_and_of_the_frame() -> None:
+    found = boxes(ONE_POSITION)
+    assert found is not None
+    check(found)
+
+
+def test_the_last_block_stands_on_the_title_block() -> None:
+    found = boxes(ONE_POSITION)
+    assert found is not None
+    assert found[-1][1] == pytest.approx(STAMP[3] + GAP / 2)
+    assert found[-1][2] == pytest.approx(INNER[2] - EDGE)
+
+
+def test_no_block_stands_among_those_of_a_group() -> None:
+    found = boxes(ONE_POSITION)
+    assert found is not None
+    groups = [found[:2], found[2:5], found[5:8]]
+    for one, two in combinations(groups, 2):
+        assert gap(hull(one), hull(two)) >= GAP - 1e-6
+
+
+def together(arrange: Arrange) -> list[Bounds]:
+    texts = Group((part(60, 60, text=True), part(150, 75, text=True)), arrange)
+    found = boxes(Group((part(250, 180), texts, part(180, 20))))
+    assert found is not None
+    return found
+
+
+def test_texts_under_one_another_have_one_left_edge() -> None:
+    _, one, two, _ = together("column")
+    assert one[0] == pytest.approx(two[0])
+    assert one[1] - two[3] == pytest.approx(GAP)
+
+
+def test_texts_side_by_side_have_one_upper_edge() -> None:
+    _, one, two, _ = together("row")
+    assert one[3] == pytest.approx(two[3])
+    assert two[0] - one[2] == pytest.approx(GAP)
+
+
+@pytest.mark.parametrize(("arrange", "axis"), [("row", 0), ("column", 1)])
+def test_a_group_is_arranged_as_asked(arrange: Arrange, axis: int) -> None:
+    members = (part(60, 40), part(50, 60), part(70, 30))
+    whole = Group((Group(members, arrange), part(180, 30)))
+    found = boxes(whole)
+    assert found is not None
+    for before, after in pairwise(found[:3]):
+        if axis == 0:
+            assert after[0] >= before[2] + GAP - 1e-6
+        else:
+            assert after[3] <= before[1] - GAP + 1e-6
+
+
+def test_what_does_not_fit_is_none() -> None:
+    assert boxes(Group((part(600, 50), part(180, 20)))) is None
+    assert boxes(Group((part(300, 300), part(300, 300), part(180, 20)))) is None
+    row = Group((part(300, 50), part(300, 50)), "row")
+    assert boxes(Group((row, part(180, 20)))) is None
+
+
+def test_a_group_taken_apart_is_a_sequence_of_its_parts() -> None:
+    inner = Group((part(1, 1), part(2, 2)))
+    whole = Group((Group((inner, Group((part(3, 3),), "row")), "row"), part(4, 4)), "column")
+    assert whole.flat() == Group(tuple(whole.parts()))
+    assert whole.inner() == Group((inner, Group((part(3, 3),)), part(4, 4)))
+
+
+# Boxes that stay free -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("taken", [(LEFT,), (RIGHT,), (LEFT, RIGHT)])
+def test_blocks_keep_clear_of_what_is_taken(taken: tuple[Bounds, ...]) -> None:
+    found = boxes(ONE_POSITION, taken=taken)
+    assert found is not None
+    check(found, taken=taken)
+
+
+@pytest.mark.parametrize(
+    ("first", "arrange"), [(part(540, 280), "column"), (part(200, 395), "row")]
+)
+def test_a_block_in_the_corner_moves_down_or_aside(first: Part, arrange: Arrange) -> None:
+    whole = Group((first, part(180, 30)), arrange)
+    plain, moved = boxes(whole), boxes(whole, taken=(LEFT,))
+    assert plain is not None
+    assert moved is not None
+    check(moved, taken=(LEFT,))
+    assert moved[1] == plain[1]  # the others stay
+    if arrange == "column":
+        assert plain[0][3] > LEFT[1] - EDGE
+        assert moved[0][3] == pytest.approx(LEFT[1] - EDGE, abs=10.0)
+        assert moved[0][0] == plain[0][0]
+    else:
+        assert plain[0][0] < LEFT[2] + EDGE <= moved[0][0]
+        assert moved[0][3] == plain[0][3]
+
+
+def test_a_block_that_is_clear_of_the_corner_stays() -> None:
+    whole = Group((part(100, 100), part(120, 200), part(180, 30)))
+    assert boxes(whole, taken=(LEFT,)) == boxes(whole)
+
+
+def test_all_blocks_keep_clear_when_none_can_move() -> None:
+    """The room of the corner's block is full: the strip beside the box is left free."""
+    whole = Group((part(480, 395), part(50, 200), part(180, 30)))
+    narrow = Group((part(270, 395), part(180, 30)))
+    assert boxes(whole, taken=(LEFT,)) is None
+    found = boxes(narrow, taken=(LEFT,))
+    assert found is not None
+    check(found, taken=(LEFT,))
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    sizes=st.lists(
+        st.tuples(st.floats(15, 220), st.floats(10, 150), st.booleans()), min_size=1, max_size=7
+    ),
+    cuts=st.sets(st.integers(1, 6), max_size=3),
+    taken=st.sampled_from([(), (LEFT,), (RIGHT,), (LEFT, RIGHT)]),
+)
+def test_whatever_fits_stands_apart(
+    sizes: list[tuple[float, float, bool]], cuts: set[int], taken: tuple[Bounds, ...]
+) -> None:
+    parts = [part(width, height, text=text) for width, height, text in sizes]
+    edges = [0, *sorted(cut for cut in cuts if cut < len(parts)), len(parts)]
+    whole = Group(tuple(Group(tuple(parts[i:j])) for i, j in pairwise(edges)))
+    found = boxes(whole, taken=taken)
+    if found is not None:
+        check(found, taken=taken)
+
+
+# White --------------------------------------------------------------------------------------------
+
+
+def test_the_largest_empty_rectangle() -> None:
+    paper: Bounds = (0.0, 0.0, 100.0, 100.0)
+    assert emptiest_share([], paper) == pytest.approx(1.0)
+    assert emptiest_share([(0.0, 0.0, 100.0, 30.0)], paper) == pytest.approx(0.7)
+    cross = [(40.0, 0.0, 60.0, 100.0), (0.0, 40.0, 100.0, 60.0)]
+    assert emptiest_share(cross, paper) == pytest.approx(0.16)
