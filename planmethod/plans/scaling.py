@@ -11,6 +11,7 @@ import numpy.typing as npt
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
+from planmethod.paper import FORMATS
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention, Problem
 
@@ -45,7 +46,7 @@ class Views:
     def for_paper(cls, paper: str, positions: int) -> Views:
         """Return the boxes of a format for one position or for many.
 
-        An elongated format has the boxes of the basic one that is as high.
+        An elongated format has the boxes of the basic one that is as high as it lies.
         """
         table = ONE_POSITION if positions == 1 else MANY_POSITIONS
         return cls(paper, *table[AS_HIGH.get(paper, paper)])
@@ -65,8 +66,8 @@ class Views:
         return cls.for_paper("A3" if small else "A2", 1)
 
 
-AS_HIGH = {"A4x3": "A3", "A4x4": "A3", "A3x3": "A2", "A2x3": "A1", "A1x3": "A0"}
-"""Basic format that is as high as an elongated one lying."""
+AS_HIGH = {fmt.name: fmt.like for fmt in FORMATS.values() if fmt.like != fmt.name}
+"""Basic format whose boxes an elongated or a standing one has."""
 
 ONE_POSITION: dict[str, tuple[Box, Box, Box]] = {
     "A4": ((80.0, 50.0), (60.0, 50.0), (60.0, 55.0)),

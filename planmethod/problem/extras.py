@@ -1,4 +1,4 @@
-"""Title block fields, published values, and the tables that later parts read."""
+"""Published values, and the tables that later parts read."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from planmethod.problem.model import Published
 from planmethod.problem.names import TITLE_LIMIT, listed, near, segment
 from planmethod.problem.selector import SelectorError, parse_selector, unknown_names
 
-STAMP_LIMIT = 200
 NOTE_LIMIT = 1000
 TABLE_KEYS = ("dynamics", "loads", "gears", "point")
 
@@ -28,18 +27,6 @@ def read_heading(faults: Faults, table: Mapping[str, Any], key: str) -> str:
     if key not in table:
         return ""
     return read_text(faults, key, table[key], limit=TITLE_LIMIT) or ""
-
-
-def read_stamp(faults: Faults, table: object) -> dict[str, str]:
-    """Read ``[stamp]`` (основная надпись)."""
-    entries = read_table(faults, "stamp", table, 'author = "Иванов"') or {}
-    given = read_keys(faults, "stamp", entries, keys.STAMP)
-    stamp: dict[str, str] = {}
-    for key, value in given.items():
-        text = read_text(faults, f"stamp.{key}", value, limit=STAMP_LIMIT)
-        if text is not None:
-            stamp[key] = text
-    return stamp
 
 
 def read_published(

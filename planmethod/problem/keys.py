@@ -11,6 +11,7 @@ TOP = (
     "assembly",
     "scales",
     "stamp",
+    "sheet",
     "published",
     "variants",
     "dynamics",
@@ -45,16 +46,36 @@ STAMP = (
     "t_control",
     "norm_control",
     "approver",
+    "extra",
+    "extra_role",
     "designation",
     "title",
     "material",
+    "subject",
     "letter",
     "mass",
     "scale",
     "sheet",
     "sheets",
     "date",
+    "author_date",
+    "checker_date",
+    "t_control_date",
+    "norm_control_date",
+    "approver_date",
+    "extra_date",
+    "inventory",
+    "inventory_instead",
+    "inventory_copy",
+    "reference",
+    "first_use",
 )
+SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering")
+FORMS = ("1", "1+2a", "2", "2a")
+"""Forms of the title block: of every sheet, or of the first and of the later ones."""
+LETTERINGS = ("A", "A-upright", "B", "B-upright")
+"""Types of the lettering of GOST 2.304, slanted where nothing else is said."""
+CONFIG = ("stamp", "sheet")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
 
 KNOWN: dict[str, tuple[str, ...]] = {
@@ -69,6 +90,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "near": NEAR,
     "scales": SCALES,
     "stamp": STAMP,
+    "sheet": SHEET,
     "published": PUBLISHED,
 }
 """All of them by the kind of table."""

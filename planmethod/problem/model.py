@@ -7,7 +7,7 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from typing import Any
 
@@ -159,6 +159,39 @@ class Published:
 
 
 @dataclass(frozen=True, slots=True)
+class SheetSettings:
+    """How the sheets are to be made up (оформление листов): ``[sheet]``; None where it is silent.
+
+    Attributes
+    ----------
+    paper : str, optional
+        Format, as `planmethod.paper.paper_format` reads it.
+    form : str, optional
+        Form of the title block: ``1``, ``1+2a``, ``2`` or ``2a``.
+    graph_26, graphs_27_30, side_columns : bool, optional
+        Which of the additional graphs there are.
+    lettering : str, optional
+        Type of the lettering: ``A``, ``A-upright``, ``B`` or ``B-upright``.
+    """
+
+    paper: str | None = None
+    form: str | None = None
+    graph_26: bool | None = None
+    graphs_27_30: bool | None = None
+    side_columns: bool | None = None
+    lettering: str | None = None
+
+    def over(self, lower: SheetSettings) -> SheetSettings:
+        """Return these settings, and those of ``lower`` where these are silent."""
+        told = {
+            part.name: getattr(self, part.name)
+            for part in fields(self)
+            if getattr(self, part.name) is not None
+        }
+        return replace(lower, **told)
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """Task as read (задача).
 
@@ -187,6 +220,7 @@ class Problem:
     assembly: tuple[Rule, ...] = ()
     scales: Scales = Scales()
     stamp: Mapping[str, str] = field(default_factory=dict)
+    sheet: SheetSettings = SheetSettings()
     published: tuple[Published, ...] = ()
     variants: tuple[str, ...] = ()
     variant: str | None = None

@@ -11,12 +11,13 @@ from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.bodies import place_points
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.extras import read_heading, read_published, read_stamp, read_tables
+from planmethod.problem.extras import read_heading, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, read_links
 from planmethod.problem.model import Body, Problem, Slide
 from planmethod.problem.names import fold, listed, near
+from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.variants import apply_variant, read_variants
@@ -113,6 +114,7 @@ def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem 
     title = read_heading(faults, given, "title")
     source = read_heading(faults, given, "source")
     stamp = read_stamp(faults, given.get("stamp", {}))
+    sheet = read_sheet(faults, given.get("sheet", {}))
     scales = read_scales(faults, given.get("scales", {}))
     tables = read_tables(faults, given)
     if "links" not in given:
@@ -175,6 +177,7 @@ def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem 
         assembly=assembly,
         scales=scales,
         stamp=stamp,
+        sheet=sheet,
         published=published,
         tables=tables,
     )

@@ -260,7 +260,7 @@ def _outside(items: Sequence[Item], inner: Bounds | None) -> Iterator[Finding]:
                 0.0,
                 {"shown": run.text},
             )
-        if inner is None or run.tag == MARGIN_NOTE:
+        if inner is None or MARGIN_NOTE in run.tag.split():
             continue
         if (out := beyond(ink, inner)) > _TOUCH:
             yield Finding(

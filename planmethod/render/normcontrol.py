@@ -8,6 +8,7 @@ To the codes of `planmethod.render.lint`, which looks at texts, it adds
 ``PM-D10``  a large part of the paper is unused
 ``PM-D11``  a dashed line does not begin and end with a stroke
 ``PM-D12``  a dashed line is too short to show its pattern
+``PM-D13``  lines or inscriptions run into the title block or graph 26
 """
 
 from __future__ import annotations
@@ -19,10 +20,17 @@ from math import tau
 
 from planmethod.render.drawing import Arc, Bounds, Disc, Drawing, Fill, Ink, Item, Stroke, View
 from planmethod.render.extent import ink_bounds
-from planmethod.render.frame import FRAME_LEFT, FRAME_OTHER, STAMP, STAMP_HEIGHT, STAMP_WIDTH
+from planmethod.render.frame import (
+    FRAME_LEFT,
+    FRAME_OTHER,
+    MARGIN_NOTE,
+    STAMP,
+    STAMP_HEIGHT,
+    STAMP_WIDTH,
+)
 from planmethod.render.lint import Finding, beyond, lint, writings_of
 from planmethod.render.style import PENS, arc_spans, stroke_lines, sweep
-from planmethod.render.unused import largest_empty
+from planmethod.render.unused import ink_points, largest_empty
 
 SHORTEST = 5.0
 """Shortest segment of a plan, mm: half a division of the ruler is then a tenth of it."""
@@ -51,6 +59,7 @@ def inspect(drawing: Drawing) -> list[Finding]:
     findings = [
         *(_attributed(finding, drawing.views, inner) for finding in lint(drawing.items, inner)),
         *lines_outside(drawing.items, drawing.views, inner),
+        *run_into_graphs(drawing.items, drawing.views),
         *short_segments(drawing.views),
         *scales_missing(drawing.items, drawing.views),
         *unused_paper(drawing.items, inner),
@@ -103,6 +112,38 @@ def lines_outside(items: Sequence[Item], views: Sequence[View], inner: Bounds) -
             worst[kind] = (out, _furthest(box, inner))
     for kind, (out, where) in worst.items():
         yield Finding("PM-D07", where, out, 0.0, {}, view=kind)
+
+
+def run_into_graphs(items: Sequence[Item], views: Sequence[View]) -> Iterator[Finding]:
+    """Find what runs into the title block and the other graphs: one finding for each of them."""
+    graphs = [
+        ink_bounds([item])
+        for item in items
+        if isinstance(item, Stroke) and item.closed and item.tag == STAMP
+    ]
+    others = [(item, ink_bounds([item])) for item in items if not _is_furniture(item)]
+    for box in graphs:
+        found = [_inside(item, box) for item, ink in others if _meet(box, ink)]
+        depth, where = max(found, key=lambda one: one[0], default=(0.0, 0j))
+        if depth > _TOUCH:
+            kind = next((view.kind for view in views if _holds(view.box, where)), "")
+            yield Finding("PM-D13", where, depth, 0.0, {}, view=kind)
+
+
+def _is_furniture(item: Item) -> bool:
+    words = item.tag.split()
+    white = isinstance(item, (Fill, Disc)) and item.ink is Ink.WHITE
+    return white or not _FRAME_TAGS.isdisjoint(words) or MARGIN_NOTE in words
+
+
+def _inside(item: Item, box: Bounds) -> tuple[float, complex]:
+    """Return how deep the ink of an item is in a box, mm, and where it is deepest."""
+    found = (
+        (min(p.real - box[0], box[2] - p.real, p.imag - box[1], box[3] - p.imag), p)
+        for p in ink_points(item)
+        if _holds(box, p)
+    )
+    return max(found, key=lambda one: one[0], default=(0.0, 0j))
 
 
 def _furthest(box: Bounds, inner: Bounds) -> complex:

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from planmethod.errors import ExitCode, PlanMethodError
-from planmethod.render.frame import FORMATS
+from planmethod.paper import FORMATS
 
 Segments: TypeAlias = tuple[tuple[str, float], ...]
 """Letters and lengths of segments, mm."""
@@ -260,6 +260,20 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
                 "Take a larger scale or format, or write beside the line that it is dashed.",
             ),
         ),
+        "PM-D13": _remark(
+            _ERROR,
+            "mm",
+            ru=(
+                "заходит на графы",
+                "линии или надписи заходят на {value} мм в основную надпись или графу 26, {place}",
+                "Возьмите мельче масштаб в [scales] или формат крупнее (--paper).",
+            ),
+            en=(
+                "runs into a graph",
+                "lines or inscriptions run {value} mm into the title block or graph 26 at {place}",
+                "Take a coarser scale in [scales] or a larger format (--paper).",
+            ),
+        ),
     }
 )
 """Every code and what is said of it."""
@@ -346,8 +360,8 @@ def place_text(where: complex, lang: str) -> str:
 
 
 def russian_paper(name: str) -> str:
-    """Return the name of a format in Cyrillic letters."""
-    return name.replace("A", "А").replace("x", "х")
+    """Return the name of a format as it is written in Russian: ``А3 (книжная)``."""
+    return FORMATS[name].cyrillic + (" (книжная)" if name.endswith(":portrait") else "")
 
 
 def _fact(fact: str | float | Segments, lang: str) -> str:

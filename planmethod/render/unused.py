@@ -24,7 +24,7 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     columns, rows = ceil((x1 - x0) / CELL), ceil((y1 - y0) / CELL)
     taken = [[False] * columns for _ in range(rows)]
     for item in items:
-        for point in _points(item):
+        for point in ink_points(item):
             k, j = floor((point.real - x0) / CELL), floor((point.imag - y0) / CELL)
             if 0 <= k < columns and 0 <= j < rows:
                 taken[j][k] = True
@@ -37,8 +37,8 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     )
 
 
-def _points(item: Item) -> list[complex]:
-    """Return points of an item's ink, near enough that no square is passed over."""
+def ink_points(item: Item) -> list[complex]:
+    """Return points of an item's ink, near enough that no square of `CELL` is passed over."""
     match item:
         case Stroke(points=path, closed=closed):
             return _along([*path, path[0]] if closed and path else path)

@@ -144,6 +144,7 @@ SCHEMA_TABLES = {
     "near": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
     "scales": SCHEMA["$defs"]["scales"]["properties"],
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
+    "sheet": SCHEMA["$defs"]["sheet"]["properties"],
     "published": SCHEMA["$defs"]["published"]["additionalProperties"]["properties"],
 }
 

@@ -1,27 +1,34 @@
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from worked import ROOT
 
 from planmethod.errors import LayoutError
+from planmethod.problem.keys import SHEET as READER_SHEET_KEYS
 from planmethod.problem.keys import STAMP as READER_KEYS
 from planmethod.render.block import CUT, fit, texts
+from planmethod.render.clearance import overlap
 from planmethod.render.drawing import Item, Pen, Stroke, Text
+from planmethod.render.extent import ink_bounds
+from planmethod.render.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.frame import (
     FORMATS,
     MARGIN_NOTE,
     STAMP_FIELDS,
-    graph_26_bounds,
-    paper_format,
     sheet_frame,
     title_block,
 )
+from planmethod.render.furniture import FORMS, Furniture
 from planmethod.render.lettering import OutlineLettering, using
 from planmethod.render.lint import lint
+from planmethod.render.titleblock import ALIASES, SHARED, merged
 
 FIELDS = {
     "designation": "ТММ.КП.12.03.00.000",
@@ -76,8 +83,8 @@ def test_form_1_has_the_lines_of_the_standard() -> None:
 
 def test_columns_and_rows_have_the_widths_of_the_standard() -> None:
     thick = lines(title_block(), Pen.FRAME)
-    header = sorted({a.real for a, b in thick if a.real == b.real and a.imag <= 32 <= b.imag})
-    widths = [b - a for a, b in pairwise(header)]
+    inside = {a.real for a, b in thick if a.real == b.real and a.imag <= 32 <= b.imag}
+    widths = [b - a for a, b in pairwise(sorted({0.0, 185.0, *inside}))]
     assert widths == [7, 10, 23, 15, 10, 70, 15, 17, 18]
 
 
@@ -142,9 +149,32 @@ def test_more_than_three_letters_take_the_place_of_the_three_cells() -> None:
 
 
 def test_every_key_of_the_problem_file_has_its_place() -> None:
-    assert set(READER_KEYS) <= set(STAMP_FIELDS)
+    assert set(READER_KEYS) == set(STAMP_FIELDS)
+    columns = Furniture(side_columns=True, graph_26=False)
+    bare = len(texts(sheet_frame("A3", {}, columns).items))
     for key in STAMP_FIELDS:
-        assert len(texts(title_block({key: "8"}))) == len(texts(title_block())) + 1, key
+        assert len(texts(sheet_frame("A3", {key: "8"}, columns).items)) == bare + 1, key
+
+
+def test_the_documents_have_every_field_and_where_it_goes() -> None:
+    text = (ROOT / "docs" / "title-block.md").read_text(encoding="utf-8")
+    rows = re.findall(r"(?m)^\| `(\w+)` \| ([\d, ]+) \| .* \| ([\w, ]+) \|$", text)
+    assert {key for key, _, _ in rows} == set(STAMP_FIELDS)
+    for key, graph, forms in rows:
+        for number in graph.split(", "):
+            said = STAMP_FIELDS[key]
+            assert "графа" not in said or f"графа {number}" in said or number == "26", key
+        place = ALIASES.get(key, key)
+        shown = {
+            form.name
+            for form in (FORM_1, FORM_2, FORM_2A)
+            if place in form.cells
+            or (place in SHARED and form.organisation)
+            or (place == "letter" and form.letters)
+        }
+        assert forms == (", ".join(sorted(shown)) or "all"), key
+    keys = [*re.findall(r"(?m)^\| `(\w+)` \| [`|]", text), "lettering"]
+    assert set(keys) == set(READER_SHEET_KEYS)
 
 
 def test_unknown_field_is_told_with_the_nearest() -> None:
@@ -152,48 +182,215 @@ def test_unknown_field_is_told_with_the_nearest() -> None:
         title_block({"desigantion": "x"})
 
 
+# The sheet around it -----------------------------------------------------------------------------
+
+FULL = Furniture(graph_26=True, graphs_27_30=True, side_columns=True)
+ALL_FIELDS = {**FIELDS, "first_use": "ТММ.КП.12.00.00.000", "inventory": "1234", "reference": "5"}
+
+
+@pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("name", FORMATS)
-def test_frame_is_20_mm_from_the_left_and_5_from_the_other_edges(name: str) -> None:
+def test_frame_is_20_mm_from_the_left_and_5_from_the_other_edges(name: str, form: str) -> None:
     fmt = FORMATS[name]
-    items, inner, stamp = sheet_frame(name, FIELDS, graph_26=True)
-    assert inner == (20, 5, fmt.width - 5, fmt.height - 5)
-    assert stamp == (fmt.width - 190, 5, fmt.width - 5, 60)
-    edge, frame = (i for i in items if isinstance(i, Stroke) and i.tag in ("edge", "frame"))
-    assert (edge.pen, frame.pen) == (Pen.THIN, Pen.FRAME)
-    assert edge.points[2] == complex(fmt.width, fmt.height)
-    assert frame.points[0] == 20 + 5j
-    assert [f.message for f in lint(items, inner)] == []
+    for sheet in (1, 2):
+        made = sheet_frame(name, ALL_FIELDS, replace(FULL, form=form), sheet=sheet)
+        assert made.inner == (20, 5, fmt.width - 5, fmt.height - 5)
+        assert made.stamp[:3] == (fmt.width - 190, 5, fmt.width - 5)
+        edge, frame = (
+            i for i in made.items if isinstance(i, Stroke) and i.tag in ("edge", "frame")
+        )
+        assert (edge.pen, frame.pen) == (Pen.THIN, Pen.FRAME)
+        assert edge.points[2] == complex(fmt.width, fmt.height)
+        assert frame.points[0] == 20 + 5j
+        assert [f.message for f in lint(made.items, made.inner)] == []
+        ink = ink_bounds(made.items)
+        assert (ink[0], ink[1]) == pytest.approx((0, 0), abs=0.5)
 
 
-def test_a4_stands_and_the_others_lie() -> None:
-    for fmt in FORMATS.values():
-        assert (fmt.width < fmt.height) == (fmt.name == "A4")
+@pytest.mark.parametrize("name", FORMATS)
+def test_notes_under_the_frame(name: str) -> None:
+    fmt = FORMATS[name]
+    below = [run for run in texts(sheet_frame(name).items) if run.tag == MARGIN_NOTE]
+    assert [run.text for run in below] == ["Копировал", f"Формат {fmt.cyrillic}"]
+    assert all(0 < run.at.imag < run.at.imag + run.height < 5 for run in below)
+    assert all(fmt.width - 190 < run.at.real < fmt.width - 5 for run in below)
 
 
-def test_notes_under_the_frame() -> None:
-    items, inner, _ = sheet_frame("A3", {})
-    below = [run for run in texts(items) if run.tag == MARGIN_NOTE]
-    assert [run.text for run in below] == ["Копировал", "Формат А3"]
-    assert all(0 < run.at.imag < run.at.imag + run.height < inner[1] for run in below)
+def test_the_name_of_an_elongated_format_is_cyrillic() -> None:
+    assert FORMATS["A4x3:portrait"].cyrillic == "\u04104\u00d73"
 
 
-def test_graph_26_holds_the_designation_upside_down() -> None:
-    items, _, _ = sheet_frame("A3", FIELDS, graph_26=True)
-    box = graph_26_bounds(FORMATS["A3"])
-    assert (box[2] - box[0], box[3] - box[1]) == (70, 14)
-    (run,) = shown(items, box)
-    assert run.angle == 180
+@pytest.mark.parametrize(
+    ("name", "box", "angle"),
+    [
+        ("A4", (20, 278, 90, 292), 180),
+        ("A3", (20, 278, 90, 292), 180),
+        ("A4x3", (20, 278, 90, 292), 180),
+        ("A3:portrait", (278, 345, 292, 415), 90),
+        ("A4x3:portrait", (278, 555, 292, 625), 90),
+    ],
+)
+def test_graph_26_is_the_designation_turned(
+    name: str, box: tuple[float, float, float, float], angle: float
+) -> None:
+    """Turned with the sheet it reads level in the lower right corner, where a hand looks for it."""
+    made = sheet_frame(name, FIELDS)
+    (run,) = shown(made.items, box)
+    assert run.angle == angle
     assert run.text == FIELDS["designation"]
+    assert made.taken == (box,)
 
 
-@pytest.mark.parametrize("name", ["A3", "a3", " А3 ", "а3"])
-def test_format_names_are_forgiving(name: str) -> None:
-    assert paper_format(name).name == "A3"
+def test_graph_26_goes_with_form_1_unless_it_is_asked_for() -> None:
+    paper = FORMATS["A3"]
+    assert list(Furniture().graphs(paper)) == ["26"]
+    assert list(Furniture(form="2").graphs(paper)) == []
+    assert list(Furniture(form="2", graph_26=True).graphs(paper)) == ["26"]
+    assert Furniture(graph_26=False).room(paper).taken == ()
 
 
-def test_unknown_format() -> None:
-    with pytest.raises(LayoutError, match=r"Unknown paper format 'B5'.*A4, A3"):
-        paper_format("B5")
+def test_a_long_designation_stays_in_graph_26() -> None:
+    for name in ("A3", "A3:portrait"):
+        made = sheet_frame(name, {"designation": "ТММ.КП.12.03.00.000-" * 12})
+        runs = [run for run in texts(made.items) if run.box == made.taken[0]]
+        assert runs
+        assert {f.code for f in lint(made.items, made.inner)} <= {"PM-D06"}
+
+
+def test_graphs_27_to_30_of_form_1() -> None:
+    room = FULL.room(FORMATS["A3"])
+    assert room.stamp == (230, 5, 415, 68)  # graph 30 is 8 mm high, above the title block
+    assert set(room.taken) == {
+        (20, 278, 90, 292),
+        (90, 278, 104, 292),
+        (104, 285, 157, 292),
+        (104, 278, 157, 285),
+    }
+
+
+def test_graphs_27_to_30_of_form_2_stand_above_it() -> None:
+    graphs = Furniture(form="2", graphs_27_30=True).graphs(FORMATS["A4"])
+    widths = {number: (box[2] - box[0], box[3] - box[1]) for number, box in graphs.items()}
+    assert widths == {"30": (120, 8), "27": (14, 14), "28": (53, 14), "29": (53, 14)}
+    assert min(box[1] for box in graphs.values()) == 45
+
+
+def test_side_columns() -> None:
+    items = sheet_frame("A4", ALL_FIELDS, Furniture(side_columns=True)).items
+    told = {
+        run.text: run.box
+        for run in texts(items)
+        if run.angle == 90 and run.box and run.at.real < 20
+    }
+    assert told == {
+        "Инв. № подл.": (8, 5, 13, 30),
+        "1234": (13, 5, 20, 30),
+        "Подп. и дата": (8, 115, 13, 150),
+        "Взам. инв. №": (8, 65, 13, 90),
+        "Инв. № дубл.": (8, 90, 13, 115),
+        "Перв. примен.": (8, 232, 13, 292),
+        "ТММ.КП.12.00.00.000": (13, 232, 20, 292),
+        "Справ. №": (8, 172, 13, 232),
+        "5": (13, 172, 20, 232),
+    }
+    later = texts(sheet_frame("A4", ALL_FIELDS, Furniture(side_columns=True), sheet=2).items)
+    assert "Перв. примен." not in {run.text for run in later}
+    assert not any(run.angle == 90 for run in texts(sheet_frame("A4", ALL_FIELDS).items))
+
+
+# Forms 2 and 2a ----------------------------------------------------------------------------------
+
+
+def test_form_2_has_the_lines_of_the_standard() -> None:
+    items = title_block(form=FORM_2)
+    thick = lines(items, Pen.FRAME)
+    assert {(complex(x, 0), complex(x, 40)) for x in (17, 40, 55, 65)} < thick
+    assert {(7 + 25j, 7 + 40j), (135 + 0j, 135 + 25j), (25j, 185 + 25j), (30j, 65 + 30j)} < thick
+    assert {(135 + 15j, 185 + 15j), (135 + 20j, 185 + 20j), (150 + 15j, 150 + 25j)} < thick
+    assert lines(items, Pen.THIN) == {
+        *((complex(0, y), complex(65, y)) for y in (5, 10, 15, 20, 35)),
+        (140 + 15j, 140 + 20j),
+        (145 + 15j, 145 + 20j),
+    }
+
+
+def test_form_2a_has_the_lines_of_the_standard() -> None:
+    items = title_block(form=FORM_2A)
+    thick = lines(items, Pen.FRAME)
+    assert {(complex(x, 0), complex(x, 15)) for x in (7, 17, 40, 55, 65, 175)} < thick
+    assert {(5j, 65 + 5j), (175 + 8j, 185 + 8j)} < thick
+    assert lines(items, Pen.THIN) == {(10j, 65 + 10j)}
+
+
+@pytest.mark.parametrize("form", [FORM_1, FORM_2, FORM_2A], ids=lambda form: form.name)
+def test_a_form_is_closed_and_its_cells_do_not_overlap(form: Form) -> None:
+    (outline,) = (i for i in title_block(form=form) if isinstance(i, Stroke) and i.closed)
+    assert outline.points[2] == complex(form.width, form.height)
+    boxes = [box for _, box, _ in form.captions] + [cell.box for cell in form.cells.values()]
+    boxes += form.letters + ((form.organisation.box,) if form.organisation else ())
+    for number, one in enumerate(boxes):
+        assert 0 <= one[0] < one[2] <= form.width
+        assert 0 <= one[1] < one[3] <= form.height
+        for two in boxes[:number]:
+            assert not overlap(one, two), (one, two)
+
+
+@pytest.mark.parametrize(
+    ("form", "field", "box"),
+    [
+        (FORM_2, "designation", (65, 25, 185, 40)),
+        (FORM_2, "title", (65, 0, 135, 25)),
+        (FORM_2, "author", (17, 20, 40, 25)),
+        (FORM_2, "checker", (17, 15, 40, 20)),
+        (FORM_2, "approver", (17, 0, 40, 5)),
+        (FORM_2, "sheets", (165, 15, 185, 20)),
+        (FORM_2A, "designation", (65, 0, 175, 15)),
+        (FORM_2A, "sheet", (175, 0, 185, 8)),
+    ],
+    ids=lambda value: value.name if isinstance(value, Form) else str(value),
+)
+def test_fields_of_forms_2_and_2a(
+    form: Form, field: str, box: tuple[float, float, float, float]
+) -> None:
+    joined = " ".join(run.text for run in shown(title_block(FIELDS, form), box))
+    assert joined == FIELDS[field]
+
+
+def test_form_2a_shows_no_other_field() -> None:
+    bare = len(texts(title_block(form=FORM_2A)))
+    assert len(texts(title_block({"author": "Иванов", "mass": "1"}, FORM_2A))) == bare
+
+
+@pytest.mark.parametrize(
+    ("form", "made"),
+    [("1", ["1", "1"]), ("1+2a", ["1", "2a"]), ("2", ["2", "2a"]), ("2a", ["2a", "2a"])],
+)
+def test_forms_of_the_first_and_the_later_sheets(form: str, made: list[str]) -> None:
+    furniture = Furniture(form=form)
+    assert [furniture.form_of(sheet).name for sheet in (1, 2)] == made
+    assert furniture.form_of(2) is Furniture(form=form, before=3).form_of(1)
+
+
+def test_an_unknown_form() -> None:
+    with pytest.raises(LayoutError, match=r"Unknown form '3'.*1, 1\+2a, 2, 2a"):
+        Furniture(form="3")
+
+
+def test_only_the_first_sheet_says_how_many_there_are() -> None:
+    assert Furniture().numbers(1, 1) == {}
+    assert Furniture().numbers(1, 3) == {"sheet": "1", "sheets": "3"}
+    assert Furniture().numbers(2, 3) == {"sheet": "2", "sheets": ""}
+    assert Furniture(before=4).numbers(1, 1) == {"sheet": "5", "sheets": ""}
+    assert Furniture(total=9).numbers(1, 1) == {"sheet": "1", "sheets": "9"}
+
+
+# Fields ------------------------------------------------------------------------------------------
+
+
+def test_a_field_has_one_place_whatever_it_is_called() -> None:
+    assert merged({"material": "Сталь"}, {"subject": "ТММ"}) == {"material": "ТММ"}
+    assert merged({"date": "01.02"}, {"author_date": ""}) == {}
+    assert merged({"author": "А"}, {"author": "Б", "group": "В"}) == {"author": "Б", "group": "В"}
 
 
 class EvenLettering(OutlineLettering):
@@ -267,9 +464,14 @@ texts_of_fields = st.text(alphabet="Жащфу. -№WI1_{^\\", min_size=1, max_s
 
 
 @settings(deadline=None)
-@given(st.dictionaries(st.sampled_from(sorted(STAMP_FIELDS)), texts_of_fields))
-def test_no_text_ever_leaves_its_cell(fields: Mapping[str, str]) -> None:
-    findings = lint(title_block(fields))
+@given(
+    st.dictionaries(st.sampled_from(sorted(STAMP_FIELDS)), texts_of_fields),
+    st.sampled_from(sorted(FORMS)),
+    st.sampled_from(["A4", "A3", "A3:portrait"]),
+)
+def test_no_text_ever_leaves_its_cell(fields: Mapping[str, str], form: str, name: str) -> None:
+    made = sheet_frame(name, fields, replace(FULL, form=form))
+    findings = lint(made.items, made.inner)
     assert [f.message for f in findings if f.code != "PM-D06"] == []
 
 

@@ -25,7 +25,8 @@ from planmethod.render.drawing import (
     Text,
     View,
 )
-from planmethod.render.frame import FORMATS, sheet_frame
+from planmethod.render.frame import FORMATS, STAMP, sheet_frame
+from planmethod.render.furniture import Furniture
 from planmethod.render.lint import CODES, Finding
 from planmethod.render.normcontrol import inspect, unused_paper
 from planmethod.render.remarks import (
@@ -109,6 +110,10 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
         sheet(Stroke((AT, AT + 5), Pen.HIDDEN)),
         sheet(Stroke((AT, AT + 8), Pen.HIDDEN)),
     ),
+    "PM-D13": (
+        sheet(Stroke((60 + 270j, 60 + 285j))),
+        sheet(Stroke((60 + 270j, 60 + 277j))),
+    ),
 }
 """Of every code a sheet that shows it and one that does not."""
 
@@ -188,10 +193,31 @@ def test_an_unknown_language_is_an_error_of_usage() -> None:
 def test_a_finding_knows_its_view() -> None:
     (finding,) = found(sheet(word(), word("Б", AT + 2), *SCALE, views=(VIEW,)))
     assert finding.view == "velocity"
-    (finding,) = found(sheet(word(at=100 + 40j, height=1.7)))
+    (finding,) = found(sheet(word(at=100 + 40j, height=1.7, tag=STAMP)))
     assert finding.view == "stamp"
     (finding,) = found(sheet(word(), word("Б", AT + 2)))
     assert finding.view == ""
+
+
+@pytest.mark.parametrize(
+    ("item", "depth"),
+    [
+        (Stroke((100 + 50j, 100 + 70j)), 10.0),  # from above into the title block
+        (word("Ж", 50 + 276j, 5.0), 3.0),
+        (Disc(60 + 295j, 10.0, Ink.BLACK), 7.0),
+        (Stroke((18 + 290j, 40 + 270j)), 5.0),
+    ],
+)
+def test_ink_in_a_graph_is_told(item: Item, depth: float) -> None:
+    findings = [f for f in found(sheet(item)) if f.code == "PM-D13"]
+    assert [f.value for f in findings] == [pytest.approx(depth, abs=1.0)]
+
+
+def test_white_and_furniture_are_no_ink_in_a_graph() -> None:
+    assert found(sheet(Disc(60 + 285j, 5.0))) == []
+    frame = sheet_frame("A3", {"designation": "ТММ"}, Furniture(graphs_27_30=True)).items
+    drawing = Drawing(420.0, 297.0, "", frame)
+    assert {f.code for f in found(drawing)} <= {"PM-D10"}
 
 
 @pytest.mark.parametrize(

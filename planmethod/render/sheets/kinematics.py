@@ -9,16 +9,18 @@ from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
+from planmethod.paper import Format
 from planmethod.plans.scaling import Views
 from planmethod.plans.selfcheck import verify
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.drawing import Drawing
-from planmethod.render.frame import Format, paper_format, sheet_frame
+from planmethod.render.frame import paper_format, sheet_frame
+from planmethod.render.furniture import Furniture
 from planmethod.render.sheets.composition.model import Composition, Extras
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.growth import grown
-from planmethod.render.sheets.pages import Page, Paper, Room, pages_of, stamp_fields
+from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 
 MOST_POSITIONS = 120
 """Most positions drawn in one call: ten sheets of a dozen plans."""
@@ -81,20 +83,20 @@ class _Task:
         return self.pages(self.solved(views, scales), paper, per_sheet)
 
 
-def _room(fmt: Format, number: int) -> Room:
-    """Return the room of the sheet of a number."""
-    return Room(fmt.inner, fmt.stamp)
-
-
 def _drawn(
-    problem: Problem, pages: Sequence[Page], fmt: Format, fields: Mapping[str, str]
+    problem: Problem,
+    pages: Sequence[Page],
+    fmt: Format,
+    fields: Mapping[str, str],
+    furniture: Furniture,
 ) -> list[Drawing]:
     """Return pages as drawings, with frame and title block."""
     sheets = []
     for number, page in enumerate(pages, 1):
-        told = stamp_fields(problem, number, len(pages), fields, page.title)
+        numbers = furniture.numbers(number, len(pages))
+        told = stamp_fields(problem, numbers, fields, page.title)
         drawing = Drawing(fmt.width, fmt.height, told.get("title", problem.title))
-        drawing.extend(sheet_frame(fmt, told)[0])
+        drawing.extend(sheet_frame(fmt, told, furniture, sheet=number).items)
         drawing.extend(page.items)
         drawing.views.extend(page.views)
         sheets.append(drawing)
@@ -109,6 +111,7 @@ def kinematics_sheets(
     ruler: float | None = None,
     profile: Profile = PROFILES["board"],
     fields: Mapping[str, str] | None = None,
+    furniture: Furniture | None = None,
     errors: bool = False,
     sigma: bool = False,
     layout: str | Path | Composition | None = None,
@@ -118,7 +121,7 @@ def kinematics_sheets(
     Parameters
     ----------
     paper : str, optional
-        Format; the smallest that the blocks fit when absent.
+        Format; the file's when absent, or the smallest that the blocks fit.
     positions : sequence of float, optional
         Other driver positions than the file's.
     ruler : float, mm, optional
@@ -127,6 +130,8 @@ def kinematics_sheets(
         How well the plans are drawn.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
+    furniture : Furniture, optional
+        Form of the title block and additional graphs; the file's when absent.
     errors : bool
         Draw the ellipses of the drafting error around the points of scheme and plans.
     sigma : bool
@@ -152,14 +157,16 @@ def kinematics_sheets(
         layout = "one-position" if len(asked) == 1 else "many-positions"
     made = layout if isinstance(layout, Composition) else composition(layout)
     _check_positions(made, len(asked))
+    paper = paper or problem.sheet.paper
+    furniture = furniture or Furniture.of(problem.sheet)
     extras = Extras(errors, sigma)
     papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
     task = _Task(problem, made, tuple(asked), ruler, profile, extras)
     for name in papers:
         fmt = paper_format(name)
-        pages = task.on(Paper(name, partial(_room, fmt), forced=paper is not None))
+        pages = task.on(Paper(name, partial(furniture.room, fmt), forced=paper is not None))
         if pages is not None:
-            return _drawn(problem, pages, fmt, fields or {})
+            return _drawn(problem, pages, fmt, fields or {}, furniture)
     scales = problem.scales
     given = any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
     advice = (

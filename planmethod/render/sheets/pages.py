@@ -11,11 +11,13 @@ from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
 from planmethod.render.block import Block
 from planmethod.render.cuttings import Arrange, Group, Part
-from planmethod.render.drawing import Bounds, Item, View
+from planmethod.render.drawing import Item, View
+from planmethod.render.furniture import Room
 from planmethod.render.pack import pack
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
+from planmethod.render.titleblock import merged
 
 Tried: TypeAlias = tuple[bool, int, tuple[int, ...]]
 
@@ -49,15 +51,6 @@ class Made:
 
 
 @dataclass(frozen=True, slots=True)
-class Room:
-    """Room of a sheet: inside of the frame, title block, other boxes that must stay free, mm."""
-
-    inner: Bounds
-    stamp: Bounds
-    taken: tuple[Bounds, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
 class Paper:
     """Paper that sheets are drawn on: its format, and the room of the sheet of a number, from 1.
 
@@ -70,19 +63,16 @@ class Paper:
 
 
 def stamp_fields(
-    problem: Problem, sheet: int, sheets: int, extra: Mapping[str, str], title: str = ""
+    problem: Problem, numbers: Mapping[str, str], extra: Mapping[str, str], title: str = ""
 ) -> dict[str, str]:
     """Return the texts of the title block: the defaults, the problem's, then the asked ones.
 
-    The number of the sheet stays empty on a single one, as the standard has it; of several sheets
-    the computed numbers outrank the file's, and so does the ``title`` that a composition gives.
+    ``numbers`` are those of `Furniture.numbers`: of several sheets they outrank the file's, and so
+    does the ``title`` that a composition gives.
     """
-    numbers = {"sheet": str(sheet), "sheets": str(sheets)}
-    fields = {"title": problem.title, "sheets": "1", **problem.stamp}
-    fields.update(numbers if sheets > 1 else {})
-    fields.update({"title": title} if title else {})
-    fields.update(extra)
-    return {key: value for key, value in fields.items() if value}
+    default = {"title": problem.title, "sheets": "1"}
+    own = {"title": title} if title else {}
+    return merged(default, problem.stamp, numbers, own, extra)
 
 
 def pages_of(

@@ -6,7 +6,7 @@ of formation; on the right, above the title block, the tables of pairs and links
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
 
@@ -15,9 +15,11 @@ from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.problem.model import Problem
 from planmethod.render.block import Block, Column, Line, Spacer, paragraph
-from planmethod.render.drawing import Bounds, Drawing, Item, View
+from planmethod.render.clearance import is_clear
+from planmethod.render.drawing import Drawing, Item, View
 from planmethod.render.equations import formula_block
 from planmethod.render.frame import STAMP_WIDTH, paper_format, sheet_frame
+from planmethod.render.furniture import Furniture, Room
 from planmethod.render.sheets.structure_texts import (
     driver_caption,
     formulas,
@@ -27,6 +29,7 @@ from planmethod.render.sheets.structure_texts import (
 )
 from planmethod.render.structural import driver_picture, group_picture, mechanism_picture
 from planmethod.render.tables import TableColumn, table_block
+from planmethod.render.titleblock import merged
 from planmethod.render.typeset import typeset
 
 TITLE = "Структурный анализ механизма"
@@ -89,6 +92,7 @@ def structure_sheet(
     *,
     paper: str | None = None,
     fields: Mapping[str, str] | None = None,
+    furniture: Furniture | None = None,
 ) -> Drawing:
     """Draw the structural analysis of a mechanism on a sheet (лист структурного анализа).
 
@@ -99,9 +103,11 @@ def structure_sheet(
     structure : Structure
         What `planmethod.mechanism.structure.analyse` says of the mechanism.
     paper : str, optional
-        Format; A3, or the smallest larger one that everything fits, when absent.
+        Format; the file's when absent, or A3, or the smallest larger one that everything fits.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
+    furniture : Furniture, optional
+        Form of the title block and additional graphs; the file's when absent.
 
     Returns
     -------
@@ -112,13 +118,15 @@ def structure_sheet(
     LayoutError
         When everything fits no format, or not the asked one.
     """
-    texts = {**problem.stamp, "title": TITLE, **(fields or {})}
-    texts = {key: value for key, value in texts.items() if value}
+    texts = merged(problem.stamp, {"title": TITLE}, fields or {})
+    paper = paper or problem.sheet.paper
+    furniture = furniture or Furniture.of(problem.sheet)
     names = (paper_format(paper).name,) if paper else PAPERS
     for name in names:
         fmt = paper_format(name)
-        items, inner, stamp = sheet_frame(fmt, texts)
-        placed = _compose(problem, structure, MANNERS.get(name, MANNERS["A1"]), inner, stamp)
+        items = sheet_frame(fmt, texts, furniture).items
+        manner = MANNERS.get(fmt.like, MANNERS["A1"])
+        placed = _compose(problem, structure, manner, furniture.room(fmt))
         if placed is not None:
             shown, views = placed
             return Drawing(fmt.width, fmt.height, texts["title"], [*items, *shown], views)
@@ -131,19 +139,37 @@ def structure_sheet(
 
 
 def _compose(
-    problem: Problem, structure: Structure, manner: Manner, inner: Bounds, stamp: Bounds
+    problem: Problem, structure: Structure, manner: Manner, room: Room
 ) -> tuple[list[Item], list[View]] | None:
-    """Return the items inside the frame and the view, or None when they do not fit."""
+    """Return the items inside the frame and the view, or None when they do not fit.
+
+    A column that would lie on a graph in an upper corner begins below it.
+    """
+    inner, low = room.inner, room.stamp[3] + EDGE
     left, right = inner[0] + EDGE, inner[2] - EDGE - manner.column
-    top, low = inner[3] - EDGE, stamp[3] + EDGE
-    column = _told(problem, structure, manner, manner.column, top - low)
-    if column is None:
+    tops = (inner[3] - EDGE, *(box[1] - EDGE for box in room.taken))
+
+    def begun(make: Callable[[float], Block | None], x: float) -> tuple[Block, float] | None:
+        for top in tops:
+            block = make(top)
+            if block is None:
+                return None
+            if is_clear(block.place(complex(x, top)), room):
+                return block, top
         return None
-    pictures = _shown(problem, structure, manner, right - EDGE - GAP - left, top - inner[1] - EDGE)
-    if pictures is None:
+
+    told = begun(lambda top: _told(problem, structure, manner, manner.column, top - low), right)
+    if told is None:
         return None
+    width = right - EDGE - GAP - left
+    shown = begun(
+        lambda top: _shown(problem, structure, manner, width, top - inner[1] - EDGE), left
+    )
+    if shown is None:
+        return None
+    pictures, top = shown
     box = (left, top - pictures.height, left + pictures.width, top)
-    placed = [*pictures.place(complex(left, top)), *column.place(complex(right, top))]
+    placed = [*pictures.place(complex(left, top)), *told[0].place(complex(right, told[1]))]
     return placed, [View("structure", box)]
 
 

@@ -11,6 +11,7 @@ from planmethod.note.numbers import russian
 from planmethod.render.block import Column, Lines
 from planmethod.render.drawing import Drawing, Item, Pen, Stroke, Text
 from planmethod.render.frame import paper_format, sheet_frame
+from planmethod.render.furniture import Furniture
 from planmethod.render.lettering import OutlineLettering, in_use
 from planmethod.render.lint import GRID
 from planmethod.render.pack import EDGE
@@ -85,7 +86,7 @@ def lettering_sheet(fields: Mapping[str, str] = MappingProxyType({})) -> Drawing
     title = f"Шрифт чертёжный типа {KINDS[used.style.kind]} {slope}"
     texts = {"title": title, "material": "ГОСТ 2.304-81", **fields}
     drawing = Drawing(fmt.width, fmt.height, title)
-    items, inner, _ = sheet_frame(fmt, texts)
+    items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False))
     drawing.extend(items)
     left, top = inner[0] + EDGE, inner[3] - EDGE - 4.0
     d = HEIGHT * used.line

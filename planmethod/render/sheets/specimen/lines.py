@@ -16,6 +16,7 @@ from types import MappingProxyType
 from planmethod.render.block import Align, fit, heading
 from planmethod.render.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.frame import sheet_frame
+from planmethod.render.furniture import Furniture
 from planmethod.render.sheets.specimen.cells import Cell, drawn_grid
 from planmethod.render.style import ARROW, PENS, S, stroke_lines
 from planmethod.render.symbols import (
@@ -112,7 +113,7 @@ def measured(items: Sequence[Item]) -> str:
 def lines_sheet(fields: Mapping[str, str] = MappingProxyType({})) -> Drawing:
     """Draw every line type with its width, dashes and use (лист типов линий)."""
     texts = {"title": TITLE, "material": "ГОСТ 2.303", "scale": "1:1", **fields}
-    items, inner, _ = sheet_frame(PAPER, texts)
+    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False))
     sheet = Drawing(420.0, 297.0, texts["title"], items)
     middle = (inner[0] + inner[2]) / 2
     head = heading(f"{TITLE}, s = {said(S)} мм", 7.0)

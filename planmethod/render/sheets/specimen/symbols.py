@@ -10,6 +10,7 @@ from types import MappingProxyType
 from planmethod.render.block import Column, heading, paragraph
 from planmethod.render.drawing import Bounds, Drawing, Item
 from planmethod.render.frame import sheet_frame
+from planmethod.render.furniture import Furniture
 from planmethod.render.sheets.specimen.cells import Cell, drawn_grid, letter
 from planmethod.render.sheets.specimen.wheels import wheel_cells
 from planmethod.render.style import ARROW
@@ -55,7 +56,7 @@ def standard(item: str = "") -> str:
 def symbols_sheet(fields: Mapping[str, str] = MappingProxyType({})) -> Drawing:
     """Draw every symbol at working size with its name (лист условных обозначений)."""
     texts = {"title": TITLE, "material": "ГОСТ 2.770", "scale": "1:1", **fields}
-    items, inner, _ = sheet_frame(PAPER, texts)
+    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False))
     sheet = Drawing(594.0, 420.0, texts["title"], items)
     middle = (inner[0] + inner[2]) / 2
     head = heading(TITLE, 7.0)

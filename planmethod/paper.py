@@ -1,0 +1,171 @@
+"""Paper (форматы листов: GOST 2.301): basic and elongated formats, standing and lying.
+
+A format is called ``A3``, an elongated one ``A4x3``. A4 stands, the others lie with their long side
+across; ``A3:portrait`` (``А3:книжная``) is the standing sheet.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import NoReturn, TypeAlias
+
+from planmethod.errors import LayoutError
+
+Box: TypeAlias = tuple[float, float, float, float]
+"""xmin, ymin, xmax, ymax in mm."""
+
+FRAME_LEFT = 20.0
+"""From the left edge of the sheet to the frame, mm (room for binding)."""
+FRAME_OTHER = 5.0
+"""From the other edges to the frame, mm."""
+STAMP_WIDTH, STAMP_HEIGHT = 185.0, 55.0
+"""Title block of form 1, mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """Paper format (формат), mm; ``name`` in Latin letters, as on the command line.
+
+    Attributes
+    ----------
+    name : str
+        ``A3``, ``A4x3``, ``A3:portrait``.
+    size : str
+        The same without the orientation: what stands after "Формат" under the frame.
+    like : str
+        Basic format as high as an elongated one that lies (as wide as one that stands), and so of
+        the same letter heights and sizes of views; the largest, A0, is like itself.
+    """
+
+    name: str
+    width: float
+    height: float
+    size: str = ""
+    like: str = ""
+
+    @property
+    def inner(self) -> Box:
+        """Inside of the frame, mm."""
+        right, top = self.width - FRAME_OTHER, self.height - FRAME_OTHER
+        return (FRAME_LEFT, FRAME_OTHER, right, top)
+
+    @property
+    def stamp(self) -> Box:
+        """Title block of form 1, mm: the lower right corner inside the frame."""
+        right = self.width - FRAME_OTHER
+        return (right - STAMP_WIDTH, FRAME_OTHER, right, FRAME_OTHER + STAMP_HEIGHT)
+
+    @property
+    def stands(self) -> bool:
+        """Whether the short side is across, and the title block along it."""
+        return self.width < self.height
+
+    @property
+    def cyrillic(self) -> str:
+        """Name as the sheet writes it: ``А3``, ``А4×3``, in Cyrillic letters."""
+        return (self.size or self.name).replace("A", "А").replace("x", "×")
+
+
+# GOST 2.301, table 1: short and long side.
+_BASIC: Mapping[str, tuple[int, int]] = MappingProxyType(
+    {"A4": (210, 297), "A3": (297, 420), "A2": (420, 594), "A1": (594, 841), "A0": (841, 1189)}
+)
+# GOST 2.301, table 2: how many times the short side is taken, and what that gives. The multiples
+# are those of the exact sides (A0 is a square metre), so that they differ from the whole ones of
+# table 1 by a millimetre or two.
+_ELONGATED: Mapping[str, Mapping[int, int]] = MappingProxyType(
+    {
+        "A4": {3: 630, 4: 841, 5: 1051, 6: 1261, 7: 1471, 8: 1682, 9: 1892},
+        "A3": {3: 891, 4: 1189, 5: 1486, 6: 1783, 7: 2080},
+        "A2": {3: 1261, 4: 1682, 5: 2102},
+        "A1": {3: 1783, 4: 2378},
+        "A0": {2: 1682, 3: 2523},
+    }
+)
+
+
+def _formats() -> Iterator[Format]:
+    """Yield every format: the basic ones, the elongated ones, then those that stand."""
+    names = tuple(_BASIC)
+    lying = [Format(name, long, short, name, name) for name, (short, long) in _BASIC.items()]
+    for number, (name, (_, side)) in enumerate(_BASIC.items()):
+        like = names[min(number + 1, len(names) - 1)]
+        lying += [
+            Format(f"{name}x{times}", long, side, f"{name}x{times}", like)
+            for times, long in _ELONGATED[name].items()
+        ]
+    standing = [
+        Format(f"{fmt.name}:portrait", fmt.height, fmt.width, fmt.size, fmt.like) for fmt in lying
+    ]
+    a4 = standing.pop(0)  # GOST 2.301: A4 stands
+    yield Format("A4", a4.width, a4.height, a4.size, a4.like)
+    yield from (*lying[1:], *standing)
+
+
+FORMATS: Mapping[str, Format] = MappingProxyType({fmt.name: fmt for fmt in _formats()})
+"""All formats by name, the basic ones first, from A4 to A0."""
+
+_LATIN = str.maketrans("АаaХхX×*", "AAAxxxxx")
+_NAME = re.compile(r"(A[0-4])(?:x([0-9]+))?")
+_TURNS = MappingProxyType(
+    {
+        "portrait": True,
+        "книжная": True,
+        "книжный": True,
+        "landscape": False,
+        "альбомная": False,
+        "альбомный": False,
+    }
+)
+
+
+def paper_format(name: str) -> Format:
+    """Return the format called ``name``.
+
+    Parameters
+    ----------
+    name : str
+        ``A3``, ``A4x3``, also with Cyrillic ``А`` or ``х`` and in any case; with ``:portrait`` or
+        ``:landscape`` (``:книжная``, ``:альбомная``) after it where the sheet is to be turned.
+
+    Raises
+    ------
+    LayoutError
+        If there is no such format, or A4 is to lie.
+    """
+    size, colon, turn = (part.strip() for part in name.partition(":"))
+    match = _NAME.fullmatch(size.translate(_LATIN))
+    if match is None:
+        basic = ", ".join(_BASIC)
+        raise LayoutError(
+            f"Unknown paper format {name!r}. Choose {basic}, an elongated one such as A4x3, or "
+            "one that stands, such as A3:portrait."
+        )
+    base, times = match[1], match[2]
+    if times is not None and int(times) not in _ELONGATED[base]:
+        _refuse_times(base, times)
+    if colon and turn.casefold() not in _TURNS:
+        raise LayoutError(
+            f"Unknown orientation {turn!r} of the paper {name!r}. Write {size}:portrait "
+            f"(книжная) or {size}:landscape (альбомная)."
+        )
+    plain = match[0]
+    stands = _TURNS[turn.casefold()] if colon else plain == "A4"
+    if plain == "A4":
+        if not stands:
+            raise LayoutError(
+                "A4 cannot lie: by GOST 2.301 it stands, its title block along the short side. "
+                "Take A4, or a lying A3."
+            )
+        return FORMATS["A4"]
+    return FORMATS[f"{plain}:portrait" if stands else plain]
+
+
+def _refuse_times(base: str, times: str) -> NoReturn:
+    known = ", ".join(f"{base}x{number}" for number in _ELONGATED[base])
+    raise LayoutError(
+        f"There is no paper format {base}x{times} in GOST 2.301. {base} is elongated to {known}."
+    )
