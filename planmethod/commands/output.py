@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import click
+
+if TYPE_CHECKING:
+    from planmethod.render.drawing import Drawing
 
 
 def put(text: str, file: str | None) -> None:
@@ -38,34 +41,50 @@ def put_parts(parts: Iterable[str], file: str) -> None:
 
 
 def write_drawings(
-    drawings: list[Any],
+    drawings: Sequence[Drawing],
     out: Path,
     stem: str,
-    formats: tuple[str, ...],
+    formats: Iterable[str],
     *,
     dpi: int = 100,
     author: str | None = None,
     dxf_text: Literal["text", "strokes"] = "text",
 ) -> None:
-    """Write drawings as ``stem.svg``, ``stem-2.svg``...; files appear only when all are made."""
-    from planmethod.render.backends import render
+    """Write the sheets of a problem; files appear only when all are made.
+
+    A format with pages has one file for all sheets, ``stem.pdf``; of the others each sheet has its
+    own, ``stem.svg``, ``stem-2.svg``...
+    """
+    from planmethod.render.backends import PAGED, render, render_pages
     from planmethod.render.backends.canvas import Options
     from planmethod.render.output import write
 
     options = Options(dpi=dpi, dxf_text=dxf_text)
     if author is not None:
         options = replace(options, author=author)
-    files = {
-        out / (f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"): render(
-            drawing, fmt, options=options
-        )
-        for number, drawing in enumerate(drawings, 1)
-        for fmt in formats
-    }
+    files: dict[Path, bytes] = {}
+    for fmt in formats:
+        if fmt in PAGED:
+            files[out / f"{stem}.{fmt}"] = render_pages(drawings, fmt, options=options)
+            continue
+        for number, drawing in enumerate(drawings, 1):
+            name = f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"
+            files[out / name] = render(drawing, fmt, options=options)
     for path, data in files.items():
         write(path, data)
     for path in files:
         click.echo(str(path))
+
+
+def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = None) -> None:
+    """Write sheets as the pages of one PDF."""
+    from planmethod.render.backends import render_pages
+    from planmethod.render.backends.canvas import Options
+    from planmethod.render.output import write
+
+    options = Options() if author is None else Options(author=author)
+    write(path, render_pages(drawings, options=options))
+    click.echo(str(path))
 
 
 def is_narrow() -> bool:

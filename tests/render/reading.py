@@ -139,13 +139,12 @@ def pdf_streams(data: bytes) -> Iterator[bytes]:
         yield decoded
 
 
-def read_pdf(data: bytes) -> Page:
-    """Read the one page of a PDF by its content stream."""
-    found = re.search(rb"/MediaBox \[\s*0 0 ([\d.]+) ([\d.]+)\s*\]", data)
-    assert found
-    width, height = (float(number) / 72 * 25.4 for number in found.groups())
+def read_pdf(data: bytes, number: int = 0) -> Page:
+    """Read a page of a PDF, counted from 0, by its content stream."""
+    sizes = re.findall(rb"/MediaBox \[\s*0 0 ([\d.]+) ([\d.]+)\s*\]", data)
+    width, height = (float(side) / 72 * 25.4 for side in sizes[number])
     page = Page(width, height, [])
-    content = next(stream for stream in pdf_streams(data) if b" cm" in stream)
+    content = [stream for stream in pdf_streams(data) if b" cm" in stream][number]
     state = {"w": 1.0, "G": 0.0, "g": 0.0}
     scale = 1.0
     em = 0.0

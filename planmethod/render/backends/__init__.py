@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 
 from planmethod.errors import OutputError
-from planmethod.render.backends.canvas import Canvas, Options, replay
+from planmethod.render.backends.canvas import Canvas, Options, draw_sheet, replay
 from planmethod.render.drawing import Drawing
 
-__all__ = ["BACKENDS", "Canvas", "Options", "render", "replay"]
+__all__ = ["BACKENDS", "PAGED", "Canvas", "Options", "render", "render_pages", "replay"]
 
 
 def _svg(options: Options) -> Canvas:
@@ -53,6 +53,9 @@ BACKENDS: Mapping[str, Callable[[Options], Canvas]] = MappingProxyType(
 )
 """Output formats by the suffix of their files. A canvas draws one sheet."""
 
+PAGED = frozenset({"pdf"})
+"""Formats whose files have pages: their canvases draw several sheets."""
+
 
 def render(drawing: Drawing, fmt: str, *, options: Options | None = None) -> bytes:
     """Return the file of ``drawing`` in the format ``fmt``.
@@ -71,7 +74,38 @@ def render(drawing: Drawing, fmt: str, *, options: Options | None = None) -> byt
     OutputError
         There is no such format, the picture would be too large for it, or its library is absent.
     """
+    return replay(drawing, _canvas(fmt, options))
+
+
+def render_pages(
+    drawings: Sequence[Drawing], fmt: str = "pdf", *, options: Options | None = None
+) -> bytes:
+    """Return one file with a page for each drawing, every page as large as its sheet.
+
+    Parameters
+    ----------
+    drawings : sequence of Drawing
+        At least one; the title of the first one is that of the file.
+    fmt : str
+        One of `PAGED`.
+
+    Raises
+    ------
+    OutputError
+        The format has no pages, or there is no drawing; and as `render`.
+    """
+    if fmt not in PAGED:
+        raise OutputError(f"'{fmt}' has no pages. Use one of: {', '.join(sorted(PAGED))}.")
+    if not drawings:
+        raise OutputError("There is no sheet to be put into the file. Draw at least one.")
+    canvas = _canvas(fmt, options)
+    for drawing in drawings:
+        draw_sheet(drawing, canvas)
+    return canvas.close()
+
+
+def _canvas(fmt: str, options: Options | None) -> Canvas:
     make = BACKENDS.get(fmt)
     if make is None:
         raise OutputError(f"Unknown format '{fmt}'. Use one of: {', '.join(BACKENDS)}.")
-    return replay(drawing, make(options or Options()))
+    return make(options or Options())

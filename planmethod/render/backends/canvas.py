@@ -28,6 +28,8 @@ class Options:
 class Canvas(Protocol):
     """Six verbs of an output format (холст): `open`, drawing in order, `close`.
 
+    A format with pages is opened once more for each further sheet; the others draw one sheet.
+
     Coordinates are millimetres, y up, origin at the lower left corner of the sheet. Pens, dashes
     and letter outlines are the business of `style` and `lettering`, which a canvas asks.
     """
@@ -95,6 +97,12 @@ def replay(drawing: Drawing, canvas: Canvas) -> bytes:
         An item has a coordinate that is not a finite number: whoever made it forgot to ask whether
         the point exists.
     """
+    draw_sheet(drawing, canvas)
+    return canvas.close()
+
+
+def draw_sheet(drawing: Drawing, canvas: Canvas) -> None:
+    """Draw the display list on ``canvas`` as its next sheet, see `replay`."""
     canvas.open(drawing.width, drawing.height, drawing.title, drawing.lettering)
     for number, item in enumerate(drawing.items):
         if not all(map(isfinite, _coordinates(item))):
@@ -115,4 +123,3 @@ def replay(drawing: Drawing, canvas: Canvas) -> bytes:
                 canvas.text(item)
             case _:
                 assert_never(item)
-    return canvas.close()

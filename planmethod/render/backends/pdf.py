@@ -42,12 +42,24 @@ class PdfCanvas:
         self._ink: Ink | None = None
 
     def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
-        """Begin a sheet whose unit is the millimetre."""
+        """Begin a page whose unit is the millimetre; the first one begins the file."""
         self._font = _registered(lettering)
         self._lettering = lettering
+        size = (width * _MM, height * _MM)
+        if self._pdf is None:
+            self._begin(size, title)
+        else:
+            self._pdf.showPage()
+            self._pdf.setPageSize(size)
+            self._pen = self._ink = None  # every page begins anew
+        self._pdf.scale(_MM, _MM)
+        self._pdf.setLineJoin(1)
+
+    def _begin(self, size: tuple[float, float], title: str) -> None:
+        """Begin the file with the size of its first page, points."""
         self._pdf = Pdf(
             self._file,
-            pagesize=(width * _MM, height * _MM),
+            pagesize=size,
             pageCompression=1,
             # The same drawing gives the same bytes: no clock in the file.
             invariant=1,
@@ -58,8 +70,6 @@ class PdfCanvas:
         self._pdf.setAuthor(self._author)
         self._pdf.setCreator("planmethod")
         self._pdf.setSubject("")
-        self._pdf.scale(_MM, _MM)
-        self._pdf.setLineJoin(1)
 
     def _take_pen(self, pen: Pen) -> None:
         if pen is self._pen:
@@ -130,7 +140,7 @@ class PdfCanvas:
         self._pdf.drawText(run)
 
     def close(self) -> bytes:
-        """Return the file."""
+        """End the last page and return the file."""
         self._pdf.showPage()
         self._pdf.save()
         return self._file.getvalue()
