@@ -66,6 +66,13 @@ class CompositionError(ProblemError):
     kind = "layout file"
 
 
+class ConfigError(ProblemError):
+    """The user's config file is faulty; all its faults are in `faults`."""
+
+    exit_code = ExitCode.USAGE
+    kind = "config file"
+
+
 class ProgramError(PlanMethodError):
     """A construction program is malformed: a mistake of ours, never of the user."""
 

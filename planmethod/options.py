@@ -102,19 +102,6 @@ def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tupl
     return names
 
 
-def read_fields(
-    ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
-) -> dict[str, str]:
-    """Return the fields of the title block given as ``author=Иванов``."""
-    fields = {}
-    for field in value:
-        key, sign, text = field.partition("=")
-        if not sign or not key.strip():
-            raise click.BadParameter(f"{field!r} is not key=text, such as author=Иванов")
-        fields[key.strip()] = text.strip()
-    return fields
-
-
 def problem_options(command: F) -> F:
     """Add the options that choose the problems."""
     for option in (
@@ -197,17 +184,6 @@ def out_option(command: F) -> F:
         default=Path("out"),
         show_default=True,
         help="Folder for the files.",
-    )(command)
-
-
-def stamp_option(command: F) -> F:
-    """Add the fields of the title block."""
-    return click.option(
-        "--stamp",
-        callback=read_fields,
-        multiple=True,
-        metavar="KEY=TEXT",
-        help="Field of the title block.",
     )(command)
 
 

@@ -497,7 +497,7 @@ def test_an_unknown_format_is_told_with_the_known_ones() -> None:
     assert refused.exit_code == 2
     assert "'dwg' is not one of svg, pdf, png, dxf" in refused.output.replace("\n", " ")
     refused = run("sheet", EX1, "--paper", "A9")
-    assert "Unknown paper format 'A9'. Choose one of: A4, A3, A2, A1" in refused.output
+    assert "Unknown paper format 'A9'. Choose A4, A3, A2, A1, A0" in refused.output
 
 
 def test_a_field_of_the_title_block() -> None:

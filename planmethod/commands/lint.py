@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.output import is_narrow
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode
@@ -17,7 +18,6 @@ from planmethod.options import (
     layout_option,
     problem_options,
     reading_options,
-    stamp_option,
 )
 
 if TYPE_CHECKING:
@@ -28,8 +28,7 @@ if TYPE_CHECKING:
 @click.command()
 @problem_options
 @reading_options
-@click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
-@stamp_option
+@sheet_options
 @layout_option
 @click.option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
 @click.option("--sigma", is_flag=True, help="With the drafting errors in the table of results.")
@@ -47,8 +46,7 @@ def lint(
     phi: Positions | None,
     ruler: float | None,
     profile: str,
-    paper: str | None,
-    stamp: dict[str, str],
+    asked: Asked,
     layout: str | None,
     errors: bool,
     sigma: bool,
@@ -75,19 +73,20 @@ def lint(
         )
     composed = None if layout is None else composition(layout)
     positions = None if phi is None else phi.tolist()
+    settled = asked.settle()
     records: list[dict[str, Any]] = []
     found: list[Controlled] = []
 
     def look(problem: Problem) -> None:
+        problem = settled(problem)
         if structural:
-            sheets = controlled_structure(problem, paper=paper, fields=stamp)
+            sheets = controlled_structure(problem, fields=asked.fields)
         else:
             sheets = controlled_kinematics(
                 problem,
-                paper=paper,
                 positions=positions,
                 profile=drawn_by(profile, ruler),
-                fields=stamp,
+                fields=asked.fields,
                 errors=errors,
                 sigma=sigma,
                 layout=composed,

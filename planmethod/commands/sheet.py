@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from planmethod.commands.output import write_drawings
+from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.output import write_drawings, write_set
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import (
     Positions,
@@ -18,11 +19,20 @@ from planmethod.options import (
     out_option,
     problem_options,
     reading_options,
-    stamp_option,
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from planmethod.problem.model import Problem
+    from planmethod.render.drawing import Drawing
+
+
+def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Return the name of a PDF file."""
+    if value is not None and Path(value).suffix.lower() != ".pdf":
+        raise click.BadParameter(f"{value!r} does not end in .pdf")
+    return value
 
 
 @click.command()
@@ -30,9 +40,14 @@ if TYPE_CHECKING:
 @reading_options
 @out_option
 @format_option("svg,pdf")
-@click.option("--paper", metavar="FORMAT", help="A4, A3, A2, A1; chosen to fit when absent.")
-@stamp_option
+@sheet_options
 @layout_option
+@click.option(
+    "--one-file",
+    callback=read_name,
+    metavar="NAME.pdf",
+    help="All sheets in one PDF, numbered through, instead of one of each problem.",
+)
 @click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
 @click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
@@ -47,40 +62,63 @@ def sheet(
     profile: str,
     out: Path,
     formats: tuple[str, ...],
-    paper: str | None,
-    stamp: dict[str, str],
+    asked: Asked,
     layout: str | None,
+    one_file: str | None,
     errors: bool,
     sigma: bool,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
+    from planmethod.render.furniture import Furniture
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
     composed = None if layout is None else composition(layout)
     positions = None if phi is None else phi.tolist()
+    settled = asked.settle()
 
-    def draw(problem: Problem) -> None:
-        drawings = kinematics_sheets(
+    def drawn(problem: Problem, *, before: int = 0, total: int | None = None) -> list[Drawing]:
+        return kinematics_sheets(
             problem,
-            paper=paper,
             positions=positions,
             profile=drawn_by(profile, ruler),
-            fields=stamp,
+            fields=asked.fields,
+            furniture=Furniture.of(problem.sheet, before=before, total=total),
             errors=errors,
             sigma=sigma,
             layout=composed,
         )
+
+    def written(problem: Problem, drawings: list[Drawing], formats: Iterable[str]) -> None:
+        author = asked.author(problem)
         write_drawings(
-            drawings,
-            out,
-            stem(problem),
-            formats,
-            dpi=dpi,
-            author=stamp.get("author"),
-            dxf_text=dxf_text,
+            drawings, out, stem(problem), formats, dpi=dpi, author=author, dxf_text=dxf_text
         )
 
-    finish(each(problems, variant, all_variants, draw))
+    if one_file is None:
+
+        def draw(problem: Problem) -> None:
+            problem = settled(problem)
+            written(problem, drawn(problem), formats)
+
+        finish(each(problems, variant, all_variants, draw))
+        return
+
+    whole: list[tuple[Problem, list[Drawing]]] = []
+
+    def gather(problem: Problem) -> None:
+        problem = settled(problem)
+        whole.append((problem, drawn(problem, before=sum(len(some) for _, some in whole))))
+
+    code = each(problems, variant, all_variants, gather)
+    if whole:
+        # The first sheet says how many there are, which is known only now.
+        first, total = whole[0][0], sum(len(some) for _, some in whole)
+        whole[0] = (first, drawn(first, total=total))
+        for problem, drawings in whole:
+            written(problem, drawings, [fmt for fmt in formats if fmt != "pdf"])
+        pages = [drawing for _, drawings in whole for drawing in drawings]
+        write_set(pages, out / one_file, author=asked.author(first))
+    finish(code)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
+from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.output import is_narrow, write_drawings
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import (
@@ -15,7 +16,6 @@ from planmethod.options import (
     lang_option,
     out_option,
     problem_options,
-    stamp_option,
 )
 
 if TYPE_CHECKING:
@@ -29,8 +29,7 @@ if TYPE_CHECKING:
 @format_option("svg")
 @dxf_text_option
 @click.option("--no-drawing", is_flag=True, help="Text only.")
-@click.option("--paper", metavar="FORMAT", help="A3, A2...; chosen to fit when absent.")
-@stamp_option
+@sheet_options
 @lang_option
 @guarded
 def structure(
@@ -42,12 +41,14 @@ def structure(
     formats: tuple[str, ...],
     dxf_text: Literal["text", "strokes"],
     no_drawing: bool,
-    paper: str | None,
-    stamp: dict[str, str],
+    asked: Asked,
     lang: str,
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
     from planmethod.mechanism.structure import analyse
+
+    drawn = not as_json and not no_drawing
+    settled = asked.settle() if drawn else None
 
     def show(problem: Problem) -> None:
         found = analyse(problem.mechanism)
@@ -63,10 +64,18 @@ def structure(
         from planmethod.note.structure_text import structure_text
 
         click.echo(structure_text(problem.mechanism, found, lang))
-        if not no_drawing:
+        if settled is not None:
             from planmethod.render.sheets.structure import structure_sheet
 
-            drawing = structure_sheet(problem, found, paper=paper, fields=stamp)
-            write_drawings([drawing], out, f"{stem(problem)}-structure", formats, dxf_text=dxf_text)
+            problem = settled(problem)
+            drawing = structure_sheet(problem, found, fields=asked.fields)
+            write_drawings(
+                [drawing],
+                out,
+                f"{stem(problem)}-structure",
+                formats,
+                author=asked.author(problem),
+                dxf_text=dxf_text,
+            )
 
     finish(each(problems, variant, all_variants, show))

@@ -1,0 +1,195 @@
+"""What is asked of the sheets: options over the problem file over the user's config file."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+import click
+
+if TYPE_CHECKING:
+    from planmethod.problem.config import Config
+    from planmethod.problem.model import Problem, SheetSettings
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What the command line asks of paper and title block (заказанное оформление).
+
+    Attributes
+    ----------
+    fields : mapping
+        Texts of the title block.
+    sheet : mapping
+        What is said of the other keys of ``[sheet]``; None where nothing is.
+    config : Path, optional
+        The config file, if it is named.
+    no_config : bool
+        Whether every config file is passed over.
+    """
+
+    fields: Mapping[str, str]
+    sheet: Mapping[str, str | bool | None]
+    config: Path | None = None
+    no_config: bool = False
+
+    def settle(self) -> Callable[[Problem], Problem]:
+        """Read the config file, and return what gives a problem all that is asked of its sheets.
+
+        The texts of the options are left to the sheets, as they outrank even computed numbers.
+
+        Raises
+        ------
+        ConfigError
+            The config file is faulty.
+        LayoutError
+            A field of the options is unknown.
+        """
+        from planmethod.problem.model import SheetSettings
+        from planmethod.render.titleblock import check_fields
+
+        check_fields(self.fields)
+        config, options = self._config(), SheetSettings(**self.sheet)  # type: ignore[arg-type]
+
+        def settled(problem: Problem) -> Problem:
+            return laid_over(config, problem, options)
+
+        return settled
+
+    def _config(self) -> Config:
+        from planmethod.problem.config import Config, find_config, load_config
+
+        if self.no_config:
+            if self.config is not None:
+                raise click.UsageError("give --config or --no-config, not both")
+            return Config()
+        path = self.config or find_config()
+        return Config() if path is None else load_config(path)
+
+    def author(self, problem: Problem) -> str | None:
+        """Return whom the files of a problem name as their author."""
+        return self.fields.get("author", problem.stamp.get("author")) or None
+
+
+def laid_over(config: Config, problem: Problem, options: SheetSettings) -> Problem:
+    """Return a problem with the options over its settings, and a config file under them.
+
+    The title of the problem outranks one of the config file: it is what the sheets show.
+    """
+    from planmethod.render.titleblock import merged
+
+    own = {"title": problem.title} if problem.title else {}
+    stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp
+    sheet = options.over(problem.sheet.over(config.sheet))
+    return replace(problem, stamp=stamp, sheet=sheet)
+
+
+# Options -----------------------------------------------------------------------------------------
+
+
+def read_fields(
+    ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
+) -> dict[str, str]:
+    """Return the fields of the title block given as ``author=Иванов``."""
+    fields = {}
+    for field in value:
+        key, sign, text = field.partition("=")
+        if not sign or not key.strip():
+            raise click.BadParameter(f"{field!r} is not key=text, such as author=Иванов")
+        fields[key.strip()] = text.strip()
+    return fields
+
+
+def read_paper(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Return the name of a paper format."""
+    if value is None:
+        return None
+    from planmethod.errors import LayoutError
+    from planmethod.paper import paper_format
+
+    try:
+        return paper_format(value).name
+    except LayoutError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def read_form(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Return the form of the title block; the letter may be Cyrillic."""
+    if value is None:
+        return None
+    from planmethod.problem.keys import FORMS
+    from planmethod.problem.sheet import chosen
+
+    form = chosen(value, FORMS)
+    if form is None:
+        raise click.BadParameter(f"{value!r} is not one of {', '.join(FORMS)}")
+    return form
+
+
+_SHEET_OPTIONS = (
+    click.option(
+        "--paper",
+        callback=read_paper,
+        metavar="FORMAT",
+        help="A4, A3, A4x3, A3:portrait...; chosen to fit when absent.",
+    ),
+    click.option(
+        "--stamp",
+        callback=read_fields,
+        multiple=True,
+        metavar="KEY=TEXT",
+        help="Field of the title block.",
+    ),
+    click.option(
+        "--form",
+        callback=read_form,
+        metavar="FORM",
+        help="Title block: 1, 1+2a (later sheets 2a), 2 (later sheets 2a), 2a.",
+    ),
+    click.option(
+        "--graph-26/--no-graph-26",
+        default=None,
+        help="Designation in the upper corner; by default with form 1.",
+    ),
+    click.option(
+        "--graphs-27-30/--no-graphs-27-30", default=None, help="Cells for a customer's marks."
+    ),
+    click.option(
+        "--side-columns/--no-side-columns",
+        default=None,
+        help="Graphs 19 to 25 in the binding margin.",
+    ),
+    click.option(
+        "--config",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Config file instead of the usual one.",
+    ),
+    click.option("--no-config", is_flag=True, help="Read no config file."),
+)
+
+
+def sheet_options(command: F) -> F:
+    """Add paper, title block and config file; the command gets them as one `Asked`."""
+
+    @functools.wraps(command)
+    def with_asked(*args: Any, **kwargs: Any) -> Any:
+        from planmethod.problem.keys import SHEET
+
+        asked = Asked(
+            fields=kwargs.pop("stamp"),
+            sheet={key: kwargs.pop(key) for key in SHEET if key in kwargs},
+            config=kwargs.pop("config"),
+            no_config=kwargs.pop("no_config"),
+        )
+        return command(*args, asked=asked, **kwargs)
+
+    whole: Any = with_asked
+    for option in reversed(_SHEET_OPTIONS):
+        whole = option(whole)
+    return cast("F", whole)

@@ -1,0 +1,93 @@
+"""The user's config file (файл настроек): what stands in every title block, and the make-up wished.
+
+A student writes surname, group and checker into it once; the problem file outranks it.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from planmethod.errors import ConfigError, Fault, ProblemError
+from planmethod.problem import keys
+from planmethod.problem.fields import Faults, read_keys
+from planmethod.problem.model import SheetSettings
+from planmethod.problem.sheet import read_sheet, read_stamp
+from planmethod.problem.source import parse, read_source
+
+VARIABLE = "PLANMETHOD_CONFIG"
+"""Environment variable that names the config file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """What a config file says (настройки)."""
+
+    stamp: Mapping[str, str] = field(default_factory=dict)
+    sheet: SheetSettings = field(default_factory=SheetSettings)
+
+
+def usual_place(environ: Mapping[str, str] = os.environ, platform: str = sys.platform) -> Path:
+    """Return where the config file is when nobody says: it need not be there."""
+    if platform == "win32":
+        folder = environ.get("APPDATA", "")
+        base = Path(folder) if folder else Path.home() / "AppData" / "Roaming"
+    else:
+        folder = environ.get("XDG_CONFIG_HOME", "")
+        # the XDG rule: a relative path there is as if it were absent
+        base = Path(folder) if folder.startswith("/") else Path.home() / ".config"
+    return base / "planmethod" / "config.toml"
+
+
+def find_config(environ: Mapping[str, str] = os.environ) -> Path | None:
+    """Return the config file of the user, or None where there is none.
+
+    A file that `VARIABLE` names is returned whether it exists or not; the usual one if it exists.
+    """
+    named = environ.get(VARIABLE, "")
+    if named:
+        return Path(named)
+    try:
+        usual = usual_place(environ)
+        return usual if usual.exists() else None
+    except (OSError, RuntimeError):  # no home, or no right to look into it
+        return None
+
+
+def load_config(path: Path) -> Config:
+    """Read a config file.
+
+    Raises
+    ------
+    ConfigError
+        With every fault of the file: path, what was expected, what came, the nearest name.
+    """
+    name = str(path)
+    try:
+        if not path.exists():
+            hint = f"Check --config or {VARIABLE}, or go without: --no-config."
+            raise ConfigError(name, [Fault("", "there is no such file", hint)])
+        if path.is_dir():
+            raise ConfigError(
+                name, [Fault("", "this is a directory", "Name the file itself, config.toml.")]
+            )
+        table = parse(read_source(path), name=name)
+    except ConfigError:
+        raise
+    except ProblemError as error:
+        raise ConfigError(name, error.faults) from None
+    except OSError as error:
+        raise ConfigError(
+            name, [Fault("", f"the file cannot be read: {error.strerror}", "Check the path.")]
+        ) from None
+    faults = Faults()
+    given = read_keys(faults, "", table, keys.CONFIG)
+    config = Config(
+        read_stamp(faults, given.get("stamp", {})), read_sheet(faults, given.get("sheet", {}))
+    )
+    if faults:
+        raise ConfigError(name, faults.found)
+    return config

@@ -1,0 +1,235 @@
+"""Paper, title block, config file and sets of sheets from the command line."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from worked import path_of
+
+from planmethod.cli import cli
+from planmethod.paper import FORMATS
+
+EX1, EX2 = str(path_of("linkages/ex1")), str(path_of("linkages/ex2"))
+VARIANTS = str(path_of("levers/task12-variants"))
+
+
+@pytest.fixture(autouse=True)
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def run(*args: str) -> Result:
+    return CliRunner().invoke(cli, args)
+
+
+def config(text: str, name: str = "my-config.toml") -> str:
+    Path(name).write_text(text, encoding="utf-8")
+    return name
+
+
+def drawn(*args: str) -> str:
+    done = run("sheet", EX1, "--format", "svg", *args)
+    assert done.exit_code == 0, done.output
+    return Path("out/ex1.svg").read_text("utf-8")
+
+
+# Paper and forms ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["A4", "A3", "A3:portrait", "А2:книжная", "A4x3", "A3x3:portrait"])
+@pytest.mark.parametrize("command", ["sheet", "lint"])
+def test_papers(command: str, name: str) -> None:
+    done = run(command, EX1, "--paper", name, *(["--format", "svg"] if command == "sheet" else []))
+    assert done.exit_code == 0, done.output
+
+
+def test_the_page_is_the_paper() -> None:
+    head = drawn("--paper", "A3:portrait")[:600]
+    assert 'width="297mm"' in head
+    assert 'height="420mm"' in head
+
+
+@pytest.mark.parametrize("command", ["sheet", "lint", "structure"])
+@pytest.mark.parametrize(
+    ("option", "value", "said"),
+    [
+        ("--paper", "A4:landscape", "A4 cannot lie: by GOST 2.301 it stands"),
+        ("--paper", "A3x2", "There is no paper format A3x2 in GOST 2.301"),
+        ("--form", "3", "'3' is not one of 1, 1+2a, 2, 2a"),
+        ("--stamp", "autor=x", "Unknown field 'autor' of the title block. Did you mean author?"),
+        ("--config", "no.toml", "no.toml: 1 fault in the config file"),
+    ],
+)
+def test_faults_of_the_options(command: str, option: str, value: str, said: str) -> None:
+    refused = run(command, EX1, option, value)
+    assert refused.exit_code == 2
+    assert said in refused.output
+    assert not Path("out").exists()
+
+
+@pytest.mark.parametrize("form", ["1", "1+2a", "2", "2а", "2a"])
+def test_forms_are_drawn_and_clean(form: str) -> None:
+    assert run("lint", EX1, "--form", form, "--side-columns", "--graphs-27-30").exit_code == 0
+
+
+def test_a_structural_sheet_with_all_there_is() -> None:
+    options = ("--side-columns", "--graphs-27-30", "--form", "2")
+    assert run("lint", EX1, "--structure", *options).exit_code == 0
+    assert run("structure", EX1, *options, "--paper", "A1:portrait").exit_code == 0
+
+
+# Config file -------------------------------------------------------------------------------------
+
+
+def test_options_outrank_the_problem_and_the_problem_outranks_the_config() -> None:
+    text = Path(EX1).read_text("utf-8").replace("[stamp]\n", '[stamp]\nauthor = "Задачин"\n', 1)
+    text += '\n[sheet]\npaper = "A1"\n'
+    Path("mine.toml").write_text(text, "utf-8")
+    name = config(
+        '[stamp]\nauthor = "Настройкин"\nchecker = "Проверкин"\ntitle = "Общее"\n'
+        '[sheet]\npaper = "A2"\nside_columns = true\n'
+    )
+
+    def shown(*args: str) -> str:
+        assert run("sheet", "mine.toml", "--format", "svg", *args).exit_code == 0
+        return Path("out/mine.svg").read_text("utf-8")
+
+    bare = shown()
+    assert "Задачин" in bare
+    assert "Проверкин" not in bare
+    with_config = shown("--config", name)
+    assert "Задачин" in with_config
+    assert "Проверкин" in with_config
+    assert "Настройкин" not in with_config
+    assert "Общее" not in with_config  # the problem has a title
+    assert 'width="841mm"' in with_config
+    assert "Инв. № подл." in with_config
+    asked = ("--stamp", "author=Опциев", "--paper", "A3x3", "--no-side-columns")
+    with_options = shown("--config", name, *asked)
+    assert "Опциев" in with_options
+    assert "Задачин" not in with_options
+    assert 'width="891mm"' in with_options
+    assert "Инв. № подл." not in with_options
+
+
+def test_the_config_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PLANMETHOD_CONFIG", config('[stamp]\nauthor = "Настройкин"\n'))
+    assert "Настройкин" in drawn()
+    assert "Настройкин" not in drawn("--no-config")
+    other = config('[stamp]\nauthor = "Другой"\n', "other.toml")
+    assert "Другой" in drawn("--config", other)
+    done = run("structure", EX1)
+    assert "Настройкин" in Path("out/ex1-structure.svg").read_text("utf-8")
+    assert done.exit_code == 0
+
+
+def test_an_option_clears_a_field(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PLANMETHOD_CONFIG", config('[stamp]\nauthor = "Настройкин"\n'))
+    assert "Настройкин" not in drawn("--stamp", "author=")
+
+
+def test_a_faulty_config_is_told_once_and_nothing_is_drawn() -> None:
+    name = config("[stamp]\nautor = 'x'\n[sheet]\nform = '7'\n")
+    refused = run("sheet", EX1, EX2, "--config", name)
+    assert refused.exit_code == 2
+    assert refused.output.count("in the config file") == 1
+    assert "stamp.autor: unknown key. Did you mean 'author'?" in refused.output
+    assert "sheet.form: expected one of" in refused.output
+    assert not Path("out").exists()
+    assert run("sheet", EX1, "--config", name, "--no-config").exit_code == 2
+
+
+def test_a_command_that_draws_nothing_reads_no_config(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PLANMETHOD_CONFIG", "no-such-file.toml")
+    assert run("structure", EX1, "--no-drawing").exit_code == 0
+    assert run("solve", EX1).exit_code == 0
+    assert run("sheet", EX1).exit_code == 2
+
+
+# Several sheets ----------------------------------------------------------------------------------
+
+
+def sizes(pdf: Path) -> list[tuple[int, int]]:
+    """Return the sizes of the pages of a PDF, mm."""
+    boxes = re.findall(rb"/MediaBox \[ ?([\d. ]+?) ?\]", pdf.read_bytes())
+    return [
+        (round(float(w) * 25.4 / 72), round(float(h) * 25.4 / 72))
+        for w, h in (box.split()[2:] for box in boxes)
+    ]
+
+
+def pages(pdf: Path) -> list[str]:
+    if shutil.which("pdftotext") is None:
+        pytest.skip("needs pdftotext")
+    command = ["pdftotext", "-layout", "-enc", "UTF-8", str(pdf), "-"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=True)
+    return done.stdout.split("\f")[:-1]
+
+
+def numbers(page: str) -> tuple[str, ...]:
+    found = re.search(r"Лист +(\d*) *Листов *(\d*)", page)
+    assert found is not None
+    return found.groups()
+
+
+def test_several_sheets_are_pages_of_one_pdf() -> None:
+    done = run("sheet", EX2, "--phi", "0:360:15", "--format", "svg,pdf,dxf")
+    assert done.exit_code == 0
+    names = sorted(path.name for path in Path("out").iterdir())
+    assert names == ["ex2-2.dxf", "ex2-2.svg", "ex2.dxf", "ex2.pdf", "ex2.svg"]
+    told = pages(Path("out/ex2.pdf"))
+    assert len(told) == len(sizes(Path("out/ex2.pdf"))) == 2
+    assert [numbers(page) for page in told] == [("1", "2"), ("2", "")]
+    for page in told:
+        assert "Планы скоростей" in page
+
+
+def test_a_set_of_problems_in_one_file() -> None:
+    args = ("sheet", EX1, EX2, "--format", "svg,pdf", "--one-file", "set.pdf")
+    done = run(*args, "--form", "1+2a")
+    assert done.exit_code == 0, done.output
+    assert sorted(path.name for path in Path("out").iterdir()) == ["ex1.svg", "ex2.svg", "set.pdf"]
+    assert sizes(Path("out/set.pdf")) == [
+        (FORMATS[name].width, FORMATS[name].height) for name in ("A3", "A2")
+    ]
+    first, second = pages(Path("out/set.pdf"))
+    assert numbers(first) == ("1", "2")
+    assert "Листов" not in second  # form 2a
+    assert "Листов" not in Path("out/ex2.svg").read_text("utf-8")
+    before = Path("out/set.pdf").read_bytes()
+    assert run(*args, "--form", "1+2a").exit_code == 0
+    assert Path("out/set.pdf").read_bytes() == before
+    assert "Helvetica" not in before.decode("latin-1")
+
+
+def test_variants_in_one_file_are_numbered_through() -> None:
+    done = run("sheet", VARIANTS, "--all-variants", "--format", "pdf", "--one-file", "all.pdf")
+    assert done.exit_code == 0, done.output
+    assert [path.name for path in Path("out").iterdir()] == ["all.pdf"]
+    told = [numbers(page) for page in pages(Path("out/all.pdf"))]
+    assert told[0] == ("1", "6")
+    assert told[1:] == [(str(k), "") for k in range(2, 7)]
+
+
+def test_a_single_problem_in_one_file_is_no_set() -> None:
+    assert run("sheet", EX1, "--format", "pdf", "--one-file", "one.pdf").exit_code == 0
+    run("sheet", EX1, "--format", "pdf")
+    assert Path("out/one.pdf").read_bytes() == Path("out/ex1.pdf").read_bytes()
+
+
+def test_a_faulty_problem_is_left_out_of_the_set() -> None:
+    done = run("sheet", "none.toml", EX1, EX2, "--format", "pdf", "--one-file", "set.pdf")
+    assert done.exit_code == 3
+    assert len(sizes(Path("out/set.pdf"))) == 2
+
+
+def test_the_name_of_the_set_ends_in_pdf() -> None:
+    refused = run("sheet", EX1, "--one-file", "set.svg")
+    assert refused.exit_code == 2
+    assert "'set.svg' does not end in .pdf" in refused.output
