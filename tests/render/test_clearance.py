@@ -1,0 +1,37 @@
+"""Sheets keep out of the graphs that stand within the frame."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from worked import path_of
+
+from planmethod.mechanism.structure import analyse
+from planmethod.problem import load
+from planmethod.problem.model import SheetSettings
+from planmethod.render.normcontrol import inspect
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.structure import structure_sheet
+
+
+@pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "levers/six-link"])
+@pytest.mark.parametrize("paper", [None, "A3:portrait", "A2:portrait", "A4x3", "A4"])
+def test_sheets_keep_out_of_the_graphs(name: str, paper: str | None) -> None:
+    settings = SheetSettings(paper, graphs_27_30=True, side_columns=True)
+    problem = replace(load(path_of(name)), sheet=settings)
+    for drawing in kinematics_sheets(problem):
+        assert [f.message for f in inspect(drawing) if f.code not in ("PM-D08", "PM-D10")] == []
+
+
+@pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "press/press"])
+def test_structural_sheets_keep_out_of_the_graphs(name: str) -> None:
+    problem = replace(load(path_of(name)), sheet=SheetSettings(graphs_27_30=True))
+    drawing = structure_sheet(problem, analyse(problem.mechanism))
+    assert [f.message for f in inspect(drawing) if f.code != "PM-D10"] == []
+
+
+def test_a_dozen_of_positions_keeps_out_of_the_graphs() -> None:
+    problem = load(path_of("linkages/ex2"))
+    for drawing in kinematics_sheets(problem, positions=[30.0 * k for k in range(12)]):
+        assert not [f for f in inspect(drawing) if f.code == "PM-D13"]
