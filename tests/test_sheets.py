@@ -14,6 +14,7 @@ from worked import PROBLEMS, ROOT, every_file, path_of, problem_of
 
 from planmethod.bench.generator import random_problem
 from planmethod.errors import ExitCode, LayoutError
+from planmethod.plans.solution import Solution
 from planmethod.problem import load, loads, variant_names
 from planmethod.render.backends import render
 from planmethod.render.drawing import Drawing, Text
@@ -148,6 +149,16 @@ def test_more_than_a_dozen_of_positions_go_on_further_sheets() -> None:
     assert len(sheets) == 2
     assert size(sheets[0]) == size(sheets[1])
     assert marks(sheets) == []
+
+
+@pytest.mark.parametrize("paper", ["A1", "A2:portrait", "A4x4"])
+def test_the_paper_of_the_file_sets_the_scales_of_sheet_and_numbers(paper: str) -> None:
+    text = re.sub(r"(?m)^mu_.*\n", "", path_of("linkages/ex3").read_text("utf-8"))
+    problem = loads(f'{text}\n[sheet]\npaper = "{paper}"\n', name="ex3")
+    (sheet,) = kinematics_sheets(problem)
+    assert size(sheet) == (FORMATS[paper].width, FORMATS[paper].height)
+    scales = {kind.value: scale.per_mm for kind, scale in Solution(problem).scales.items()}
+    assert {view.kind: view.per_mm for view in sheet.views} == scales
 
 
 def test_fields_asked_outrank_the_files() -> None:

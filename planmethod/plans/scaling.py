@@ -53,11 +53,13 @@ class Views:
 
     @classmethod
     def for_problem(cls, problem: Problem, positions: int) -> Views:
-        """Return the boxes of the format that a sheet is tried on first.
+        """Return the boxes of the file's format, or of that which a sheet is tried on first.
 
         With the scales of the file a three-link mechanism may do with A3; chosen scales take A2, so
         that plans are large enough to measure and their formulas stand beside them.
         """
+        if problem.sheet.paper:
+            return cls.for_paper(problem.sheet.paper, positions)
         if positions > 1:
             return cls.for_paper("A1", positions)
         scales = problem.scales
