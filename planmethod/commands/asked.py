@@ -92,6 +92,19 @@ def laid_over(config: Config, problem: Problem, options: SheetSettings) -> Probl
 # Options -----------------------------------------------------------------------------------------
 
 
+def read_lettering(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Return the type of the lettering; its letter may be Cyrillic."""
+    if value is None:
+        return None
+    from planmethod.problem.keys import LETTERINGS
+    from planmethod.problem.sheet import chosen
+
+    name = chosen(value, LETTERINGS)
+    if name is None:
+        raise click.BadParameter(f"{value!r} is not one of {', '.join(LETTERINGS)}")
+    return name
+
+
 def read_fields(
     ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
 ) -> dict[str, str]:
@@ -131,6 +144,20 @@ def read_form(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     return form
 
 
+stamp_option = click.option(
+    "--stamp",
+    callback=read_fields,
+    multiple=True,
+    metavar="KEY=TEXT",
+    help="Field of the title block.",
+)
+lettering_option = click.option(
+    "--lettering",
+    callback=read_lettering,
+    metavar="TYPE",
+    help="GOST 2.304: B (type Б, slanted), B-upright, A, A-upright.",
+)
+
 _SHEET_OPTIONS = (
     click.option(
         "--paper",
@@ -138,13 +165,8 @@ _SHEET_OPTIONS = (
         metavar="FORMAT",
         help="A4, A3, A4x3, A3:portrait...; chosen to fit when absent.",
     ),
-    click.option(
-        "--stamp",
-        callback=read_fields,
-        multiple=True,
-        metavar="KEY=TEXT",
-        help="Field of the title block.",
-    ),
+    stamp_option,
+    lettering_option,
     click.option(
         "--form",
         callback=read_form,

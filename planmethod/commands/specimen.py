@@ -7,9 +7,10 @@ from typing import Literal
 
 import click
 
+from planmethod.commands.asked import lettering_option, stamp_option
 from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import guarded
-from planmethod.options import dxf_text_option, format_option, out_option, stamp_option
+from planmethod.options import dxf_text_option, format_option, out_option
 
 
 def read_specimens(
@@ -36,6 +37,7 @@ def read_specimens(
 @out_option
 @format_option("svg,pdf")
 @stamp_option
+@lettering_option
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @dxf_text_option
 @guarded
@@ -44,6 +46,7 @@ def specimen(
     out: Path,
     formats: tuple[str, ...],
     stamp: dict[str, str],
+    lettering: str | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
 ) -> None:
@@ -52,11 +55,15 @@ def specimen(
     SHEET is symbols, lines or lettering; all of them when none is given. The files are
     specimen-symbols.svg and so on. What is on them: docs/symbols.md, docs/lettering.md.
     """
+    from planmethod.render.lettering import lettering as lettered
+    from planmethod.render.lettering import using
     from planmethod.render.sheets.specimen import SPECIMENS
 
     for name in sheets:
+        with using(lettered(lettering or "B")):
+            drawing = SPECIMENS[name](stamp)
         write_drawings(
-            [SPECIMENS[name](stamp)],
+            [drawing],
             out,
             f"specimen-{name}",
             formats,

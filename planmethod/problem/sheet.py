@@ -94,10 +94,12 @@ def _read_choice(faults: Faults, path: str, value: object, known: Collection[str
 def chosen(text: str, known: Collection[str]) -> str | None:
     """Return which of a few words a text is, in either alphabet and case; None if none.
 
+    Type Б of the lettering is called B in Latin letters.
+
     Examples
     --------
     >>> chosen("2А", ("1", "2a"))
     '2a'
     """
-    word = fold(text).replace(" ", "").casefold()
+    word = fold(text.replace("Б", "B")).replace(" ", "").casefold()
     return next((name for name in known if name.casefold() == word), None)

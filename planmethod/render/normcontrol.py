@@ -28,6 +28,7 @@ from planmethod.render.frame import (
     STAMP_HEIGHT,
     STAMP_WIDTH,
 )
+from planmethod.render.lettering import using
 from planmethod.render.lint import Finding, beyond, lint, writings_of
 from planmethod.render.style import PENS, arc_spans, stroke_lines, sweep
 from planmethod.render.unused import ink_points, largest_empty
@@ -50,6 +51,11 @@ def inspect(drawing: Drawing) -> list[Finding]:
     list of Finding
         In the order of the codes, then of the drawing; each knows the view that it is found on.
     """
+    with using(drawing.lettering):
+        return _inspected(drawing)
+
+
+def _inspected(drawing: Drawing) -> list[Finding]:
     inner = (
         FRAME_LEFT,
         FRAME_OTHER,

@@ -17,6 +17,7 @@ from planmethod.problem.model import Problem, Scales
 from planmethod.render.drawing import Drawing
 from planmethod.render.frame import paper_format, sheet_frame
 from planmethod.render.furniture import Furniture
+from planmethod.render.lettering import lettering, using
 from planmethod.render.sheets.composition.model import Composition, Extras
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.growth import grown
@@ -162,11 +163,12 @@ def kinematics_sheets(
     extras = Extras(errors, sigma)
     papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
     task = _Task(problem, made, tuple(asked), ruler, profile, extras)
-    for name in papers:
-        fmt = paper_format(name)
-        pages = task.on(Paper(name, partial(furniture.room, fmt), forced=paper is not None))
-        if pages is not None:
-            return _drawn(problem, pages, fmt, fields or {}, furniture)
+    with using(lettering(problem.sheet.lettering or "B")):
+        for name in papers:
+            fmt = paper_format(name)
+            pages = task.on(Paper(name, partial(furniture.room, fmt), forced=paper is not None))
+            if pages is not None:
+                return _drawn(problem, pages, fmt, fields or {}, furniture)
     scales = problem.scales
     given = any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
     advice = (

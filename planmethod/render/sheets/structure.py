@@ -20,6 +20,7 @@ from planmethod.render.drawing import Drawing, Item, View
 from planmethod.render.equations import formula_block
 from planmethod.render.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.furniture import Furniture, Room
+from planmethod.render.lettering import lettering, using
 from planmethod.render.sheets.structure_texts import (
     driver_caption,
     formulas,
@@ -122,14 +123,15 @@ def structure_sheet(
     paper = paper or problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)
     names = (paper_format(paper).name,) if paper else PAPERS
-    for name in names:
-        fmt = paper_format(name)
-        items = sheet_frame(fmt, texts, furniture).items
-        manner = MANNERS.get(fmt.like, MANNERS["A1"])
-        placed = _compose(problem, structure, manner, furniture.room(fmt))
-        if placed is not None:
-            shown, views = placed
-            return Drawing(fmt.width, fmt.height, texts["title"], [*items, *shown], views)
+    with using(lettering(problem.sheet.lettering or "B")):
+        for name in names:
+            fmt = paper_format(name)
+            items = sheet_frame(fmt, texts, furniture).items
+            manner = MANNERS.get(fmt.like, MANNERS["A1"])
+            placed = _compose(problem, structure, manner, furniture.room(fmt))
+            if placed is not None:
+                shown, views = placed
+                return Drawing(fmt.width, fmt.height, texts["title"], [*items, *shown], views)
     larger = PAPERS[PAPERS.index(names[-1]) + 1 :] if names[-1] in PAPERS else PAPERS
     advice = f"Take --paper {larger[0]}." if larger else "Draw parts of the mechanism on their own."
     raise LayoutError(
