@@ -230,7 +230,7 @@ def test_pictures_are_small_and_made_by_make() -> None:
     assert "planmethod sheet" in recipe
     drawn = re.findall(r"problems/\w+/([\w-]+)\.toml", recipe)
     drawn += [f"specimen-{name}" for name in re.findall(r"planmethod specimen (\w+) ", recipe)]
-    assert sorted(drawn) == [path.stem for path in PICTURES]
+    assert sorted(drawn) == sorted(path.stem for path in PICTURES)
     for path in PICTURES:
         data = path.read_bytes()
         assert data.startswith(b"\x89PNG")
