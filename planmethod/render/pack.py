@@ -25,6 +25,7 @@ from planmethod.render.cuttings import (
     Group,
     Leaf,
     Node,
+    Part,
     Unit,
     box_of,
     corners_of,
@@ -40,7 +41,7 @@ EDGE = 5.0
 BACK = 0.15
 """What it costs when the reader goes back up by the height of the paper."""
 
-VOID = 1.0
+VOID = 4.0
 """What it costs when all of the paper were one empty rectangle."""
 
 _LOOKED_AT = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
@@ -119,10 +120,15 @@ def _with_the_last(whole: Group) -> Iterator[Group]:
 
     So the results may stand under the texts of a plan, to the right of the plan.
     """
-    *others, group, last = (None, *whole.members)
-    if isinstance(group, Group) and {whole.arrange, group.arrange} == {"free"}:
-        assert last is not None
-        yield Group((*whole.members[: len(others) - 1], Group((*group.members, last))))
+    *before, group, last = (None, *whole.members)
+    if not isinstance(group, Group) or last is None:
+        return
+    if {whole.arrange, group.arrange} == {"free"}:
+        views = [one for one in group.members if not (isinstance(one, Part) and one.text)]
+        texts = tuple(one for one in group.members if isinstance(one, Part) and one.text)
+        if group.members == (*views, *texts):
+            joined = Group((*views, *([Group(texts)] if texts else []), last))
+            yield Group((*whole.members[: len(before) - 1], joined))
 
 
 # Cost ---------------------------------------------------------------------------------------------

@@ -18,15 +18,17 @@ from planmethod.plans.solution import Solution
 from planmethod.problem import loads
 from planmethod.render.block import Block, Column, heading
 from planmethod.render.drawing import Drawing, Text, View
+from planmethod.render.extent import ink_bounds
 from planmethod.render.frame import FORMATS
 from planmethod.render.lint import lint
 from planmethod.render.sheets import blocks as kinds
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition import entries, reader
-from planmethod.render.sheets.composition.model import Composition, Entry, Manner
+from planmethod.render.sheets.composition.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.composition.reader import composition, read_composition, shipped
 from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.pages import Paper, Room, pages_of
 
 FAULTY = sorted((Path(__file__).parent / "faulty_layouts").glob("*.toml"))
 TURN = [30.0 * k for k in range(12)]
@@ -170,6 +172,28 @@ def test_scales_of_the_default_are_those_that_solve_prints(name: str) -> None:
     (sheet,) = kinematics_sheets(problem)
     for kind in PlanKind:
         assert view(sheet, kind.value).per_mm == solution.scales[kind].per_mm
+
+
+@pytest.mark.parametrize("corner", ["left", "right"])
+@pytest.mark.parametrize("name", SIX)
+def test_sheets_keep_clear_of_graph_26(name: str, corner: str) -> None:
+    """The cell of graph 26, 70x14 mm in the upper left corner, or turned in the upper right one."""
+    views = shipped("one-position").views_for("A1", 1)
+    solution = Solution(problem_of(name), views=views)
+    fmt = FORMATS["A1"]
+    left, _, right, top = fmt.inner
+    cell = (left, top - 14.0, left + 70.0, top)
+    if corner == "right":
+        cell = (right - 14.0, top - 70.0, right, top)
+    room = Room(fmt.inner, fmt.stamp, (cell,))
+    found = pages_of(shipped("one-position"), solution, (0,), Paper("A1", lambda _: room), Extras())
+    assert found is not None
+    (page,) = found
+    for item in page.items:
+        box = ink_bounds([item])
+        across = max(box[0] - cell[2], cell[0] - box[2])
+        along = max(box[1] - cell[3], cell[1] - box[3])
+        assert max(across, along) > 1.0
 
 
 # A composition of one's own -----------------------------------------------------------------------
