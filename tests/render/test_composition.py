@@ -119,7 +119,6 @@ def test_the_order_of_the_textbook() -> None:
     assert results.real > acceleration[2]
     assert 60.0 < results.imag < acceleration[3]
     assert "Схема механизма" in shown(sheet)
-    assert sheet.title == "Кинематический анализ механизма"
 
 
 def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
