@@ -37,7 +37,7 @@ gallery: $(VENV)/.ready
 	$(BIN)/planmethod sheet --format png --dpi 90 -o docs/gallery problems/linkages/ex1.toml
 	$(BIN)/planmethod specimen symbols --format png --dpi 70 -o docs/gallery
 	$(BIN)/planmethod specimen lines --format png --dpi 90 -o docs/gallery
-	$(BIN)/planmethod specimen lettering --format png --dpi 70 -o docs/gallery
+	$(BIN)/planmethod specimen lettering --format png --dpi 45 -o docs/gallery
 
 clean:
 	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png

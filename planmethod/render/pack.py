@@ -38,6 +38,9 @@ from planmethod.render.drawing import Bounds
 EDGE = 5.0
 """Least white between a block and the frame, mm."""
 
+CLEAR = 3.0
+"""Least white between a block and a box that must stay free, mm."""
+
 BACK = 0.15
 """What it costs when the reader goes back up by the height of the paper."""
 
@@ -215,12 +218,12 @@ def _middle(unit: Unit) -> complex:
 
 
 def _meet(one: Bounds, two: Bounds) -> bool:
-    """Tell whether two boxes are nearer than a block may be to the frame."""
+    """Tell whether two boxes are nearer than a block may be to a box that must stay free."""
     return (
-        one[0] < two[2] + EDGE - 1e-9
-        and two[0] - EDGE < one[2] - 1e-9
-        and one[1] < two[3] + EDGE - 1e-9
-        and two[1] - EDGE < one[3] - 1e-9
+        one[0] < two[2] + CLEAR - 1e-9
+        and two[0] - CLEAR < one[2] - 1e-9
+        and one[1] < two[3] + CLEAR - 1e-9
+        and two[1] - CLEAR < one[3] - 1e-9
     )
 
 
@@ -228,10 +231,10 @@ def _beside(box: Bounds, taken: Bounds) -> tuple[Bounds, ...]:
     """Return the parts of a box below, right of, left of and above a taken one."""
     left, low, right, high = box
     return (
-        (left, low, right, min(high, taken[1] - EDGE)),
-        (max(left, taken[2] + EDGE), low, right, high),
-        (left, low, min(right, taken[0] - EDGE), high),
-        (left, max(low, taken[3] + EDGE), right, high),
+        (left, low, right, min(high, taken[1] - CLEAR)),
+        (max(left, taken[2] + CLEAR), low, right, high),
+        (left, low, min(right, taken[0] - CLEAR), high),
+        (left, max(low, taken[3] + CLEAR), right, high),
     )
 
 
@@ -247,8 +250,9 @@ def _without(inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> list[Boun
             part
             for left, low, right, high in rooms
             for part in (
-                (left, low, right, min(high, box[1])),
-                (max(left, box[2]), low, right, high),
+                # A block keeps EDGE from what it is given, and CLEAR is enough here.
+                (left, low, right, min(high, box[1] + EDGE - CLEAR)),
+                (max(left, box[2] - EDGE + CLEAR), low, right, high),
             )
         ]
     return [room for room in rooms if room[0] <= stamp[0] and room[3] >= stamp[3]]

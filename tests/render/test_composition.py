@@ -20,6 +20,7 @@ from planmethod.render.block import Block, Column, heading
 from planmethod.render.drawing import Drawing, Text, View
 from planmethod.render.extent import ink_bounds
 from planmethod.render.frame import FORMATS
+from planmethod.render.furniture import Room
 from planmethod.render.lint import lint
 from planmethod.render.sheets import blocks as kinds
 from planmethod.render.sheets.blocks import BLOCKS
@@ -28,7 +29,7 @@ from planmethod.render.sheets.composition.model import Composition, Entry, Extra
 from planmethod.render.sheets.composition.reader import composition, read_composition, shipped
 from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.sheets.pages import Paper, Room, pages_of
+from planmethod.render.sheets.pages import Paper, pages_of
 
 FAULTY = sorted((Path(__file__).parent / "faulty_layouts").glob("*.toml"))
 TURN = [30.0 * k for k in range(12)]
@@ -108,7 +109,7 @@ def test_what_is_taken_when_nothing_is_asked() -> None:
 
 def test_the_order_of_the_textbook() -> None:
     """The scheme upper left, Дано under it; the velocity plan right of it, the next one below."""
-    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), layout="homework")
+    (sheet,) = kinematics_sheets(problem_of("levers/task12"), layout="homework")
     scheme, velocity, acceleration = (
         view(sheet, kind).box for kind in ("position", "velocity", "acceleration")
     )

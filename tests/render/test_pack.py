@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from planmethod.render.block import Spacer
 from planmethod.render.cuttings import GAP, Arrange, Group, Part
 from planmethod.render.drawing import Bounds
-from planmethod.render.pack import EDGE, emptiest_share, pack
+from planmethod.render.pack import CLEAR, EDGE, emptiest_share, pack
 
 INNER: Bounds = (20.0, 5.0, 589.0, 415.0)  # A2
 STAMP: Bounds = (404.0, 5.0, 589.0, 60.0)
@@ -58,7 +58,7 @@ def check(found: list[Bounds], inner: Bounds = INNER, taken: tuple[Bounds, ...] 
         assert gap(one, two) >= GAP - 1e-6
     for one in found:
         assert gap(one, STAMP) >= GAP / 2 - 1e-6
-        assert all(gap(one, box) >= EDGE - 1e-6 for box in taken)
+        assert all(gap(one, box) >= CLEAR - 1e-6 for box in taken)
 
 
 ONE_POSITION = Group(
@@ -159,11 +159,11 @@ def test_a_block_in_the_corner_moves_down_or_aside(first: Part, arrange: Arrange
     check(moved, taken=(LEFT,))
     assert moved[1] == plain[1]  # the others stay
     if arrange == "column":
-        assert plain[0][3] > LEFT[1] - EDGE
-        assert moved[0][3] == pytest.approx(LEFT[1] - EDGE, abs=10.0)
+        assert plain[0][3] > LEFT[1] - CLEAR
+        assert moved[0][3] == pytest.approx(LEFT[1] - CLEAR, abs=10.0)
         assert moved[0][0] == plain[0][0]
     else:
-        assert plain[0][0] < LEFT[2] + EDGE <= moved[0][0]
+        assert plain[0][0] < LEFT[2] + CLEAR <= moved[0][0]
         assert moved[0][3] == plain[0][3]
 
 
