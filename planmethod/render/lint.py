@@ -23,6 +23,8 @@ from shapely.geometry.base import BaseGeometry
 from planmethod.render.block import CUT
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.frame import MARGIN_NOTE, STAMP
+from planmethod.render.labels.model import BREAKABLE, GROUND
+from planmethod.render.labels.paper import arc_step
 from planmethod.render.remarks import REMARKS, Facts, Severity, action, what
 from planmethod.render.symbols import arc_points
 from planmethod.render.typeset import PART_OF, SMALLEST, text_bounds, text_corners
@@ -190,7 +192,11 @@ def _depth(area: BaseGeometry) -> float:
 def _crossed(
     writings: Sequence[Writing], items: Sequence[Item], ignore: frozenset[Pen]
 ) -> Iterator[Finding]:
-    """Find lines and areas that run through letters and are not hidden by white."""
+    """Find lines and areas that run through letters and are not hidden by white.
+
+    The white ground that a label of a crowd brings hides thin lines alone; what else it covers is
+    as bad as letters on it.
+    """
     seen = ((k, item) for k, item in enumerate(items) if item.tag != GRID)
     things = [(k, shape) for k, item in seen if (shape := _shape(item, ignore))]
     whites = [(k, s) for k, s in things if _is_white(items[k])]
@@ -209,6 +215,8 @@ def _crossed(
             else:
                 common = shape.intersection(writing.ink)
                 for k, white in whites:
+                    if items[k].tag == GROUND and not _breaks(item):
+                        continue
                     if order < k < writing.first and white.intersects(common):
                         common = common.difference(white)
             extent = common.length
@@ -226,6 +234,11 @@ def _is_white(item: Item) -> bool:
     return isinstance(item, (Fill, Disc)) and item.ink is Ink.WHITE
 
 
+def _breaks(item: Item) -> bool:
+    """Tell whether the white ground of a label may break a thing: a thin line, nothing else."""
+    return isinstance(item, (Stroke, Arc)) and item.pen in BREAKABLE
+
+
 def _shape(item: Item, ignore: frozenset[Pen]) -> BaseGeometry | None:
     """Return what a thing covers: a line, or an area when it is filled."""
     match item:
@@ -233,7 +246,7 @@ def _shape(item: Item, ignore: frozenset[Pen]) -> BaseGeometry | None:
             ends = (*path, path[0]) if closed else path
             return LineString([(p.real, p.imag) for p in ends])
         case Arc(pen=pen) if pen not in ignore:
-            return LineString([(p.real, p.imag) for p in arc_points(item)])
+            return LineString([(p.real, p.imag) for p in arc_points(item, step=arc_step(item))])
         case Fill(points=path) if len(path) > 2:
             return Polygon([(p.real, p.imag) for p in path]).buffer(0)
         case Disc(centre=centre, radius=radius):

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import time
 from itertools import combinations
 
 import numpy as np
@@ -8,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, box
 
-from planmethod.render.drawing import Arc, Bounds, Item, Stroke, Text
-from planmethod.render.labels import Label, Placed, _inside, place_labels, segment_label
+from planmethod.render.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, Text
+from planmethod.render.labels import CROWDED, GROUND, Label, Placed, place_labels, segment_label
+from planmethod.render.labels.candidates import inside
 from planmethod.render.lint import lint
 from planmethod.render.symbols import revolute, slider
 from planmethod.render.typeset import typeset
@@ -178,6 +180,97 @@ def test_clipping_agrees_with_shapely(
     end = at + way
     bounds = (corner.real, corner.imag, corner.real + width, corner.imag + height)
     segment = np.array([[[at.real, at.imag], [end.real, end.imag]]])
-    (length,) = _inside(segment, np.array([bounds]))
-    inside = LineString(segment[0]).intersection(box(*bounds))
-    assert max(length, 0.0) == pytest.approx(inside.length, abs=1e-6)
+    (length,) = inside(segment, np.array([bounds]))
+    common = LineString(segment[0]).intersection(box(*bounds))
+    assert max(length, 0.0) == pytest.approx(common.length, abs=1e-6)
+
+
+# Crowds -------------------------------------------------------------------------------------------
+
+
+def of_a_series(k: int, anchor: complex) -> Label:
+    return Label(
+        typeset(f"B_{{{k}}}", 3.5), anchor, prefer=1 + 0j, gap=1.0, manner=CROWDED, series="B"
+    )
+
+
+def crossings(placed: list[Placed]) -> int:
+    lines = [
+        LineString([(z.real, z.imag) for z in label.leader]) for label in placed if label.leader
+    ]
+    return sum(one.crosses(two) for one, two in combinations(lines, 2))
+
+
+@pytest.mark.parametrize("way", [1j, 1 + 0j, 1 + 2j])
+def test_close_points_get_a_column_of_labels_in_their_order(way: complex) -> None:
+    points = [90 + 70j + 1.2 * k * way / abs(way) for k in range(10)]
+    dots: list[Item] = [Arc(z, 0.4) for z in points]
+    placed = place_labels([of_a_series(k, z) for k, z in enumerate(points)], dots, BOUNDS)
+    assert all(p.free for p in placed)
+    assert crossings(placed) == 0
+    assert lint([*dots, *(item for p in placed for item in p.items())], BOUNDS) == []
+    if way == 1j:
+        left = [p for p in placed if middle(p).real < 90]
+        right = [p for p in placed if middle(p).real > 90]
+        assert len({round(p.bounds[2], 6) for p in left}) <= 1
+        assert len({round(p.bounds[0], 6) for p in right}) <= 1
+        for side in (left, right):
+            assert [middle(p).imag for p in side] == sorted(middle(p).imag for p in side)
+
+
+def test_far_points_of_a_series_have_their_labels_beside_them() -> None:
+    points = [40 + 30j + 12j * k for k in range(8)]
+    placed = place_labels([of_a_series(k, z) for k, z in enumerate(points)], [], BOUNDS)
+    assert all(p.free and p.leader is None for p in placed)
+    assert all(p.bounds[0] == pytest.approx(41.0) for p in placed)  # all on the preferred side
+
+
+def test_a_column_keeps_clear_of_what_is_there() -> None:
+    points = [90 + 70j + 1j * k for k in range(8)]
+    wall: list[Item] = [Stroke((96 + 20j, 96 + 130j)), *slider(80 + 74j, length=12, width=16)]
+    placed = place_labels([of_a_series(k, z) for k, z in enumerate(points)], wall, BOUNDS)
+    assert all(p.free for p in placed)
+    assert lint([*wall, *(item for p in placed for item in p.items())], BOUNDS) == []
+
+
+def test_a_label_sends_another_away() -> None:
+    """The second can only be in the gap that the first one took, the first has another."""
+    hedge: list[Item] = [
+        Stroke((complex(x, 20), complex(x, 130))) for x in (*range(20, 90), *range(100, 180))
+    ]
+    posts: list[Item] = [
+        Stroke((complex(90, y), complex(100, y))) for y in (*range(20, 60), *range(66, 72))
+    ]
+    posts += [Stroke((complex(90, y), complex(100, y))) for y in range(78, 130)]
+    first = Label(typeset("A", 3.5), 95 + 69j, prefer=-1j, manner=CROWDED, priority=1)
+    second = Label(typeset("B", 3.5), 95 + 57j, prefer=1j, manner=CROWDED)
+    placed = place_labels([first, second], [*hedge, *posts], BOUNDS)
+    assert all(p.free for p in placed)
+
+
+def test_a_crowded_label_breaks_thin_lines_before_thick_ones() -> None:
+    wall: list[Item] = [
+        *(Stroke((complex(x, 0), complex(x, 150)), Pen.THIN) for x in range(0, 200, 2)),
+        *(Stroke((complex(0, y), complex(200, y)), Pen.MAIN) for y in range(0, 150, 9)),
+    ]
+    (placed,) = place_labels([of_a_series(1, 95 + 70j)], wall, BOUNDS)
+    assert placed.ground
+    assert not placed.free
+    items = placed.items()
+    whites = [item for item in items if isinstance(item, Fill)]
+    assert [item.tag for item in whites] == [GROUND]
+    assert lint([*wall, *items], BOUNDS) == []
+    (kept,) = place_labels([of_a_series(1, 95 + 70j)], wall, BOUNDS, breaking=False)
+    assert not kept.ground
+    assert not kept.free
+
+
+def test_a_hundred_labels_in_a_moment() -> None:
+    points = [100 + 75j + 60 * np.exp(2j * np.pi * k / 97) * (1 - k % 4 / 5) for k in range(100)]
+    spokes: list[Item] = [Stroke((100 + 75j, complex(z)), Pen.THIN) for z in points[::9]]
+    labels = [of_a_series(k, complex(z)) for k, z in enumerate(points)]
+    start = time.process_time()
+    placed = place_labels(labels, spokes, BOUNDS)
+    assert time.process_time() - start < 5.0
+    for one, two in combinations(placed, 2):
+        assert apart(one.bounds, two.bounds)

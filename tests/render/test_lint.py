@@ -5,6 +5,7 @@ import pytest
 from planmethod.render.block import CUT
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.frame import MARGIN_NOTE, STAMP
+from planmethod.render.labels import GROUND
 from planmethod.render.lint import CODES, lint
 from planmethod.render.typeset import typeset
 
@@ -55,6 +56,13 @@ def test_things_under_letters(thing: Item) -> None:
 def test_the_closing_side_of_an_outline_counts() -> None:
     outline = Stroke((45 + 52j, 45 + 90j, 90 + 90j, 90 + 52j), closed=True)
     assert codes(outline, WORD) == ["PM-D02"]
+
+
+@pytest.mark.parametrize("pen", Pen)
+def test_the_ground_of_a_label_breaks_thin_lines_alone(pen: Pen) -> None:
+    line, ground = Stroke((45 + 52j, 90 + 52j), pen), Fill(WHITE, Ink.WHITE, tag=GROUND)
+    told = codes(line, ground, WORD)
+    assert told == ([] if pen in (Pen.THIN, Pen.PALE) else ["PM-D02"])
 
 
 def test_white_hides_lines_drawn_before_it() -> None:

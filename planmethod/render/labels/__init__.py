@@ -1,0 +1,32 @@
+"""Placing of labels (размещение надписей): nothing overlaps, nothing lies on a line.
+
+``model``       what wants a place, and the place it got
+``candidates``  the places that come into question for a label
+``paper``       what the drawing that is there already makes of them
+``ladder``      columns for the labels of points that are close together
+``place``       one label after another, the hard ones first; then those that stand badly are mended
+"""
+
+from planmethod.render.labels.model import (
+    ALONE,
+    BUSY,
+    CROWDED,
+    GROUND,
+    Label,
+    Manner,
+    Placed,
+    segment_label,
+)
+from planmethod.render.labels.place import place_labels
+
+__all__ = [
+    "ALONE",
+    "BUSY",
+    "CROWDED",
+    "GROUND",
+    "Label",
+    "Manner",
+    "Placed",
+    "place_labels",
+    "segment_label",
+]

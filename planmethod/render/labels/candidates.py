@@ -1,0 +1,196 @@
+"""Places that come into question for a label, and the geometry of boxes and leader lines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import tau
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planmethod.render.drawing import Bounds
+from planmethod.render.labels.model import ALONE, CLEAR, Label
+from planmethod.render.symbols import unit
+
+Floats: TypeAlias = NDArray[np.float64]
+Complexes: TypeAlias = NDArray[np.complex128]
+
+_ALONG = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
+_BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
+_OTHER_SIDE = 3.0  # being on the other side of its segment than preferred, mm of distance
+
+
+@dataclass(frozen=True, slots=True)
+class Candidates:
+    """Places of one label.
+
+    Attributes
+    ----------
+    label : Label
+    boxes : ndarray of shape (n, 4), mm
+        Ink boxes.
+    dislike : ndarray of shape (n,), mm
+        Cost of the place itself.
+    starts, ends : ndarray of shape (n,), mm
+        Ends of the leader lines: at what is named, and at the edge of the box.
+    """
+
+    label: Label
+    boxes: Floats
+    dislike: Floats
+    starts: Complexes
+    ends: Complexes
+
+    @property
+    def led(self) -> NDArray[np.bool_]:
+        """Which places are so far that they need a leader line."""
+        return np.abs(self.ends - self.starts) > self.label.manner.leader_from
+
+    @property
+    def leaders(self) -> Floats:
+        """Leader lines as segments, shape (n, 2, 2), NaN where there is none."""
+        segments = as_segments(self.starts, self.ends)
+        segments[~self.led] = np.nan
+        return segments
+
+
+def near(label: Label) -> Candidates:
+    """Return the places beside the segment, or on rings about the point."""
+    if label.along is not None:
+        return _beside(label, *label.along)
+    return _rings(label, label.manner.rings, label.manner.angles)
+
+
+def far(label: Label) -> Candidates:
+    """Return places further away, with a leader line."""
+    return _rings(label, label.manner.far_rings, label.manner.far_angles)
+
+
+def everywhere(label: Label, bounds: Bounds) -> Candidates:
+    """Return places all over the bounds: the last resort of a crowded drawing."""
+    x0, y0, x1, y1 = bounds
+    ink = label.inscription
+    tall = ink.ascent + ink.descent
+    xs = np.arange(x0 + ink.width / 2, x1 - ink.width / 2 + 1e-9, max(2.0, ink.width / 2))
+    ys = np.arange(y0 + tall / 2, y1 - tall / 2 + 1e-9, max(2.0, tall / 2))
+    if not len(xs) or not len(ys):
+        return near(label)
+    centres = (xs[None, :] + 1j * ys[:, None]).ravel()
+    return _made(label, centres, np.abs(centres - label.anchor))
+
+
+def _made(label: Label, centres: Complexes, dislike: Floats) -> Candidates:
+    half_w = label.inscription.width / 2
+    half_h = (label.inscription.ascent + label.inscription.descent) / 2
+    x, y = centres.real, centres.imag
+    boxes = np.column_stack([x - half_w, y - half_h, x + half_w, y + half_h])
+    return Candidates(label, boxes, dislike, *_leader_ends(label, boxes))
+
+
+def _rings(label: Label, rings: Sequence[float], angles: int) -> Candidates:
+    """Places about a point: the box touches the ring with the side or corner that looks inwards."""
+    half_w = label.inscription.width / 2
+    half_h = (label.inscription.ascent + label.inscription.descent) / 2
+    start = np.angle(label.prefer) if label.prefer else tau / 8
+    turns = np.exp(1j * (start + tau * np.arange(angles) / angles))
+    # A box beside the point is centred on the ring's direction; one at a slant stands by its
+    # corner: the clipped cosine and sine pass from one to the other.
+    support = half_w * np.clip(1.5 * turns.real, -1, 1) + 1j * half_h * np.clip(
+        1.5 * turns.imag, -1, 1
+    )
+    radii = label.gap + np.asarray(rings)
+    centres = (label.anchor + radii[:, None] * turns + support).ravel()
+    away = (1 - np.cos(tau * np.arange(angles) / angles)) / 2 if label.prefer else np.zeros(angles)
+    dislike = (np.asarray(rings)[:, None] + label.manner.turned * away).ravel()
+    return _made(label, centres, dislike)
+
+
+def _beside(label: Label, start: complex, end: complex) -> Candidates:
+    """Places beside a segment, near its middle, on both sides."""
+    half_w = label.inscription.width / 2
+    half_h = (label.inscription.ascent + label.inscription.descent) / 2
+    normal = unit(end - start) * 1j
+    first = -1.0 if (label.prefer * normal.conjugate()).real < 0 else 1.0
+    centres: list[complex] = []
+    dislike: list[float] = []
+    reach = abs(normal.real) * half_w + abs(normal.imag) * half_h
+    alone = label.manner is ALONE
+    for beyond in _BESIDE if alone else label.manner.rings:
+        for side in (first, -first):
+            for part in _ALONG:
+                away = normal * side * (label.gap + beyond + reach)
+                centres.append(start + (end - start) * part + away)
+                slid = min(abs(end - start), 40.0) * abs(part - 0.5) * 0.3
+                turned = _OTHER_SIDE if side != first and label.prefer else 0.0
+                dislike.append(beyond * (2 if alone else 1) + slid + turned)
+    return _made(label, np.asarray(centres), np.asarray(dislike))
+
+
+def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
+    """Return the ends of leader lines: near the point or segment, and at the edge of each box."""
+    anchor = np.full(len(boxes), label.anchor)
+    if label.along is not None:
+        start, way = label.along[0], label.along[1] - label.along[0]
+        middles = (boxes[:, 0] + boxes[:, 2] + 1j * (boxes[:, 1] + boxes[:, 3])) / 2
+        part = ((middles - start) * np.conj(way)).real / max(abs(way) ** 2, 1e-12)
+        anchor = start + way * np.clip(part, 0.0, 1.0)
+    ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * np.clip(
+        anchor.imag, boxes[:, 1], boxes[:, 3]
+    )
+    reach = ends - anchor
+    length = np.abs(reach)
+    along = np.divide(reach, length, out=np.zeros_like(reach), where=length > 0)
+    starts = anchor + along * np.minimum(length, 0.6 * label.gap)
+    return starts, ends - along * np.minimum(length, 0.6 * CLEAR)
+
+
+def as_segments(starts: Complexes, ends: Complexes) -> Floats:
+    """Return an array of shape (n, 2, 2) of the segments' ends."""
+    pairs = np.stack([starts, ends], axis=1)
+    return np.stack([pairs.real, pairs.imag], axis=2)
+
+
+def around(boxes: Floats, leaders: Floats) -> Floats:
+    """Return boxes (n, 4) around labels and their leader lines (n, 2, 2)."""
+    low = np.fmin(boxes[:, :2], np.fmin(leaders[:, 0], leaders[:, 1]))
+    high = np.fmax(boxes[:, 2:], np.fmax(leaders[:, 0], leaders[:, 1]))
+    return np.concatenate([low, high], axis=1)
+
+
+def inside(segments: Floats, boxes: Floats) -> Floats:
+    """Return the length of each segment inside its box, mm; -1 where they do not meet.
+
+    Clipping after Liang and Barsky, for arrays of segments (..., 2, 2) and boxes (..., 4) that
+    broadcast together. A segment of NaN meets nothing.
+    """
+    first, last, length = np.asarray(0.0), np.asarray(1.0), np.asarray(0.0)
+    for axis in (0, 1):
+        start = segments[..., 0, axis]
+        way = segments[..., 1, axis] - start
+        low, high = boxes[..., axis], boxes[..., axis + 2]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            one, two = (low - start) / way, (high - start) / way
+        still = way == 0
+        between = (start >= low) & (start <= high)
+        enter = np.where(still, np.where(between, -np.inf, np.inf), np.minimum(one, two))
+        leave = np.where(still, np.where(between, np.inf, -np.inf), np.maximum(one, two))
+        first, last = np.maximum(first, enter), np.minimum(last, leave)
+        length = np.hypot(length, way)
+    with np.errstate(invalid="ignore"):
+        return np.where(last >= first, np.maximum(last - first, 0.0) * length, -1.0)
+
+
+def crossing(one: Floats, two: Floats) -> NDArray[np.bool_]:
+    """Tell which segments (..., 2, 2) cross each other; NaN crosses nothing."""
+    a, b = one[..., 0, :], one[..., 1, :]
+    c, d = two[..., 0, :], two[..., 1, :]
+
+    def side(p: Floats, q: Floats, r: Floats) -> Floats:
+        u, v = q - p, r - p
+        return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+
+    with np.errstate(invalid="ignore"):
+        apart = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
+    return np.asarray(apart)

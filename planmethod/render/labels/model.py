@@ -1,0 +1,165 @@
+"""Labels that want a place, and the places they get."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planmethod.render.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.typeset import Inscription, typeset
+
+CLEAR = 0.7  # white between a label and a line, mm
+APART = 0.9  # white between two labels one above the other, mm
+
+GROUND = "ground"
+"""Tag of the white under a label that breaks the thin lines behind it."""
+
+BREAKABLE = frozenset({Pen.THIN, Pen.PALE})
+"""Pens of the lines that it may break."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How a label looks for its place; all lengths mm.
+
+    Attributes
+    ----------
+    rings, far_rings : tuple of float
+        Distances beyond the gap at which it looks, and at which it looks when these are taken.
+    angles, far_angles : int
+        Places on each ring.
+    leader_from : float
+        Further than this from what it names it gets a leader line (линия-выноска).
+    leader : float
+        Distance that having a leader line is as bad as.
+    turned : float
+        Distance that looking quite away from the preferred direction is as bad as.
+    stranger : float
+        Distance that standing nearer to another label's point than to its own is as bad as.
+    beside : float
+        White between it and another one side by side: nearer they would read as one.
+    heavy : float
+        Distance that a thick line between it and what it names is as bad as.
+    """
+
+    rings: tuple[float, ...] = (0.0, 1.2, 3.0, 5.5, 9.0)
+    angles: int = 16
+    far_rings: tuple[float, ...] = (13.0, 18.0, 25.0, 34.0, 46.0, 62.0, 84.0, 112.0, 150.0)
+    far_angles: int = 32
+    leader_from: float = 8.0
+    leader: float = 25.0
+    turned: float = 3.0
+    stranger: float = 0.0
+    beside: float = 2.0
+    heavy: float = 7.0
+
+
+ALONE = Manner()
+"""A letter among few: eighty places around its point."""
+
+BUSY = Manner(
+    rings=(0.0, 0.8, 1.8, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0),
+    angles=24,
+    leader_from=5.0,
+    leader=10.0,
+    heavy=20.0,
+)
+"""A letter among few, on a drawing with many lines."""
+
+CROWDED = Manner(
+    rings=(0.0, 0.5, 1.1, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.5),
+    angles=20,
+    far_rings=(18.5, 22.0, 26.0, 31.0, 37.0, 44.0),
+    leader_from=3.2,
+    leader=8.0,
+    turned=7.0,
+    stranger=30.0,
+    beside=3.2,
+    heavy=12.0,
+)
+"""One of a series of labels: many places, firm in its direction, a leader line soon."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """Inscription that wants a place near a point or along a segment (надпись).
+
+    Attributes
+    ----------
+    inscription : Inscription
+    anchor : complex, mm
+        The point it names; the middle of a segment.
+    along : (complex, complex) or None, mm
+        The segment it names: it is then placed beside it, near its middle.
+    prefer : complex
+        Direction from the anchor in which it would like to be; 0 when it does not care. For a
+        segment only the side that this points to matters.
+    gap : float, mm
+        White between the anchor point and the label: the radius of a joint and a little more.
+    priority : int
+        Greater is placed earlier.
+    name : str
+        Name of the inscription for the lint; made of markup and place when empty.
+    manner : Manner
+        How it looks for its place.
+    series : str
+        What it is one of: the labels of a series whose points are close together stand in a column.
+    """
+
+    inscription: Inscription
+    anchor: complex
+    along: tuple[complex, complex] | None = None
+    prefer: complex = 0j
+    gap: float = 1.5
+    priority: int = 0
+    name: str = ""
+    manner: Manner = ALONE
+    series: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """Label with its place: ``at`` is the left end of its base line, mm.
+
+    ``leader`` is the leader line or None; ``free`` tells that nothing is crossed or overlapped;
+    ``ground`` that the thin lines under the label are broken by white, because it is not free.
+    """
+
+    label: Label
+    at: complex
+    leader: tuple[complex, complex] | None = None
+    free: bool = True
+    ground: bool = False
+
+    @property
+    def bounds(self) -> Bounds:
+        """Ink box, mm."""
+        return self.label.inscription.ink(self.at)
+
+    def items(self) -> list[Item]:
+        """Return the letters, the leader line and the white under the letters."""
+        items = self.label.inscription.at(self.at, label=self.label.name)
+        if self.ground:
+            x0, y0, x1, y1 = self.bounds
+            low, high = (
+                complex(x0, y0) - CLEAR / 2 * (1 + 1j),
+                complex(x1, y1) + CLEAR / 2 * (1 + 1j),
+            )
+            corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
+            items = [Fill(corners, Ink.WHITE, tag=GROUND), *items]
+        return items if self.leader is None else [Stroke(self.leader, Pen.THIN), *items]
+
+
+def segment_label(
+    markup: str,
+    start: complex,
+    end: complex,
+    height: float = 3.5,
+    *,
+    prefer: complex = 0j,
+    gap: float = 1.2,
+    priority: int = 0,
+) -> Label:
+    """Return a label along a segment: the number of a link, the length of a vector."""
+    inscription = typeset(markup, height)
+    middle = (start + end) / 2
+    return Label(inscription, middle, (start, end), prefer, gap, priority)

@@ -1,0 +1,222 @@
+"""What is on the paper already, and what it makes of the places of labels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from math import acos
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely import STRtree, box, intersects, linestrings, points, polygons
+
+from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
+from planmethod.render.labels.candidates import Candidates, Floats, as_segments, crossing, inside
+from planmethod.render.labels.model import ALONE, BREAKABLE, CLEAR
+from planmethod.render.symbols import arc_points
+from planmethod.render.typeset import text_corners
+
+FORBIDDEN = 1e6
+CROSSED = 400.0  # a label on a line, and its share per mm of line under it
+_PER_MM = 20.0
+_BETWEEN = 7.0  # per thin line between a label and what it names
+_THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
+_ROUND_AREAS = 0.54  # white between a label and a filled area, mm
+_ALONG_LINE = 25.0  # a leader line along a line
+_ALONG = 0.2  # radians: less between them and they run along each other
+_AT = 0.3  # mm: a line nearer goes through the point
+_SAGITTA = 0.05  # how far the chords of a large arc may be off, mm
+_PIECE = 12.0  # longest piece of a line in the tree, mm
+
+
+class Paper:
+    """Lines and areas that labels keep clear of, within bounds.
+
+    Attributes
+    ----------
+    segments : ndarray of shape (n, 2, 2), mm
+    breakable : ndarray of shape (n,)
+        Which of them are thin: a label may break them as the last resort.
+    bounds : Bounds, mm
+    """
+
+    def __init__(self, obstacles: Iterable[Item], bounds: Bounds) -> None:
+        self.segments, self.breakable, areas = _split(obstacles)
+        self.bounds = bounds
+        if len(self.segments):
+            self.segments, self.breakable = _chopped(self.segments, self.breakable)
+        self._lines = STRtree(linestrings(self.segments)) if len(self.segments) else None
+        self._areas = STRtree(areas) if areas else None
+
+    def costs(
+        self,
+        many: Sequence[Candidates],
+        strangers: Sequence[complex] = (),
+        *,
+        breaking: bool = False,
+    ) -> list[Floats]:
+        """Return the costs of all places but for the other labels, one array for each label.
+
+        ``strangers`` are the points that labels name. With ``breaking`` a label on thin lines
+        costs little: it will break them.
+        """
+        boxes = np.concatenate([c.boxes for c in many])
+        led = np.concatenate([c.led for c in many])
+        manners = [c.label.manner for c in many]
+        counts = [len(c.boxes) for c in many]
+        costs = np.concatenate([c.dislike for c in many])
+        costs += self._line_costs(boxes, breaking=breaking)
+        x0, y0, x1, y1 = self.bounds
+        within = (
+            (boxes[:, 0] >= x0) & (boxes[:, 1] >= y0) & (boxes[:, 2] <= x1) & (boxes[:, 3] <= y1)
+        )
+        costs += np.where(within, 0.0, FORBIDDEN)
+        costs += self._area_costs(boxes)
+        costs += np.where(led, np.repeat([m.leader for m in manners], counts), 0.0)
+        costs += self._between(many, led, costs)
+        split = np.split(costs, np.cumsum(counts)[:-1])
+        return [
+            cost + _stranger_costs(c, cost, strangers) + self._along_costs(c, cost)
+            for c, cost in zip(many, split, strict=True)
+        ]
+
+    def _line_costs(self, boxes: Floats, *, breaking: bool) -> Floats:
+        """Return the cost of the lines that run through the boxes grown by the white about them."""
+        costs = np.zeros(len(boxes))
+        if self._lines is None:
+            return costs
+        grown = boxes + np.array([-CLEAR, -CLEAR, CLEAR, CLEAR])
+        which, line = self._lines.query(box(*grown.T))
+        lengths = inside(self.segments[line], grown[which])
+        crossed = np.where(lengths >= 0, CROSSED + _PER_MM * np.maximum(lengths, 0), 0.0)
+        if breaking:
+            crossed *= np.where(self.breakable[line], 0.1, 1e3)
+        np.add.at(costs, which, crossed)
+        return costs
+
+    def _area_costs(self, boxes: Floats) -> Floats:
+        costs = np.zeros(len(boxes))
+        if self._areas is not None:
+            grown = boxes + np.array([-1, -1, 1, 1]) * _ROUND_AREAS
+            which, _ = self._areas.query(box(*grown.T), predicate="intersects")
+            costs[which] += FORBIDDEN
+        return costs
+
+    def _between(
+        self, many: Sequence[Candidates], led: NDArray[np.bool_], so_far: Floats
+    ) -> Floats:
+        """Return the cost of what is between the places and the thing they name.
+
+        A line between them makes a reader take the label for another's, leader line or not.
+        """
+        costs = np.zeros(len(so_far))
+        paths = np.concatenate([as_segments(c.starts, c.ends) for c in many])
+        ask = np.flatnonzero(so_far < CROSSED)
+        if self._lines is not None and len(ask):
+            which, line = self._lines.query(linestrings(paths[ask]))
+            met = crossing(paths[ask[which]], self.segments[line])
+            heavy = np.repeat([c.label.manner.heavy for c in many], [len(c.boxes) for c in many])
+            found = ask[which[met]]
+            np.add.at(costs, found, np.where(self.breakable[line[met]], _BETWEEN, heavy[found]))
+        ask = np.flatnonzero(led & (so_far < CROSSED))
+        if self._areas is not None and len(ask):
+            lines = linestrings(paths[ask])
+            which, area = self._areas.query(lines)
+            met = intersects(lines[which], self._areas.geometries[area])
+            # A leader may start inside what it names: a joint, a slider.
+            owner = np.repeat(np.arange(len(many)), [len(c.boxes) for c in many])[ask[which]]
+            anchors = np.asarray([c.label.anchor for c in many])
+            at = points(anchors.real, anchors.imag)
+            own = {(int(k), int(a)) for k, a in self._areas.query(at, predicate="intersects").T}
+            pairs = zip(owner.tolist(), area.tolist(), strict=True)
+            met &= np.fromiter((pair not in own for pair in pairs), bool, len(area))
+            np.add.at(costs, ask[which[met]], _THROUGH)
+        return costs
+
+    def _along_costs(self, candidates: Candidates, so_far: Floats) -> Floats:
+        """Return the cost of leader lines of a crowd that run along a line from the same point."""
+        costs = np.zeros(len(so_far))
+        label = candidates.label
+        ask = np.flatnonzero(candidates.led & (so_far < CROSSED))
+        if self._lines is None or label.manner is ALONE or not len(ask):
+            return costs
+        anchor = label.anchor
+        near = self._lines.query(points(anchor.real, anchor.imag).buffer(_AT))
+        ends = self.segments[near][:, :, 0] + 1j * self.segments[near][:, :, 1]
+        ways = (ends - anchor).ravel()
+        ways = ways[np.abs(ways) > 2 * _AT]
+        lines = candidates.ends[ask] - candidates.starts[ask]
+        if len(ways):
+            turn = np.abs(np.angle(lines[:, None] / ways[None, :])).min(axis=1)
+            costs[ask] = np.where(turn < _ALONG, _ALONG_LINE, 0.0)
+        return costs
+
+
+def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[complex]) -> Floats:
+    """Return the cost of standing, without a leader line, nearer to another label's point."""
+    costs = np.zeros(len(so_far))
+    dislike = candidates.label.manner.stranger
+    ask = np.flatnonzero((so_far < CROSSED) & ~candidates.led)
+    if not dislike or not len(ask):
+        return costs
+    anchor = candidates.label.anchor
+    others = np.asarray([z for z in strangers if abs(z - anchor) > 1e-6])
+    if not len(others):
+        return costs
+    boxes = candidates.boxes[ask]
+    own = _distances(boxes, np.asarray([anchor]))[:, 0]
+    costs[ask] = np.where(_distances(boxes, others).min(axis=1) < own + 0.4, dislike, 0.0)
+    return costs
+
+
+def _distances(boxes: Floats, places: NDArray[np.complex128]) -> Floats:
+    """Return the distances of boxes (n, 4) from points (k,), shape (n, k)."""
+    x, y = places.real, places.imag
+    aside = np.maximum(np.maximum(boxes[:, :1] - x, x - boxes[:, 2:3]), 0.0)
+    above = np.maximum(np.maximum(boxes[:, 1:2] - y, y - boxes[:, 3:]), 0.0)
+    return np.hypot(aside, above)
+
+
+def _split(
+    items: Iterable[Item],
+) -> tuple[Floats, NDArray[np.bool_], list[object]]:
+    """Split items into segments (n, 2, 2) that should and areas that must not be covered."""
+    lines: list[tuple[complex, complex]] = []
+    thin: list[bool] = []
+    areas: list[object] = []
+    for item in items:
+        match item:
+            case Stroke(points=path, closed=closed):
+                lines += pairwise((*path, path[0]) if closed and path else path)
+            case Arc():
+                lines += pairwise(arc_points(item, step=arc_step(item)))
+            case Fill(points=path) if len(path) > 2:
+                areas.append(polygons([(p.real, p.imag) for p in path]))
+            case Disc(centre=centre, radius=radius):
+                areas.append(points(centre.real, centre.imag).buffer(radius, quad_segs=4))
+            case Text():
+                areas.append(polygons([(p.real, p.imag) for p in text_corners(item)]))
+            case Fill():
+                pass  # no area
+        if isinstance(item, (Stroke, Arc)):
+            thin += [item.pen in BREAKABLE] * (len(lines) - len(thin))
+    if not lines:
+        return np.empty((0, 2, 2)), np.empty(0, dtype=bool), areas
+    ends = np.asarray(lines)
+    return as_segments(ends[:, 0], ends[:, 1]), np.asarray(thin), areas
+
+
+def _chopped(segments: Floats, breakable: NDArray[np.bool_]) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return long segments in pieces, whose boxes the tree tells apart."""
+    way = segments[:, 1] - segments[:, 0]
+    counts = np.maximum(1, np.ceil(np.hypot(way[:, 0], way[:, 1]) / _PIECE)).astype(int)
+    whole = np.repeat(np.arange(len(segments)), counts)
+    first = np.arange(len(whole)) - np.repeat(np.cumsum(counts) - counts, counts)
+    parts = np.stack([first, first + 1], axis=1) / counts[whole][:, None]
+    pieces = segments[whole, :1] + way[whole][:, None, :] * parts[:, :, None]
+    return pieces, breakable[whole]
+
+
+def arc_step(arc: Arc) -> float:
+    """Return the angle between points of an arc that keeps its chords near it, radians."""
+    return min(0.25, 2 * acos(max(0.0, 1.0 - _SAGITTA / arc.radius))) if arc.radius > 0 else 0.25

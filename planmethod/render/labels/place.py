@@ -1,0 +1,357 @@
+"""Labels put down one after another, the hard ones first, and mended where they stand badly.
+
+Each label takes its cheapest place. Another label is never overlapped; a line is crossed only where
+there is no free place at all. Labels that found none look again when all are there, and may send
+one or two others elsewhere. The same input gives the same places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planmethod.render.drawing import Bounds, Item
+from planmethod.render.labels.candidates import (
+    Candidates,
+    Floats,
+    around,
+    crossing,
+    everywhere,
+    far,
+    inside,
+    near,
+)
+from planmethod.render.labels.ladder import dense, ladder
+from planmethod.render.labels.model import ALONE, APART, Label, Placed
+from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
+
+_OFF_LEADERS = 0.5  # white between a label and another one's leader line, mm
+_LEADERS_CROSS = 120.0  # two leader lines that cross
+_AT_ONCE = 24  # places looked at together
+_PASSES = 4  # times that all labels of a crowd look again
+_POOR = 45.0  # cost from which a better place is looked for, though others have to go
+_WORTH = 5.0  # what must be won by it
+_SENT_AWAY = 2  # most labels that one may send elsewhere
+_TRIED = 10  # places for which it may
+
+
+def place_labels(
+    labels: Sequence[Label], obstacles: Iterable[Item], bounds: Bounds, *, breaking: bool = True
+) -> list[Placed]:
+    """Find a place for every label (размещение надписей).
+
+    Parameters
+    ----------
+    labels : sequence of Label
+    obstacles : iterable of Item
+        What is on the sheet already. Lines, arcs and outlines should not be crossed, texts and
+        filled areas (the white ones too: a joint, a slider) must not be. White hides nothing
+        here: draw order is not looked at.
+    bounds : Bounds, mm
+        All labels stay inside.
+    breaking : bool
+        A label of a crowd that finds no free place may break thin lines by a white ground.
+
+    Returns
+    -------
+    list of Placed
+        In the order of ``labels``. Where there is no room at all a label overlaps or leaves the
+        bounds, and is not ``free``.
+    """
+    if not labels:
+        return []
+    places = _Places(Paper(obstacles, bounds), labels)
+    places.fill([k for k, label in enumerate(labels) if not label.series])
+    places.line_up()
+    places.fill([k for k, label in enumerate(labels) if label.series])
+    if any(label.manner is not ALONE for label in labels):
+        places.look_again()
+        places.improve()
+    for k in places.unfree():
+        places.send_away(k)
+    for k in places.unfree() if breaking else ():
+        places.break_lines(k)
+    return places.result()
+
+
+@dataclass(slots=True)
+class _Choice:
+    """A set of places of one label with their costs, the cheapest first."""
+
+    candidates: Candidates
+    costs: Floats
+    order: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, candidates: Candidates, costs: Floats) -> _Choice:
+        return cls(candidates, costs, np.argsort(np.round(costs, 9), kind="stable"))
+
+
+@dataclass(slots=True)
+class _Taken:
+    """The place that a label has."""
+
+    choice: _Choice
+    row: int
+    cost: float
+    ground: bool = False
+
+
+@dataclass
+class _Places:
+    """Labels and the places that they have so far."""
+
+    paper: Paper
+    labels: Sequence[Label]
+    taken: dict[int, _Taken] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.strangers = list(
+            dict.fromkeys(label.anchor for label in self.labels if label.manner.stranger)
+        )
+        sets = [near(label) for label in self.labels]
+        costs = self.paper.costs(sets, self.strangers)
+        self.choices = [[_Choice.of(c, cost)] for c, cost in zip(sets, costs, strict=True)]
+        self.beside = np.asarray([label.manner.beside for label in self.labels])
+        self.widest = float(self.beside.max())
+        self.boxes = np.full((len(self.labels), 4), np.nan)
+        self.leaders = np.full((len(self.labels), 2, 2), np.nan)
+        self.lined: set[int] = set()
+
+    # A series --------------------------------------------------------------------------------
+
+    def line_up(self) -> None:
+        """Place the series of labels whose points are close together."""
+        numbers = {id(label): k for k, label in enumerate(self.labels)}
+        for name in dict.fromkeys(label.series for label in self.labels if label.series):
+            for series in dense([label for label in self.labels if label.series == name]):
+                found = ladder(self.paper, series, self._standing)
+                for label, place in zip(series.labels, found, strict=True):
+                    if place is not None:
+                        k = numbers[id(label)]
+                        self._take(k, _Taken(_Choice.of(place, place.dislike), 0, 0.0))
+                        if self._cost(k) < CROSSED:
+                            self.lined.add(k)
+                        else:
+                            self._leave(k)
+
+    def _standing(self, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
+        """Return what the labels that are there cost a label that is not yet, shape (n,)."""
+        return self._others(-1, candidates, rows)
+
+    # One label -------------------------------------------------------------------------------
+
+    def fill(self, numbers: Sequence[int]) -> None:
+        """Place labels that have none yet, one after another."""
+        free = {k: int(np.sum(self.choices[k][0].costs < CROSSED)) for k in numbers}
+        # Labels with few free places go first, or the others would take these places.
+        for k in sorted(numbers, key=lambda k: (-self.labels[k].priority, free[k], k)):
+            if k not in self.taken:
+                self._take(k, self._best(k))
+
+    def _take(self, k: int, taken: _Taken) -> None:
+        self.taken[k] = taken
+        candidates = taken.choice.candidates
+        self.boxes[k] = candidates.boxes[taken.row]
+        self.leaders[k] = candidates.leaders[taken.row]
+
+    def _leave(self, k: int) -> None:
+        self.taken.pop(k, None)
+        self.boxes[k] = np.nan
+        self.leaders[k] = np.nan
+
+    def _best(self, k: int) -> _Taken:
+        """Return the cheapest place of a label; look further away when all near ones are taken."""
+        best = self._cheapest(k, self.choices[k][0])
+        # One of a crowd rather breaks a line than stands at the other end of the drawing.
+        for number in (1, 2) if self.labels[k].manner is ALONE else (1,):
+            if best.cost < CROSSED:
+                break
+            further = self._cheapest(k, self._wider(k, number))
+            if further.cost < best.cost:
+                best = further
+        return best
+
+    def _wider(self, k: int, number: int) -> _Choice:
+        """Return the near (0) or far places of a label (1), or those all over the bounds (2)."""
+        while len(self.choices[k]) <= number:
+            label = self.labels[k]
+            more = far(label) if len(self.choices[k]) == 1 else everywhere(label, self.paper.bounds)
+            (costs,) = self.paper.costs([more], self.strangers)
+            self.choices[k].append(_Choice.of(more, costs))
+        return self.choices[k][number]
+
+    def _cheapest(self, k: int, choice: _Choice) -> _Taken:
+        """Return the cheapest place of a set: only as many are compared as can be it."""
+        best, cost = int(choice.order[0]), np.inf
+        first, count = 0, _AT_ONCE
+        while first < len(choice.order):
+            rows = choice.order[first : first + count]
+            if choice.costs[rows[0]] >= min(cost, FORBIDDEN):
+                break
+            costs = np.round(choice.costs[rows] + self._others(k, choice.candidates, rows), 9)
+            least = int(np.argmin(costs))
+            if costs[least] < cost:
+                best, cost = int(rows[least]), float(costs[least])
+            first, count = first + count, 2 * count
+        cost = min(cost, 1e12)
+        return _Taken(choice, best, cost)
+
+    # The other labels ------------------------------------------------------------------------
+
+    def _others(self, k: int, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
+        """Return the cost of the labels and leader lines that are there, shape (n,)."""
+        there = [other for other in self.taken if other != k]
+        if not there:
+            return np.zeros(len(rows))
+        return np.asarray(self._meets(candidates, rows, there).sum(axis=1))
+
+    def _meets(self, candidates: Candidates, rows: NDArray[np.intp], there: list[int]) -> Floats:
+        """Return the cost that each label has for each place, shape (n, len(there))."""
+        boxes, own = candidates.boxes[rows], candidates.leaders[rows]
+        costs = np.zeros((len(rows), len(there)))
+        others = np.asarray(there)
+        # Only labels near one of the places can meet it.
+        x0, y0, x1, y1 = around(boxes, own).T
+        a0, b0, a1, b1 = around(self.boxes[others], self.leaders[others]).T
+        near = np.flatnonzero(
+            (a0 < x1.max() + self.widest)
+            & (a1 > x0.min() - self.widest)
+            & (b0 < y1.max() + self.widest)
+            & (b1 > y0.min() - self.widest)
+        )
+        if not len(near):
+            return costs
+        a, b = boxes[:, None, :], self.boxes[others[near]][None, :, :]
+        wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0])
+        wide += np.maximum(self.beside[others[near]], candidates.label.manner.beside)
+        tall = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + APART
+        found = np.where((wide > 0) & (tall > 0), FORBIDDEN + wide * tall, 0.0)
+        white = np.array([-1, -1, 1, 1]) * _OFF_LEADERS
+        theirs = self.leaders[others[near]]
+        led = np.flatnonzero(~np.isnan(theirs[:, 0, 0]))
+        if len(led):
+            found[:, led] += FORBIDDEN * (inside(theirs[led][None], a + white) >= 0)
+        mine = np.flatnonzero(~np.isnan(own[:, 0, 0]))
+        if len(mine):
+            lines = own[mine][:, None]
+            found[mine] += FORBIDDEN * (inside(lines, b + white) >= 0)
+            if len(led):
+                found[np.ix_(mine, led)] += _LEADERS_CROSS * crossing(lines, theirs[led][None])
+        costs[:, near] = found
+        return costs
+
+    # Mending ---------------------------------------------------------------------------------
+
+    def unfree(self) -> list[int]:
+        """Return the labels that cross or overlap something."""
+        return [k for k in range(len(self.labels)) if self._cost(k) >= CROSSED]
+
+    def _cost(self, k: int) -> float:
+        """Return what the place of a label costs with all others where they are now."""
+        taken = self.taken[k]
+        rows = np.asarray([taken.row])
+        others = self._others(k, taken.choice.candidates, rows)
+        return float(taken.choice.costs[taken.row] + others[0])
+
+    def look_again(self) -> None:
+        """Let every label look for a better place now that all are there."""
+        for _ in range(_PASSES):
+            moved = False
+            for k in range(len(self.labels)):
+                if k in self.lined:
+                    continue  # out of its column it would be cheaper, but not better
+                now, best = self._cost(k), self._best(k)
+                if best.cost < now - 1e-6:
+                    self._take(k, best)
+                    moved = True
+            if not moved:
+                return
+
+    def improve(self) -> None:
+        """Find shorter leader lines where others can make room."""
+        costs = {k: self._cost(k) for k in range(len(self.labels)) if k not in self.lined}
+        bad = [k for k, cost in costs.items() if _POOR < cost < CROSSED]
+        for k in sorted(bad, key=lambda k: (-costs[k], k)):
+            self.send_away(k)
+
+    def send_away(self, k: int) -> None:
+        """Give a label a better place that one or two others find a way to leave."""
+        now = self._cost(k)
+        if now < _POOR:
+            return  # better since another one was mended
+        for choice in list(self.choices[k]):
+            rows = choice.order[:_TRIED]
+            rows = rows[choice.costs[rows] < min(now, CROSSED) - _WORTH]
+            if not len(rows):
+                continue
+            there = [other for other in self.taken if other != k]
+            meets = self._meets(choice.candidates, rows, there) >= _LEADERS_CROSS
+            for row, met in zip(rows, meets, strict=True):
+                sent = [there[j] for j in np.flatnonzero(met)]
+                if self.lined.isdisjoint(sent) and len(sent) <= _SENT_AWAY:
+                    taken = _Taken(choice, int(row), 0.0)
+                    if self._moved(k, taken, sent):
+                        return
+
+    def _moved(self, k: int, to: _Taken, sent: Sequence[int]) -> bool:
+        """Put a label down where others are, and these elsewhere, if that is better in all."""
+        before = {other: self.taken[other] for other in (k, *sent)}
+        crossed, cost = self._state(before)
+        for other in before:
+            self._leave(other)
+        self._take(k, to)
+        for other in sent:
+            self._take(other, self._best(other))
+        now, costs = self._state(before)
+        if now <= crossed and costs < cost - _WORTH:
+            return True
+        for other in before:
+            self._leave(other)
+        for other, taken in before.items():
+            self._take(other, taken)
+        return False
+
+    def _state(self, numbers: Iterable[int]) -> tuple[int, float]:
+        """Return how many of some labels are not free, and what they cost together."""
+        costs = [self._cost(k) for k in numbers]
+        return sum(cost >= CROSSED for cost in costs), sum(costs)
+
+    def break_lines(self, k: int) -> None:
+        """Put a label of a crowd on thin lines that its white ground breaks: the last resort."""
+        label = self.labels[k]
+        if label.manner is ALONE or self._cost(k) < CROSSED:
+            return
+        for number in (0, 1):
+            candidates = self._wider(k, number).candidates
+            (costs,) = self.paper.costs([candidates], self.strangers, breaking=True)
+            best = self._cheapest(k, _Choice.of(candidates, costs))
+            if best.cost < CROSSED:
+                best.ground = True
+                self._take(k, best)
+                return
+        best = self._cheapest(k, self._wider(k, 2))
+        if best.cost < self._cost(k):
+            self._take(k, best)
+
+    def result(self) -> list[Placed]:
+        """Return the labels with their places."""
+        return [self._placed(k) for k in range(len(self.labels))]
+
+    def _placed(self, k: int) -> Placed:
+        label, taken = self.labels[k], self.taken[k]
+        candidates, row = taken.choice.candidates, taken.row
+        x0, y0 = candidates.boxes[row, :2]
+        leader = None
+        if candidates.led[row]:
+            leader = (complex(candidates.starts[row]), complex(candidates.ends[row]))
+        return Placed(
+            label,
+            complex(x0, y0 + label.inscription.descent),
+            leader,
+            free=not taken.ground and self._cost(k) < CROSSED,
+            ground=taken.ground,
+        )
