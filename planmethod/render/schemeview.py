@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from itertools import pairwise
+from math import ceil
 
-from planmethod.construct.steps import PointName
+import numpy as np
+
 from planmethod.mechanism.model import FRAME
 from planmethod.note.given import point_name, solution_peak
 from planmethod.note.numbers import is_nothing
@@ -15,8 +19,10 @@ from planmethod.plans.solution import Solution
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Item, Pen, Stroke
 from planmethod.render.ellipses import Ellipses, error_ellipses
-from planmethod.render.extent import lettered
-from planmethod.render.labels import Label, segment_label
+from planmethod.render.extent import ink_bounds, lettered
+from planmethod.render.labels import BUSY, Label, Placed, place_labels, segment_label
+from planmethod.render.labels.tidy import untidiness
+from planmethod.render.positions import Positions
 from planmethod.render.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.render.typeset import typeset
@@ -30,10 +36,16 @@ class _View:
     arrows: list[Item] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
 
+    def items(self, marks: Sequence[Item] = ()) -> list[Item]:
+        """Return what is drawn, in order; ``marks`` are the joints of other positions."""
+        s = self.scheme
+        mechanism = before_links([*s.bodies, *s.lines, *s.corners, *marks, *s.joints])
+        return [*s.guides, *mechanism, *self.arrows]
 
-def _letter_points(view: _View) -> None:
+
+def _letter_points(view: _View, points: Sequence[str] | None = None) -> None:
     scheme = view.scheme
-    for point in scheme.named:
+    for point in scheme.named if points is None else points:
         place = scheme.at(point)
         lines = scheme.directions(place)
         view.labels.append(
@@ -48,15 +60,27 @@ def _letter_points(view: _View) -> None:
         )
 
 
-def _letter_axes(view: _View) -> None:
-    """Letter the ends of the guides' axes, but for an end that lies on a link."""
+SMALL = 3.5
+"""Height of the smaller letters of a scheme, mm."""
+
+_LETTER = 6.0  # room of an axis's letter between the joints of other positions, mm
+
+
+def _letter_axes(view: _View, others: Sequence[complex] = ()) -> None:
+    """Letter the ends of the guides' axes, but for an end that lies on a link.
+
+    ``others`` are the joints in other positions, among which a letter would be lost.
+    """
     scheme = view.scheme
     for label, low, high in scheme.axis_ends:
         names = label.split("-")
         if len(names) != 2:
             continue
         ends = [(names[0], low, low - high), (names[1], high, high - low)]
-        free = [scheme.clearance(place) for _, place, _ in ends]
+        free = [
+            min([scheme.clearance(end), *(abs(end - place) - _LETTER for place in others)])
+            for _, end, _ in ends
+        ]
         for (text, place, away), room in zip(ends, free, strict=True):
             if room > 4.0 or room == max(free):
                 view.labels.append(
@@ -64,8 +88,11 @@ def _letter_axes(view: _View) -> None:
                 )
 
 
-def _letter_links(view: _View) -> None:
-    """Put the links' numbers down, and circular arrows for the senses of omega and epsilon."""
+def _letter_links(view: _View, others: Sequence[Item] = ()) -> None:
+    """Put the links' numbers down, and circular arrows for the senses of omega and epsilon.
+
+    Among the lines of ``others``, the other positions, only the driver has arrows.
+    """
     scheme = view.scheme
     small = scheme.letter_height
     for link in scheme.solution.problem.mechanism.links:
@@ -79,10 +106,12 @@ def _letter_links(view: _View) -> None:
             view.labels.append(
                 Label(typeset(text, small), scheme.at(first), gap=5.5 * scheme.factor)
             )
-        _senses(view, link)
+        if not others or link == scheme.solution.problem.drive.link:
+            _senses(view, link, others)
 
 
-def _senses(view: _View, link: str) -> None:
+def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
+    """Draw the arrows of a link, among the lines of other positions where these leave room."""
     scheme = view.scheme
     motion = scheme.solution.links[link]
     problem = scheme.solution.problem
@@ -109,6 +138,9 @@ def _senses(view: _View, link: str) -> None:
             continue
         sense = 1 if value > 0 else -1
         middle, sweep = turn, 70.0
+        if others and not shift:
+            around = [*others, *scheme.bodies, *scheme.lines, *scheme.joints]
+            turn = middle = turn + _roomy(centre, radius + 4.0, turn - sense * 18.0, around)
         arrow = turn_arrow(
             centre,
             radius + shift,
@@ -122,13 +154,29 @@ def _senses(view: _View, link: str) -> None:
         tail = centre + (radius + shift) * cis(middle - sense * sweep / 2)
         view.labels.append(
             Label(
-                typeset(f"{symbol}_{{{link}}}", scheme.letter_height),
+                typeset(f"{symbol}_{{{link}}}", SMALL if others else scheme.letter_height),
                 tail,
+                along=(tail, centre + (radius + shift) * cis(middle)) if others else None,
                 prefer=tail - centre,
                 gap=0.8,
                 name=f"{symbol} {link}",
             )
         )
+
+
+def _roomy(centre: complex, radius: float, turn: float, items: Sequence[Item]) -> float:
+    """Return how far to turn about a centre from a direction to where a letter has room, deg."""
+    lines = [pair for item in items if isinstance(item, Stroke) for pair in pairwise(item.points)]
+    ends = np.asarray(lines)
+    ways = ends[:, 1] - ends[:, 0] + 1e-9
+    turns = (0.0, *(sign * k * 7.5 for k in range(1, 25) for sign in (1, -1)))
+
+    def room(by: float) -> float:
+        place = centre + radius * cis(turn + by)
+        part = np.clip(((place - ends[:, 0]) / ways).real, 0.0, 1.0)
+        return round(float(np.abs(place - ends[:, 0] - ways * part).min()) - abs(by) / 180.0, 3)
+
+    return max(turns, key=room)
 
 
 def _draw_angle(view: _View) -> None:
@@ -151,21 +199,13 @@ def _draw_angle(view: _View) -> None:
     scheme.guides += turn_arrow(centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, tag="phi")
     view.labels.append(
         Label(
-            typeset(f"φ_{{{drive.link}}}", 3.5),
+            typeset(f"φ_{{{drive.link}}}", SMALL),
             centre + radius * cis(phi / 2),
             prefer=cis(phi / 2),
             gap=1.0,
             name="phi",
         )
     )
-
-
-def ghost(solution: Solution, index: int, letter_height: float) -> list[Item]:
-    """Return the mechanism in another position: pale lines only."""
-    scheme = Scheme(solution, index, letter_height, pen=Pen.PALE)
-    for link in solution.problem.mechanism.links:
-        scheme.draw_link(link)
-    return scheme.lines
 
 
 @lru_cache(maxsize=64)
@@ -179,49 +219,57 @@ def scheme_picture(
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
-    The positions of ``overlay`` are there in pale lines, the driver's pin numbered. ``errors``
-    draws the ellipses of the drafting error around the moving points.
+    The positions of ``overlay`` are there in thin lines, their points lettered and numbered; the
+    arrows of the links but the driver's, and its angle, are left to the single position.
+    ``errors`` draws the ellipses of the drafting error around the moving points.
     """
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
     scheme.draw_joints()
     view = _View(scheme)
+    many = len(overlay) > 1
+    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
+    if many:
+        return _many_picture(view, Positions(solution, index, overlay, letter_height), ellipses)
     for write in (_letter_points, _letter_axes, _letter_links, _draw_angle):
         write(view)
-    ghosts: list[Item] = []
-    for other in overlay:
-        if other != index:
-            ghosts += ghost(solution, other, letter_height)
-    view.labels += _numbers(solution, letter_height, overlay)
-    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
-    items = [
-        *ghosts,
-        *scheme.guides,
-        *before_links([*scheme.bodies, *scheme.lines, *scheme.corners, *scheme.joints]),
-        *view.arrows,
-        # After the joints, whose white would cover them.
-        *ellipses.strokes,
-    ]
+    # The ellipses after the joints, whose white would cover them.
+    items = [*view.items(), *ellipses.strokes]
     return lettered(items, view.labels, clear=ellipses.grounds)
 
 
-def _numbers(solution: Solution, letter_height: float, overlay: tuple[int, ...]) -> list[Label]:
-    """Return the numbers of the positions at the driver's pin."""
-    drive = solution.problem.drive
-    if drive.pivot is None:
-        return []
-    body = solution.problem.bodies[drive.link].points
-    pin = next(p for p in body if p != drive.pivot)
-    places = solution.complexes(solution.paper, PointName(pin))
-    centre = complex(solution.complexes(solution.paper, PointName(drive.pivot))[0])
-    return [
-        Label(
-            typeset(str(number), min(letter_height, 3.5)),
-            complex(place),
-            prefer=complex(place) - centre,
-            gap=1.5,
-            name=f"position {number}",
-        )
-        for number, place in enumerate(places)
-        if number in overlay
-    ]
+SERIES_HEIGHTS = (SMALL, 2.5)
+"""Heights of the letters of many positions, mm: the smaller ones where the larger find no room."""
+
+UNTIDY = 0.03
+"""More `untidiness` for each label is a reason to take the smaller letters."""
+
+MOST = 14
+"""Positions that all have letters; of twice as many every other one has, and so on."""
+
+ROOM = 40.0
+"""Room around many positions for their letters, mm."""
+
+
+def _many_picture(view: _View, positions: Positions, ellipses: Ellipses) -> Picture:
+    """Return the scheme with other positions behind it; smaller letters where larger do not fit."""
+    scheme = view.scheme
+    fixed = scheme.solution.problem.bodies[FRAME].points
+    _letter_points(view, [point for point in scheme.named if point in fixed])
+    _letter_axes(view, positions.places())
+    others = positions.lines()
+    _letter_links(view, others)
+    own = [replace(label, manner=BUSY) for label in view.labels]
+    items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
+    left, low, right, high = ink_bounds(items)
+    bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
+    tries: list[list[Placed]] = []
+    for height in SERIES_HEIGHTS:
+        labels = [*own, *positions.labels(height, every=ceil(len(positions.overlay) / MOST))]
+        last = height == SERIES_HEIGHTS[-1]
+        tries.append(place_labels(labels, [*items, *ellipses.grounds], bounds, breaking=last))
+        if untidiness(tries[-1]) <= UNTIDY * len(labels):
+            break
+    placed = min(tries, key=untidiness)
+    whole = [*items, *(item for label in placed for item in label.items())]
+    return Picture(tuple(whole), ink_bounds(whole))

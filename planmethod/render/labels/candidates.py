@@ -194,3 +194,11 @@ def crossing(one: Floats, two: Floats) -> NDArray[np.bool_]:
     with np.errstate(invalid="ignore"):
         apart = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
     return np.asarray(apart)
+
+
+def crossed(leaders: Sequence[Floats]) -> int:
+    """Return how many pairs of leader lines, each of shape (2, 2), cross."""
+    if not leaders:
+        return 0
+    lines = np.asarray(leaders)
+    return int(np.sum(crossing(lines[:, None], lines[None, :]))) // 2

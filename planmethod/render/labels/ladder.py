@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from planmethod.render.labels.candidates import Candidates, Complexes, Floats
+from planmethod.render.labels.candidates import Candidates, Complexes, Floats, crossed
 from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import CROSSED, Paper
 
@@ -31,6 +31,7 @@ _SLOT = 1.0  # mm between two slots
 _SLANT = 0.6  # mm of cost for a millimetre that a label is shifted along the column
 _LONGEST = 32.0  # shift along the column that comes into question, mm
 _BOTH_SIDES = 1.0  # mm of cost for a label, where columns stand on both sides
+_CROSS = 100.0  # mm of cost for two leader lines that cross
 _WHITE = 0.6  # mm between a leader line and its label
 _BAD = 1e9
 
@@ -99,7 +100,7 @@ def ladder(paper: Paper, series: _Series, standing: Standing) -> list[Candidates
     for column in both:
         column.reckon(costs, standing)
     every = range(len(series.labels))
-    best: tuple[float, list[tuple[_Column, dict[int, int]]]] = (np.inf, [])
+    best: tuple[float, list[Candidates | None]] = (np.inf, [])
     for parts in (
         ((-1, every),),
         ((1, every),),
@@ -112,13 +113,14 @@ def ladder(paper: Paper, series: _Series, standing: Standing) -> list[Candidates
             least, slots, column = min(tries, key=lambda found: round(found[0], 6))
             cost += least
             chosen.append((column, slots))
+        found: list[Candidates | None] = [None for _ in every]
+        for column, slots in chosen:
+            for k, slot in slots.items():
+                found[k] = column.place(k, slot)
+        cost += _CROSS * crossed([c.leaders[0] for c in found if c is not None])
         if cost < best[0] - 1e-6:
-            best = (cost, chosen)
-    found: list[Candidates | None] = [None for _ in every]
-    for column, slots in best[1]:
-        for k, slot in slots.items():
-            found[k] = column.place(k, slot)
-    return found
+            best = (cost, found)
+    return best[1]
 
 
 class _Column:

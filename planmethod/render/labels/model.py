@@ -61,6 +61,7 @@ BUSY = Manner(
     angles=24,
     leader_from=5.0,
     leader=10.0,
+    beside=3.2,
     heavy=20.0,
 )
 """A letter among few, on a drawing with many lines."""

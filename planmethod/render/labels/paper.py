@@ -17,7 +17,7 @@ from planmethod.render.symbols import arc_points
 from planmethod.render.typeset import text_corners
 
 FORBIDDEN = 1e6
-CROSSED = 400.0  # a label on a line, and its share per mm of line under it
+CROSSED = 4000.0  # a label on a line, and its share per mm of line under it
 _PER_MM = 20.0
 _BETWEEN = 7.0  # per thin line between a label and what it names
 _THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through

@@ -28,14 +28,15 @@ from planmethod.render.labels.ladder import dense, ladder
 from planmethod.render.labels.model import ALONE, APART, Label, Placed
 from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
 
+_FAR_IF = 200.0  # cost from which one of a crowd looks at its far places
 _OFF_LEADERS = 0.5  # white between a label and another one's leader line, mm
-_LEADERS_CROSS = 120.0  # two leader lines that cross
+_LEADERS_CROSS = 300.0  # two leader lines that cross
 _AT_ONCE = 24  # places looked at together
 _PASSES = 4  # times that all labels of a crowd look again
 _POOR = 45.0  # cost from which a better place is looked for, though others have to go
 _WORTH = 5.0  # what must be won by it
 _SENT_AWAY = 2  # most labels that one may send elsewhere
-_TRIED = 10  # places for which it may
+_TRIED = 12  # places for which it may
 
 
 def place_labels(
@@ -133,7 +134,7 @@ class _Places:
                     if place is not None:
                         k = numbers[id(label)]
                         self._take(k, _Taken(_Choice.of(place, place.dislike), 0, 0.0))
-                        if self._cost(k) < CROSSED:
+                        if self._others(k, place, np.zeros(1, dtype=np.intp))[0] < _LEADERS_CROSS:
                             self.lined.add(k)
                         else:
                             self._leave(k)
@@ -166,9 +167,11 @@ class _Places:
     def _best(self, k: int) -> _Taken:
         """Return the cheapest place of a label; look further away when all near ones are taken."""
         best = self._cheapest(k, self.choices[k][0])
-        # One of a crowd rather breaks a line than stands at the other end of the drawing.
-        for number in (1, 2) if self.labels[k].manner is ALONE else (1,):
-            if best.cost < CROSSED:
+        # One of a crowd looks further before its leader line crosses others, but rather breaks a
+        # line than stands at the other end of the drawing.
+        alone = self.labels[k].manner is ALONE
+        for number in (1, 2) if alone else (1,):
+            if best.cost < (CROSSED if alone else _FAR_IF):
                 break
             further = self._cheapest(k, self._wider(k, number))
             if further.cost < best.cost:

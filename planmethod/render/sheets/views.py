@@ -18,6 +18,7 @@ from planmethod.render.block import Block, Column, Line, Row
 from planmethod.render.drawing import Disc, Item, Span, View
 from planmethod.render.ellipses import ellipse_inscription
 from planmethod.render.planview import POLE, plan_picture, plan_places
+from planmethod.render.positions import bold_position
 from planmethod.render.schemeview import scheme_picture
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.results import position_text
@@ -149,11 +150,11 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
-    """Return the position that stands for all: the asked one, else the furthest from a dead one."""
+    """Return the position that stands for all: the asked one, else the clearest one."""
     asked = manner.entry.position
     if asked is not None and asked in indices:
         return asked
-    return max(indices, key=lambda i: float(solution.margin[i]))
+    return bold_position(solution, indices)
 
 
 def _is_alone(solution: Solution, kind: PlanKind, manner: Manner) -> bool:

@@ -1,0 +1,235 @@
+"""Many positions over one another: every joint lettered, nothing in the way of anything."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+import pytest
+from worked import DEAD, SIX, problem_of
+
+from planmethod.plans.scaling import Views
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+from planmethod.render.block import Picture
+from planmethod.render.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
+from planmethod.render.labels import GROUND
+from planmethod.render.lint import lint, writings_of
+from planmethod.render.paths import TRAJECTORY, Paths
+from planmethod.render.positions import PRIMES, Positions, bold_position, written
+from planmethod.render.schemeview import scheme_picture
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+ALL_ROUND = [30.0 * k for k in range(12)]
+SOME = [150.0 + 10.0 * k for k in range(12)]  # the six-link mechanism does not go all round
+TWELVE = tuple(range(12))
+
+
+@cache
+def solved(name: str) -> Solution:
+    positions = SOME if name == "levers/six-link" else ALL_ROUND
+    return Solution(problem_of(name), positions=positions, views=Views.for_paper("A1", 12))
+
+
+@cache
+def drawn(name: str) -> Picture:
+    solution = solved(name)
+    return scheme_picture(solution, bold_position(solution, TWELVE), overlay=TWELVE)
+
+
+def positions_of(name: str) -> Positions:
+    solution = solved(name)
+    return Positions(solution, bold_position(solution, TWELVE), TWELVE, 5.0)
+
+
+def strokes(items: tuple[Item, ...], tag: str) -> list[Item]:
+    return [i for i in items if isinstance(i, (Stroke, Arc)) and i.tag.startswith(tag)]
+
+
+# Labels -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_no_label_of_twelve_positions_is_in_the_way(name: str) -> None:
+    items = drawn(name).items
+    assert lint(items) == []
+    assert not [i for i in items if isinstance(i, Fill) and i.tag == GROUND]  # no line is broken
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_every_point_has_its_letter_in_every_position(name: str) -> None:
+    """As many labels as points times positions, less those that one place has in common."""
+    positions = positions_of(name)
+    labels = [w.name for w in writings_of(drawn(name).items)]
+    for point in positions.points:
+        own = [
+            label.removeprefix(f"point {point} ") for label in labels if f"point {point} " in label
+        ]
+        numbers = [number for label in own for number in label.split(",")]
+        assert sorted(n for n in numbers if n not in PRIMES) == sorted(map(str, TWELVE))
+        places = np.asarray([positions.at(point, k) for k in TWELVE])
+        apart = np.abs(places[:, None] - places[None, :])
+        together = len(TWELVE) - len(own) + sum(label in PRIMES for label in own)
+        assert together <= np.sum(apart[np.triu_indices(12, 1)] < 0.5)
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_letters_are_of_the_standard_heights(name: str) -> None:
+    texts = [item for item in drawn(name).items if isinstance(item, Text)]
+    assert {text.height for text in texts} <= {5.0, 3.5, 2.5, 1.8}
+    for writing in writings_of(drawn(name).items):
+        assert max(run.height for run in writing.runs) >= 2.5
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_fixed_points_and_links_are_named_once(name: str) -> None:
+    problem = problem_of(name)
+    shown = [w.shown for w in writings_of(drawn(name).items)]
+    for link in problem.mechanism.links:
+        alone = [w for w in writings_of(drawn(name).items) if w.shown == link and "@" in w.name]
+        assert len(alone) == 1
+    for point in problem.bodies["0"].points:
+        assert shown.count(point) == 1
+    assert len([text for text in shown if text[0] == "ω"]) == 1
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_leader_lines_do_not_cross_their_neighbours(name: str) -> None:
+    from shapely import LineString
+
+    leaders = [
+        LineString([(z.real, z.imag) for z in item.points])
+        for item in drawn(name).items
+        if isinstance(item, Stroke)
+        and item.pen is Pen.THIN
+        and not item.tag
+        and len(item.points) == 2
+    ]
+    crossed = sum(one.crosses(two) for one, two in combinations(leaders, 2))
+    # Thirteen places of two points lie within 25 mm in the six-link mechanism.
+    assert crossed <= (0.2 if name == "levers/six-link" else 0.07) * len(leaders)
+
+
+def test_the_same_again() -> None:
+    solution = solved("linkages/ex1")
+    one, two = (scheme_picture.__wrapped__(solution, 2, overlay=TWELVE).items for _ in range(2))
+    assert one == two
+
+
+def test_of_many_positions_every_other_one_has_a_letter() -> None:
+    positions = [15.0 * k for k in range(24)]
+    solution = Solution(problem_of("linkages/ex1"), positions=positions)
+    items = scheme_picture(solution, 4, overlay=tuple(range(24))).items
+    shown = {part for w in writings_of(items) for part in w.shown.split(", ")}
+    assert {"B0", "B2", "B22"} <= shown
+    assert not {"B1", "B23"} & shown
+    assert lint(items) == []
+
+
+@pytest.mark.parametrize(
+    ("point", "numbers", "bold", "text"),
+    [
+        ("B", ["3"], False, "B_{3}"),
+        ("B", ["3", "9"], True, "B_{3}, B_{9}"),
+        ("B", ["0", "′"], False, "B_{0}, B′"),
+        ("S3", ["4"], False, "4"),
+        ("S3", ["4", "8"], False, "4, 8"),
+        ("S3", ["4"], True, "S_{3}"),
+        ("S3", ["4", "8"], True, "S_{3} (4, 8)"),
+    ],
+)
+def test_what_is_written(point: str, numbers: list[str], bold: bool, text: str) -> None:
+    assert written(point, numbers, bold=bold) == text
+
+
+# Trajectories and extreme positions ---------------------------------------------------------------
+
+
+def test_a_crank_pin_moves_on_a_circle_and_a_rocker_on_an_arc() -> None:
+    items = drawn("linkages/ex2").items
+    (circle,) = strokes(items, f"{TRAJECTORY} A")
+    (arc,) = strokes(items, f"{TRAJECTORY} B")
+    assert isinstance(circle, Arc)
+    assert isinstance(arc, Arc)
+    assert circle.end - circle.start == pytest.approx(2 * np.pi)
+    assert arc.end - arc.start < 1.0
+    assert circle.pen is arc.pen is Pen.THIN
+    positions = positions_of("linkages/ex2")
+    for k in TWELVE:
+        assert abs(positions.at("B", k) - arc.centre) == pytest.approx(arc.radius)
+
+
+def test_a_point_of_the_coupler_moves_on_a_smooth_curve_through_its_places() -> None:
+    (curve,) = strokes(drawn("linkages/ex1").items, f"{TRAJECTORY} D")
+    assert isinstance(curve, Stroke)
+    places = np.asarray(curve.points)
+    positions = positions_of("linkages/ex1")
+    for k in TWELVE:
+        assert np.abs(places - positions.at("D", k)).min() < 1e-9
+    turns = np.angle(np.diff(places)[1:] / np.diff(places)[:-1])
+    assert np.abs(turns).max() < np.radians(12)
+    assert places[0] == pytest.approx(places[-1])
+
+
+def test_what_moves_straight_has_no_line_of_its_own() -> None:
+    assert strokes(drawn("linkages/ex1").items, f"{TRAJECTORY} C") == []
+
+
+def test_extreme_positions_of_a_slider_crank() -> None:
+    """Crank and coupler in one line: the slider furthest out at 0°, nearest at 180°."""
+    low, high = Paths(solved("linkages/ex1")).extremes
+    assert min(low, 360 - low) == pytest.approx(0.0, abs=0.01)
+    assert high == pytest.approx(180.0, abs=0.01)
+
+
+def test_extreme_positions_of_the_press_have_the_crank_across_the_rocker() -> None:
+    positions = positions_of("press/press")
+    for index in (12, 13):
+        crank = positions.at("A", index) - positions.at("O1", index)
+        rocker = positions.at("A", index) - positions.at("O3", index)
+        assert abs((crank * rocker.conjugate()).real) < 0.01 * abs(crank) * abs(rocker)
+    shown = {w.shown for w in writings_of(drawn("press/press").items)}
+    assert {"A′", "A″"} <= shown
+
+
+def test_a_link_that_goes_on_has_no_extreme_position() -> None:
+    solution = Solution(problem_of("linkages/ex1"), positions=[20.0, 30.0, 40.0, 50.0, 60.0])
+    assert Paths(solution).extremes == ()
+
+
+def test_positions_beyond_a_dead_one_leave_a_gap_in_the_line() -> None:
+    problem = loads(DEAD, name="dead")
+    drawn_at = [float(x) for x in problem.drive.positions]
+    solution = Solution(problem, positions=[drawn_at[0], drawn_at[0] + 1.0])
+    items = scheme_picture(solution, 0, overlay=(0, 1)).items
+    assert all(np.isfinite(np.asarray(s.points)).all() for s in items if isinstance(s, Stroke))
+
+
+# Joints and the sheet -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_every_place_is_marked(name: str) -> None:
+    positions = positions_of(name)
+    discs = np.asarray([i.centre for i in drawn(name).items if isinstance(i, Disc)])
+    for point in positions.points:
+        for k in TWELVE:
+            assert np.abs(discs - positions.at(point, k)).min() < 0.5
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_the_bold_position_is_not_in_one_line(name: str) -> None:
+    solution = solved(name)
+    bold = bold_position(solution, TWELVE)
+    for extreme in Paths(solution).extremes:
+        assert abs((solution.positions[bold] - extreme + 180) % 360 - 180) > 5
+
+
+def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
+    (sheet,) = kinematics_sheets(problem_of("press/press"), positions=ALL_ROUND)
+    assert (sheet.width, sheet.height) == (841.0, 594.0)
+    shown = " ".join(w.shown for w in writings_of(sheet.items)).replace(",", " ").split()
+    for letter in "ANB":
+        assert {f"{letter}{k}" for k in TWELVE} <= set(shown)
+    assert lint(sheet.items) == []
