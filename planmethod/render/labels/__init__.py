@@ -3,6 +3,7 @@
 ``model``       what wants a place, and the place it got
 ``candidates``  the places that come into question for a label
 ``paper``       what the drawing that is there already makes of them
+``others``      what the labels make of them that have their places
 ``ladder``      columns for the labels of points that are close together
 ``place``       one label after another, the hard ones first; then those that stand badly are mended
 """

@@ -11,7 +11,14 @@ from numpy.typing import NDArray
 from shapely import STRtree, box, intersects, linestrings, points, polygons
 
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
-from planmethod.render.labels.candidates import Candidates, Floats, as_segments, crossing, inside
+from planmethod.render.labels.candidates import (
+    Candidates,
+    Complexes,
+    Floats,
+    as_segments,
+    crossing,
+    inside,
+)
 from planmethod.render.labels.model import ALONE, BREAKABLE, CLEAR
 from planmethod.render.symbols import arc_points
 from planmethod.render.typeset import text_corners
@@ -43,6 +50,7 @@ class Paper:
     def __init__(self, obstacles: Iterable[Item], bounds: Bounds) -> None:
         self.segments, self.breakable, areas = _split(obstacles)
         self.bounds = bounds
+        self._ways: dict[complex, Complexes] = {}
         if len(self.segments):
             self.segments, self.breakable = _chopped(self.segments, self.breakable)
         self._lines = STRtree(linestrings(self.segments)) if len(self.segments) else None
@@ -140,16 +148,28 @@ class Paper:
         ask = np.flatnonzero(candidates.led & (so_far < CROSSED))
         if self._lines is None or label.manner is ALONE or not len(ask):
             return costs
-        anchor = label.anchor
-        near = self._lines.query(points(anchor.real, anchor.imag).buffer(_AT))
-        ends = self.segments[near][:, :, 0] + 1j * self.segments[near][:, :, 1]
-        ways = (ends - anchor).ravel()
-        ways = ways[np.abs(ways) > 2 * _AT]
+        ways = self._ways_from(label.anchor)
         lines = candidates.ends[ask] - candidates.starts[ask]
         if len(ways):
             turn = np.abs(np.angle(lines[:, None] / ways[None, :])).min(axis=1)
             costs[ask] = np.where(turn < _ALONG, _ALONG_LINE, 0.0)
         return costs
+
+    def _ways_from(self, place: complex) -> Complexes:
+        """Return the ways along the lines that go through a place."""
+        if self._lines is None:
+            return np.empty(0, dtype=complex)
+        if place not in self._ways:
+            near = self._lines.query(box(*_square(place, _AT)))
+            ends = self.segments[near][:, :, 0] + 1j * self.segments[near][:, :, 1]
+            meets = inside(self.segments[near], np.asarray([_square(place, _AT)])) >= 0
+            ways = (ends[meets] - place).ravel()
+            self._ways[place] = ways[np.abs(ways) > 2 * _AT]
+        return self._ways[place]
+
+
+def _square(place: complex, half: float) -> Bounds:
+    return place.real - half, place.imag - half, place.real + half, place.imag + half
 
 
 def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[complex]) -> Floats:

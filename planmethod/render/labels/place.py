@@ -17,20 +17,16 @@ from planmethod.render.drawing import Bounds, Item
 from planmethod.render.labels.candidates import (
     Candidates,
     Floats,
-    around,
-    crossing,
     everywhere,
     far,
-    inside,
     near,
 )
 from planmethod.render.labels.ladder import dense, ladder
-from planmethod.render.labels.model import ALONE, APART, Label, Placed
+from planmethod.render.labels.model import ALONE, Label, Placed
+from planmethod.render.labels.others import LEADERS_CROSS, Others
 from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
 
 _FAR_IF = 200.0  # cost from which one of a crowd looks at its far places
-_OFF_LEADERS = 0.5  # white between a label and another one's leader line, mm
-_LEADERS_CROSS = 300.0  # two leader lines that cross
 _AT_ONCE = 24  # places looked at together
 _PASSES = 4  # times that all labels of a crowd look again
 _POOR = 45.0  # cost from which a better place is looked for, though others have to go
@@ -116,10 +112,7 @@ class _Places:
         sets = [near(label) for label in self.labels]
         costs = self.paper.costs(sets, self.strangers)
         self.choices = [[_Choice.of(c, cost)] for c, cost in zip(sets, costs, strict=True)]
-        self.beside = np.asarray([label.manner.beside for label in self.labels])
-        self.widest = float(self.beside.max())
-        self.boxes = np.full((len(self.labels), 4), np.nan)
-        self.leaders = np.full((len(self.labels), 2, 2), np.nan)
+        self.others = Others(self.labels)
         self.lined: set[int] = set()
 
     # A series --------------------------------------------------------------------------------
@@ -133,15 +126,13 @@ class _Places:
                 for label, place in zip(series.labels, found, strict=True):
                     if place is not None:
                         k = numbers[id(label)]
-                        self._take(k, _Taken(_Choice.of(place, place.dislike), 0, 0.0))
-                        if self._others(k, place, np.zeros(1, dtype=np.intp))[0] < _LEADERS_CROSS:
+                        if self._standing(place, np.zeros(1, dtype=np.intp))[0] < LEADERS_CROSS:
+                            self._take(k, _Taken(_Choice.of(place, place.dislike), 0, 0.0))
                             self.lined.add(k)
-                        else:
-                            self._leave(k)
 
     def _standing(self, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
         """Return what the labels that are there cost a label that is not yet, shape (n,)."""
-        return self._others(-1, candidates, rows)
+        return self.others.costs(-1, candidates, rows)
 
     # One label -------------------------------------------------------------------------------
 
@@ -155,14 +146,11 @@ class _Places:
 
     def _take(self, k: int, taken: _Taken) -> None:
         self.taken[k] = taken
-        candidates = taken.choice.candidates
-        self.boxes[k] = candidates.boxes[taken.row]
-        self.leaders[k] = candidates.leaders[taken.row]
+        self.others.put(k, taken.choice.candidates, taken.row)
 
     def _leave(self, k: int) -> None:
         self.taken.pop(k, None)
-        self.boxes[k] = np.nan
-        self.leaders[k] = np.nan
+        self.others.lift(k)
 
     def _best(self, k: int) -> _Taken:
         """Return the cheapest place of a label; look further away when all near ones are taken."""
@@ -193,59 +181,14 @@ class _Places:
         first, count = 0, _AT_ONCE
         while first < len(choice.order):
             rows = choice.order[first : first + count]
-            if choice.costs[rows[0]] >= min(cost, FORBIDDEN):
+            if choice.costs[rows[0]] >= (min(cost, FORBIDDEN) if first else cost):
                 break
-            costs = np.round(choice.costs[rows] + self._others(k, choice.candidates, rows), 9)
+            costs = np.round(choice.costs[rows] + self.others.costs(k, choice.candidates, rows), 9)
             least = int(np.argmin(costs))
             if costs[least] < cost:
                 best, cost = int(rows[least]), float(costs[least])
             first, count = first + count, 2 * count
-        cost = min(cost, 1e12)
         return _Taken(choice, best, cost)
-
-    # The other labels ------------------------------------------------------------------------
-
-    def _others(self, k: int, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
-        """Return the cost of the labels and leader lines that are there, shape (n,)."""
-        there = [other for other in self.taken if other != k]
-        if not there:
-            return np.zeros(len(rows))
-        return np.asarray(self._meets(candidates, rows, there).sum(axis=1))
-
-    def _meets(self, candidates: Candidates, rows: NDArray[np.intp], there: list[int]) -> Floats:
-        """Return the cost that each label has for each place, shape (n, len(there))."""
-        boxes, own = candidates.boxes[rows], candidates.leaders[rows]
-        costs = np.zeros((len(rows), len(there)))
-        others = np.asarray(there)
-        # Only labels near one of the places can meet it.
-        x0, y0, x1, y1 = around(boxes, own).T
-        a0, b0, a1, b1 = around(self.boxes[others], self.leaders[others]).T
-        near = np.flatnonzero(
-            (a0 < x1.max() + self.widest)
-            & (a1 > x0.min() - self.widest)
-            & (b0 < y1.max() + self.widest)
-            & (b1 > y0.min() - self.widest)
-        )
-        if not len(near):
-            return costs
-        a, b = boxes[:, None, :], self.boxes[others[near]][None, :, :]
-        wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0])
-        wide += np.maximum(self.beside[others[near]], candidates.label.manner.beside)
-        tall = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + APART
-        found = np.where((wide > 0) & (tall > 0), FORBIDDEN + wide * tall, 0.0)
-        white = np.array([-1, -1, 1, 1]) * _OFF_LEADERS
-        theirs = self.leaders[others[near]]
-        led = np.flatnonzero(~np.isnan(theirs[:, 0, 0]))
-        if len(led):
-            found[:, led] += FORBIDDEN * (inside(theirs[led][None], a + white) >= 0)
-        mine = np.flatnonzero(~np.isnan(own[:, 0, 0]))
-        if len(mine):
-            lines = own[mine][:, None]
-            found[mine] += FORBIDDEN * (inside(lines, b + white) >= 0)
-            if len(led):
-                found[np.ix_(mine, led)] += _LEADERS_CROSS * crossing(lines, theirs[led][None])
-        costs[:, near] = found
-        return costs
 
     # Mending ---------------------------------------------------------------------------------
 
@@ -257,7 +200,7 @@ class _Places:
         """Return what the place of a label costs with all others where they are now."""
         taken = self.taken[k]
         rows = np.asarray([taken.row])
-        others = self._others(k, taken.choice.candidates, rows)
+        others = self.others.costs(k, taken.choice.candidates, rows)
         return float(taken.choice.costs[taken.row] + others[0])
 
     def look_again(self) -> None:
@@ -291,8 +234,8 @@ class _Places:
             rows = rows[choice.costs[rows] < min(now, CROSSED) - _WORTH]
             if not len(rows):
                 continue
-            there = [other for other in self.taken if other != k]
-            meets = self._meets(choice.candidates, rows, there) >= _LEADERS_CROSS
+            there = self.others.but(k)
+            meets = self.others.each(choice.candidates, rows, there) >= LEADERS_CROSS
             for row, met in zip(rows, meets, strict=True):
                 sent = [there[j] for j in np.flatnonzero(met)]
                 if self.lined.isdisjoint(sent) and len(sent) <= _SENT_AWAY:
