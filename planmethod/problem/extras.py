@@ -19,7 +19,7 @@ from planmethod.problem.names import TITLE_LIMIT, listed, near, segment
 from planmethod.problem.selector import SelectorError, parse_selector, unknown_names
 
 NOTE_LIMIT = 1000
-TABLE_KEYS = ("dynamics", "loads", "gears", "point")
+TABLE_KEYS = ("gears", "point")
 
 
 def read_heading(faults: Faults, table: Mapping[str, Any], key: str) -> str:
@@ -121,12 +121,7 @@ def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:
     for key in TABLE_KEYS:
         if key not in table:
             continue
-        value = table[key]
-        if key != "loads":
-            if read_table(faults, key, value) is not None:
-                found[key] = value
-        elif isinstance(value, list) and all(isinstance(item, Mapping) for item in value):
+        value = read_table(faults, key, table[key])
+        if value is not None:
             found[key] = value
-        else:
-            faults.add(key, f"expected tables [[loads]], got {show(value)}")
     return found

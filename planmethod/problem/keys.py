@@ -76,6 +76,11 @@ FORMS = ("1", "1+2a", "2", "2a")
 LETTERINGS = ("A", "A-upright", "B", "B-upright")
 """Types of the lettering of GOST 2.304, slanted where nothing else is said."""
 CONFIG = ("stamp", "sheet")
+DYNAMICS = ("gravity", "links")
+MASS = ("mass", "centre", "inertia")
+LOAD = ("name", "link", "at", "force", "couple", "angle", "against", "phases")
+TABLE = ("over", "values", "interpolation")
+PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
 
 KNOWN: dict[str, tuple[str, ...]] = {
@@ -92,6 +97,11 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "stamp": STAMP,
     "sheet": SHEET,
     "published": PUBLISHED,
+    "dynamics": DYNAMICS,
+    "mass": MASS,
+    "load": LOAD,
+    "table": TABLE,
+    "phases": PHASES,
 }
 """All of them by the kind of table."""
 
@@ -102,3 +112,5 @@ LINK_LIMIT = 60
 POSITION_LIMIT = 10_000
 VARIANT_LIMIT = 400
 PUBLISHED_LIMIT = 1000
+LOAD_LIMIT = 200
+ROW_LIMIT = POSITION_LIMIT

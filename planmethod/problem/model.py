@@ -12,6 +12,7 @@ from enum import Enum
 from typing import Any
 
 from planmethod.mechanism.model import Mechanism
+from planmethod.problem.loads import Dynamics
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,8 +205,10 @@ class Problem:
     guides : mapping of str to (str or None, complex, float)
         Frame guides by name: fixed point's name if so given, base in m, angle in degrees.
     assembly : tuple of Rule
+    dynamics : Dynamics or None
+        Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     tables : mapping
-        Tables that later parts read ([dynamics], [[loads]], [gears], [point]), as parsed.
+        Tables that later parts read ([gears], [point]), as parsed.
     """
 
     name: str
@@ -224,4 +227,5 @@ class Problem:
     published: tuple[Published, ...] = ()
     variants: tuple[str, ...] = ()
     variant: str | None = None
+    dynamics: Dynamics | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)

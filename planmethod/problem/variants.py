@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
 from planmethod.problem import keys
@@ -19,8 +20,11 @@ from planmethod.problem.names import (
 
 Path = tuple[str, ...]
 
-_FREE = ("dynamics", "loads", "gears", "point")
+_FREE = ("gears", "point")
 """Tables whose keys later parts check."""
+
+_HOLDERS = (Mapping, list)
+"""What a path may lead through: a table, or the loads."""
 
 _MOTION = ("frame", "links", "driver", "assembly")
 """Tables on which the published values depend."""
@@ -59,24 +63,47 @@ def _overrides(
     for key, value in table.items():
         whole = (*before, key)
         parts = whole if _get(base, whole) is not None else (*before, *key.split("."))
+        parts = _numbered(base, parts)
         under = _get(base, parts)
-        if isinstance(value, Mapping) and isinstance(under, Mapping) and not _is_leaf(parts):
+        if isinstance(value, Mapping) and isinstance(under, _HOLDERS) and not _is_leaf(parts):
             yield from _overrides(base, value, parts)
         else:
             yield parts, value
 
 
 def _is_leaf(path: Path) -> bool:
-    """Whether a table at this path is one value: spans of positions and places."""
+    """Whether a table at this path is one value: spans, places, sizes and phases of loads."""
+    if path[:1] == ("loads",):
+        return len(path) == 3
     return path[:-1] == ("driver",) or (path[:1] == ("assembly",) and len(path) > 1)
 
 
-def _get(base: object, path: Path) -> Any:
+def _get(base: Any, path: Path) -> Any:
     for part in path:
-        if not isinstance(base, Mapping):
-            return None
-        base = base.get(part)
+        key = _key(base, part)
+        if isinstance(key, int):
+            base = base[key]
+        else:
+            base = base.get(part) if isinstance(base, Mapping) else None
     return base
+
+
+def _key(level: object, part: str) -> str | int:
+    """Key of a part of a path; a load goes by its number from 0, or by its name."""
+    if not isinstance(level, list) or not all(isinstance(entry, Mapping) for entry in level):
+        return part
+    if part.isdecimal():
+        return int(part) if len(part) < 6 and int(part) < len(level) else part
+    names = [entry.get("name") for entry in level]
+    return names.index(part) if part in names else part
+
+
+def _numbered(base: Mapping[str, Any], path: Path) -> Path:
+    """Path with the numbers of loads in place of their names."""
+    return tuple(str(_key(_get(base, path[:i]), part)) for i, part in enumerate(path))
+
+
+_LOAD_TABLES = {"force": keys.TABLE, "couple": keys.TABLE, "phases": keys.PHASES}
 
 
 def _known_under(path: Path) -> tuple[str, ...]:
@@ -94,6 +121,10 @@ def _known_under(path: Path) -> tuple[str, ...]:
         return keys.PUBLISHED if len(path) == 2 else ()
     if first == "driver" and len(path) == 2:
         return keys.SPAN
+    if first == "dynamics" and len(path) > 1:
+        return keys.MASS if path[1] == "links" and len(path) == 3 else ()
+    if first == "loads":
+        return {2: keys.LOAD, 3: _LOAD_TABLES.get(path[-1], ())}.get(len(path), ())
     return keys.KNOWN.get(first, ()) if len(path) == 1 else ()
 
 
@@ -104,7 +135,14 @@ def _may_add(path: Path) -> bool:
         return is_point_name(key) or split_pair(key) is not None
     if parent in (("frame",), ("assembly",)):
         return is_point_name(key)
-    return parent in (("frame", "guides"), ("published",))
+    return parent in (("frame", "guides"), ("published",), ("dynamics", "links"))
+
+
+def _names_in(table: object) -> list[str]:
+    """Names that may follow in a path."""
+    if isinstance(table, list):
+        return [str(e.get("name", i)) for i, e in enumerate(table) if isinstance(e, Mapping)]
+    return list(table) if isinstance(table, Mapping) else []
 
 
 def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: Path) -> bool:
@@ -120,7 +158,7 @@ def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: Path)
         if _get(base, part) is not None or part[-1] in known or _may_add(part):
             continue
         table = _get(base, parent)
-        names = [*(table if isinstance(table, Mapping) else ()), *known]
+        names = [*_names_in(table), *known]
         guess = near(part[-1], names) if faults.count < FAULT_LIMIT else None
         dotted = ".".join(where[:depth])
         hint = f"Did you mean '{'.'.join((*parent, guess))}'?" if guess else ""
@@ -138,14 +176,26 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> di
     if any(path[0] in _MOTION for path in overrides):
         result.pop("published", None)
     for path, value in overrides.items():
-        level = result
-        for part in path[:-1]:
-            below = level.get(part)
-            level[part] = dict(below) if isinstance(below, Mapping) else {}
-            level = level[part]
-        level[path[-1]] = value
+        level: Any = result
+        for part, after in pairwise(path):
+            level = _opened(level, part, after)
+        level[_key(level, path[-1])] = value
         if path == ("driver", "n"):
             level.pop("omega", None)
         elif path == ("driver", "omega"):
             level.pop("n", None)
     return result
+
+
+def _opened(level: Any, part: str, after: str) -> Any:
+    """Replace what stands under a part of a path by a copy of its own, and return the copy.
+
+    What cannot hold the part after it is replaced by an empty table.
+    """
+    key = _key(level, part)
+    below = level[key] if isinstance(key, int) else level.get(key)
+    if isinstance(_key(below, after), int):
+        level[key] = list(below)
+    else:
+        level[key] = dict(below) if isinstance(below, Mapping) else {}
+    return level[key]

@@ -132,9 +132,10 @@ def test_scales_in_millimetres_per_unit_are_stored_inverted() -> None:
 
 def test_the_rest_of_a_problem() -> None:
     text = 'title = "Пример"\nsource = "кн. 1"\n' + CRANK + "phi = 1\nomega = 1\n"
-    text += '[stamp]\nauthor = "Иванов"\n[dynamics]\nm1 = 3\n[[loads]]\nF = 2\n'
+    text += '[stamp]\nauthor = "Иванов"\n[gears]\nz1 = 20\n[point]\nx = "t"\n'
     problem = loads(text, name="rest")
     assert (problem.name, problem.title, problem.source) == ("rest", "Пример", "кн. 1")
     assert problem.stamp == {"author": "Иванов"}
-    assert problem.tables == {"dynamics": {"m1": 3}, "loads": [{"F": 2}]}
+    assert problem.tables == {"gears": {"z1": 20}, "point": {"x": "t"}}
+    assert problem.dynamics is None
     assert (problem.variants, problem.variant, problem.published) == ((), None, ())

@@ -146,6 +146,11 @@ SCHEMA_TABLES = {
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
     "sheet": SCHEMA["$defs"]["sheet"]["properties"],
     "published": SCHEMA["$defs"]["published"]["additionalProperties"]["properties"],
+    "dynamics": SCHEMA["$defs"]["dynamics"]["properties"],
+    "mass": SCHEMA["$defs"]["mass"]["properties"],
+    "load": SCHEMA["$defs"]["load"]["properties"],
+    "table": SCHEMA["$defs"]["table"]["properties"],
+    "phases": SCHEMA["$defs"]["phases"]["properties"],
 }
 
 

@@ -1,0 +1,244 @@
+"""``[[loads]]`` of a problem file: external forces and couples."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from planmethod.mechanism.model import FRAME
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    read_angle,
+    read_keys,
+    read_point_name,
+    read_text,
+    report_unknown,
+    show,
+    unmask,
+)
+from planmethod.problem.links import LinkText
+from planmethod.problem.loads import Against, Couple, Fixed, Load
+from planmethod.problem.model import Drive
+from planmethod.problem.names import listed, near
+from planmethod.problem.sizes import read_phase, read_size, read_word
+
+NAME_LIMIT = 40
+_NAME_RE = re.compile(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What masses and loads may name.
+
+    Attributes
+    ----------
+    links : mapping of str to LinkText
+        Links as written; empty when none could be read.
+    fixed : collection of str
+        Points of the frame.
+    drive : Drive or None
+        None when it could not be read.
+    """
+
+    links: Mapping[str, LinkText]
+    fixed: Collection[str]
+    drive: Drive | None
+
+    def find_link(self, faults: Faults, path: str, value: object, verb: str) -> LinkText | None:
+        """Return a moving link by its name; ``verb`` says what such links do."""
+        if not isinstance(value, str):
+            hint = f'Write link = "{value}".' if type(value) is int else ""
+            faults.add(path, f"expected the name of a link, got {show(value)}", hint)
+            return None
+        name = value if value in self.links else unmask(faults, path, value)
+        if name == FRAME:
+            hint = f"Moving links {verb}: {listed(self.links)}."
+            faults.add(path, "0 is the frame (стойка), which stands still", hint)
+            return None
+        if name not in self.links:
+            if self.links:
+                report_unknown(faults, path, name, self.links, noun="link")
+            return None
+        return self.links[name]
+
+    def find_point(self, faults: Faults, path: str, value: object, link: LinkText) -> str | None:
+        """Return a point of a link by its name."""
+        name = read_point_name(faults, path, value)
+        if name is None or name in link.points or not link.whole:
+            return name
+        others = [other.name for other in self.links.values() if name in other.points]
+        points = f"the points of link {link.name} are {listed(link.points)}"
+        if others:
+            noun = "link" if len(others) == 1 else "links"
+            hint = f"{name} is a point of {noun} {listed(others)}; {points}."
+        elif name in self.fixed:
+            hint = f"{name} is a point of the frame; {points}."
+        else:
+            guess = near(name, link.points)
+            hint = f"Did you mean '{guess}'?" if guess else f"{points[:1].upper()}{points[1:]}."
+        faults.add(path, f"link {link.name} has no point '{name}'", hint)
+        return None
+
+
+def read_loads(faults: Faults, value: object, scene: Scene) -> tuple[Load | Couple, ...]:
+    """Read ``[[loads]]``, in file order."""
+    if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
+        faults.add("loads", f"expected tables [[loads]], got {show(value)}")
+        return ()
+    if len(value) > keys.LOAD_LIMIT:
+        faults.add("loads", f"{len(value)} loads, the limit is {keys.LOAD_LIMIT}")
+        return ()
+    names = _read_names(faults, value)
+    taken = {name for name in names if name is not None}
+    found: list[Load | Couple] = []
+    for index, (body, name) in enumerate(zip(value, names, strict=True)):
+        load = _read_load(faults, f"loads[{index}]", body, name, taken, scene)
+        if load is not None:
+            found.append(load)
+            taken.add(load.name)
+    return tuple(found)
+
+
+def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
+    """Names that the file gives, which must differ."""
+    names: list[str | None] = []
+    for index, body in enumerate(bodies):
+        path, name = f"loads[{index}].name", None
+        if "name" in body:
+            name = read_text(faults, path, body["name"], limit=NAME_LIMIT)
+        if name is not None and not _NAME_RE.match(name):
+            faults.add(
+                path,
+                f"expected a letter with its indices, got {show(name)}",
+                "For example: F_{5}, P, M_{1}^{c}.",
+            )
+            name = None
+        if name is not None and name in names:
+            twin = names.index(name)
+            faults.add(path, f"loads[{twin}] is called {name} too", "Give it another letter.")
+        names.append(name)
+    return names
+
+
+def _default_name(letter: str, link: str, taken: Collection[str]) -> str:
+    """First free name of a load: ``F_{5}``, ``F_{5}'``, ``F_{5}''``, ``F_{5}^{(3)}``."""
+    stem = f"{letter}_{{{link}}}"
+    for count in range(len(taken) + 1):
+        name = stem + ("'" * count if count < 3 else f"^{{({count})}}")
+        if name not in taken:
+            return name
+    raise AssertionError("more names than loads are taken")
+
+
+def _read_load(
+    faults: Faults,
+    path: str,
+    body: Table,
+    name: str | None,
+    taken: Collection[str],
+    scene: Scene,
+) -> Load | Couple | None:
+    before = len(faults)
+    given = read_keys(faults, path, body, keys.LOAD)
+    # a misspelt key is told once: what it should have been is then not called missing
+    whole = len(faults) == before
+    link = None
+    if "link" in given:
+        link = scene.find_link(faults, f"{path}.link", given["link"], "carry loads")
+    elif whole:
+        faults.add(f"{path}.link", "missing", f"Name the link: {listed(scene.links)}.")
+    load: Load | Couple | None = None
+    if "force" in given and "couple" in given:
+        hint = "Write two [[loads]] of them."
+        faults.add(f"{path}.couple", "force and couple are both given", hint)
+    elif "force" in given:
+        load = _read_force(faults, path, given, link, scene, whole=whole)
+    elif "couple" in given:
+        load = _read_couple(faults, path, given, link, scene)
+    elif whole:
+        hint = 'For example: link = "5", at = "H", force = 6000, angle = -90.'
+        faults.add(path, "expected force or couple, got none of them", hint)
+    if load is None or len(faults) != before:
+        return None
+    letter = "F" if isinstance(load, Load) else "M"
+    return replace(load, name=name or _default_name(letter, load.link, taken))
+
+
+def _read_force(
+    faults: Faults,
+    path: str,
+    given: Table,
+    link: LinkText | None,
+    scene: Scene,
+    *,
+    whole: bool,
+) -> Load | None:
+    at = None
+    if "at" not in given:
+        if whole and link is not None:
+            hint = f"Name the point of link {link.name} where it acts: {listed(link.points)}."
+            faults.add(f"{path}.at", "missing", hint)
+    elif link is not None:
+        at = scene.find_point(faults, f"{path}.at", given["at"], link)
+    fixed = at in scene.fixed
+    sense: Fixed | Against | None = None
+    if "angle" in given and "against" in given:
+        message = "angle and against are both given"
+        faults.add(f"{path}.against", message, "A force has one direction: keep one of them.")
+    elif "angle" in given:
+        angle = read_angle(faults, f"{path}.angle", given["angle"])
+        sense = None if angle is None else Fixed(angle)
+    elif "against" in given:
+        sense = _read_against(faults, f"{path}.against", given["against"], "velocity")
+        if fixed:
+            hint = "Give the direction as an angle."
+            faults.add(f"{path}.against", f"point {at} is fixed and has no velocity", hint)
+    elif whole:
+        hint = 'Give angle = -90 (degrees from +x) or against = "velocity".'
+        faults.add(path, "expected a direction, got neither angle nor against", hint)
+    size = read_size(faults, f"{path}.force", given["force"], scene.drive, couple=False)
+    phase = None
+    if "phases" in given:
+        still = at if fixed else None
+        phase = read_phase(faults, f"{path}.phases", given["phases"], scene.drive, still=still)
+    if link is None or at is None or sense is None or size is None:
+        return None
+    return Load("", link.name, at, size, sense, phase)
+
+
+def _read_couple(
+    faults: Faults, path: str, given: Table, link: LinkText | None, scene: Scene
+) -> Couple | None:
+    for key, why in (
+        ("at", "A couple acts on the whole link."),
+        ("angle", "A couple is counter-clockwise when positive."),
+    ):
+        if key in given:
+            faults.add(f"{path}.{key}", "does not go with a couple", why)
+    sense = None
+    if "against" in given:
+        sense = _read_against(faults, f"{path}.against", given["against"], "rotation")
+    size = read_size(faults, f"{path}.couple", given["couple"], scene.drive, couple=True)
+    phase = None
+    if "phases" in given:
+        where = f"{path}.phases"
+        phase = read_phase(faults, where, given["phases"], scene.drive, couple=True)
+    return None if link is None or size is None else Couple("", link.name, size, sense, phase)
+
+
+def _read_against(faults: Faults, path: str, value: object, wanted: str) -> Against | None:
+    word = read_word(faults, path, value, ("velocity", "rotation"))
+    if word is None:
+        return None
+    if word != wanted:
+        kind = "A force" if wanted == "velocity" else "A couple"
+        message = f"expected '{wanted}', got '{word}'"
+        faults.add(path, message, f"{kind} acts against the {wanted} of its {_WHOSE[wanted]}.")
+        return None
+    return Against()
+
+
+_WHOSE = {"velocity": "point", "rotation": "link"}

@@ -1,0 +1,184 @@
+"""Masses and loads of a problem, checked and put into plain records (SI units)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+GRAVITY = 9.81
+"""Acceleration of free fall where the file gives no other, m/s²."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mass:
+    """Inertia of a link (масса и момент инерции звена).
+
+    Attributes
+    ----------
+    mass : float, kg
+        Zero for a link of which only the moment of inertia counts.
+    centre : str or None
+        Point of the link at its centre of mass (центр масс); None only where ``mass`` is zero.
+    inertia : float, kg·m²
+        Moment of inertia about the centre of mass (момент инерции).
+    """
+
+    mass: float
+    centre: str | None
+    inertia: float = 0.0
+
+
+class Over(Enum):
+    """What a table of a force or couple is over (аргумент таблицы)."""
+
+    PHI = "phi"  # angle of the driving crank, degrees, periodic
+    S = "s"  # place of the driving slider, m
+    X = "x"  # coordinates of the point where the force acts, m
+    Y = "y"
+    POSITION = "position"  # one value for each position of the file
+
+
+class Interpolation(Enum):
+    """How a table is read between its rows (интерполяция)."""
+
+    LINEAR = "linear"
+    STEP = "step"  # a row holds until the next one
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Size of a load as a table (табличная сила или пара сил).
+
+    Attributes
+    ----------
+    over : Over
+    at : tuple of float, degrees or m
+        Increasing; empty when the table is over the positions of the file. Over phi the rows lie
+        within one turn and repeat.
+    values : tuple of float, N or N·m
+        As many as ``at``, or as the positions of the file.
+    interpolation : Interpolation
+    """
+
+    over: Over
+    at: tuple[float, ...]
+    values: tuple[float, ...]
+    interpolation: Interpolation = Interpolation.LINEAR
+
+
+@dataclass(frozen=True, slots=True)
+class Fixed:
+    """Direction that stays on the paper (неизменное направление), degrees from +x."""
+
+    angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class Against:
+    """Sense of a resistance (сила сопротивления): against the motion; none where that stops."""
+
+
+class Moving(Enum):
+    """Sense of the velocity of a point (направление хода)."""
+
+    UP = "up"
+    DOWN = "down"
+    LEFT = "left"
+    RIGHT = "right"
+
+
+class Turning(Enum):
+    """Sense of the rotation of a link (направление вращения)."""
+
+    CCW = "ccw"
+    CW = "cw"
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """When a load acts (фаза действия нагрузки): where all that is given holds.
+
+    Attributes
+    ----------
+    phi : tuple of (float, float), degrees
+        Each from the first angle of the driving crank counter-clockwise to the second, both ends
+        included; the load acts in any of them. Empty when it does not depend on phi.
+    moving : Moving or None
+        Sense in which the point of application moves.
+    turning : Turning or None
+        Sense in which the link turns.
+    """
+
+    phi: tuple[tuple[float, float], ...] = ()
+    moving: Moving | None = None
+    turning: Turning | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """External force on a link (внешняя сила).
+
+    Attributes
+    ----------
+    name : str
+        Letter in rich text, ``F_{5}``.
+    link, at : str
+        The link and its point where the force acts (точка приложения).
+    size : float or Table, N
+        A negative size acts the other way.
+    sense : Fixed or Against
+        Against the velocity of the point.
+    phase : Phase or None
+        None: it always acts.
+    """
+
+    name: str
+    link: str
+    at: str
+    size: float | Table
+    sense: Fixed | Against
+    phase: Phase | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Couple:
+    """External couple on a link (внешняя пара сил, момент).
+
+    Attributes
+    ----------
+    name : str
+        Letter in rich text, ``M_{1}``.
+    link : str
+    size : float or Table, N·m
+        Counter-clockwise positive when ``sense`` is None.
+    sense : Against or None
+        Against the rotation of the link.
+    phase : Phase or None
+        None: it always acts.
+    """
+
+    name: str
+    link: str
+    size: float | Table
+    sense: Against | None = None
+    phase: Phase | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Dynamics:
+    """What the force analysis knows beside the motion (исходные данные силового расчёта).
+
+    Attributes
+    ----------
+    gravity : float, m/s²
+        Acceleration of free fall (ускорение свободного падения), along -y; zero: no weights.
+    masses : mapping of str to Mass
+        By link; a link that is not here has no mass (невесомое звено).
+    loads : tuple of Load and Couple
+        In file order, with different names.
+    """
+
+    gravity: float
+    masses: Mapping[str, Mass]
+    loads: tuple[Load | Couple, ...]

@@ -1,0 +1,81 @@
+"""A crank mechanism and one with a driving slider, for tests of what is added to them."""
+
+from __future__ import annotations
+
+import pytest
+
+from planmethod.errors import ProblemError
+from planmethod.problem import Problem, loads
+
+CRANK = """
+[frame]
+A = [0, 0]
+guides.x-x = { through = "A", angle = 0 }
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C", "S2"]
+BC = 0.3
+S2 = { on = "BC", at = 0.1 }
+[links.3]
+points = ["C"]
+slides = { on = "x-x" }
+[driver]
+link = "1"
+phi = { from = 0, count = 4 }
+omega = 10
+[assembly]
+C = "right of B"
+"""
+
+SLIDER = """
+[frame]
+A = [0, 0]
+guides.x-x = { through = "A", angle = 0 }
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.3
+[links.3]
+points = ["C"]
+slides = { on = "x-x" }
+[driver]
+link = "3"
+s = [0.3, 0.35]
+v = 1
+[assembly]
+B = "above C"
+"""
+
+
+LOADED = """
+[dynamics.links.2]
+mass = 40
+centre = "S2"
+[[loads]]
+name = "P"
+link = "3"
+at = "C"
+force = { over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear" }
+angle = 180
+[[loads]]
+name = "F_{2}"
+link = "2"
+at = "S2"
+force = 10
+angle = 0
+[variants]
+"""
+
+
+def read(text: str, base: str = CRANK, variant: str | None = None) -> Problem:
+    return loads(base + text, name="v", variant=variant)
+
+
+def messages(text: str, base: str = CRANK) -> list[str]:
+    with pytest.raises(ProblemError) as caught:
+        read(text, base)
+    return [str(fault) for fault in caught.value.faults]
