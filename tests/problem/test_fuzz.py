@@ -9,6 +9,7 @@ from typing import Any
 
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mechanisms import CRANK, LOADED
 
 from planmethod.errors import ProblemError
 from planmethod.problem import Problem, loads, template
@@ -16,6 +17,7 @@ from planmethod.problem.families import FAMILIES
 from planmethod.problem.keys import KNOWN
 from planmethod.problem.reader import read_parsed
 
+GOOD = [*map(template, FAMILIES), CRANK + LOADED]
 NAMES = ["A", "B", "C", "D", "O", "S2", "AB", "BC", "CD", "OA", "1", "2", "3", "x-x", "А", "0", ""]
 WORDS = [
     *(key for keys in KNOWN.values() for key in keys),
@@ -83,7 +85,7 @@ def paths_of(table: Any, before: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 @st.composite
 def spoiled(draw: st.DrawFn) -> dict[str, Any]:
     """A good file with one to four of its values replaced, removed or added to."""
-    table = tomllib.loads(template(draw(st.sampled_from(list(FAMILIES)))))
+    table = tomllib.loads(draw(st.sampled_from(GOOD)))
     for _ in range(draw(st.integers(1, 4))):
         path = draw(st.sampled_from(paths_of(table)))
         place: Any = table
@@ -121,7 +123,7 @@ def test_random_variants(overrides: dict[str, Any], family: str) -> None:
 @settings(FEW, max_examples=300)
 @given(st.data())
 def test_spoiled_text(data: st.DataObject) -> None:
-    text = template(data.draw(st.sampled_from(list(FAMILIES))))
+    text = data.draw(st.sampled_from(GOOD))
     for _ in range(data.draw(st.integers(1, 3))):
         at = data.draw(st.integers(0, len(text)))
         cut = data.draw(st.integers(0, 10))
