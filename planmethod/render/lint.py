@@ -23,7 +23,7 @@ from shapely.geometry.base import BaseGeometry
 from planmethod.render.block import CUT
 from planmethod.render.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.frame import MARGIN_NOTE, STAMP
-from planmethod.render.labels.model import BREAKABLE, GROUND
+from planmethod.render.labels.model import BREAKABLE, UNDER_LABEL
 from planmethod.render.labels.paper import arc_step
 from planmethod.render.remarks import REMARKS, Facts, Severity, action, what
 from planmethod.render.symbols import arc_points
@@ -215,7 +215,7 @@ def _crossed(
             else:
                 common = shape.intersection(writing.ink)
                 for k, white in whites:
-                    if items[k].tag == GROUND and not _breaks(item):
+                    if items[k].tag == UNDER_LABEL and not _breaks(item):
                         continue
                     if order < k < writing.first and white.intersects(common):
                         common = common.difference(white)

@@ -3,7 +3,7 @@
 The positions are thin lines; at every moving point stands its letter with the number of the
 position (A₀, A₁, ...), at the centres of mass, whose letters have an index already, the number
 alone. The lines that the points move along are there, and the extreme positions of the output
-link, marked with one and two primes.
+link in dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 """
 
 from __future__ import annotations
@@ -129,13 +129,15 @@ class Positions:
         items: list[Item] = []
         for index in self.numbers:
             if index != self.bold:
-                items += self._pale(index)
+                items += self._links(index)
         for point in self.points:
             items += self.paths.lines(point)
         return items
 
-    def _pale(self, index: int) -> Iterable[Item]:
-        scheme = Scheme(self.shown, index, self.letter_height, pen=Pen.PALE)
+    def _links(self, index: int) -> Iterable[Item]:
+        """Return the lines of the links in a position: thin, dash-dot-dot in an extreme one."""
+        pen = Pen.PHANTOM if self.numbers[index] in PRIMES else Pen.PALE
+        scheme = Scheme(self.shown, index, self.letter_height, pen=pen)
         for link in self.solution.problem.mechanism.links:
             scheme.draw_link(link)
         return scheme.lines

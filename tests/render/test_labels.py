@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 from shapely import LineString, box
 
 from planmethod.render.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, Text
-from planmethod.render.labels import CROWDED, GROUND, Label, Placed, place_labels, segment_label
+from planmethod.render.labels import (
+    CROWDED,
+    UNDER_LABEL,
+    Label,
+    Placed,
+    place_labels,
+    segment_label,
+)
 from planmethod.render.labels.candidates import inside
 from planmethod.render.lint import lint
 from planmethod.render.symbols import revolute, slider
@@ -258,7 +265,7 @@ def test_a_crowded_label_breaks_thin_lines_before_thick_ones() -> None:
     assert not placed.free
     items = placed.items()
     whites = [item for item in items if isinstance(item, Fill)]
-    assert [item.tag for item in whites] == [GROUND]
+    assert [item.tag for item in whites] == [UNDER_LABEL]
     assert lint([*wall, *items], BOUNDS) == []
     (kept,) = place_labels([of_a_series(1, 95 + 70j)], wall, BOUNDS, breaking=False)
     assert not kept.ground

@@ -5,7 +5,7 @@ import pytest
 from planmethod.render.block import CUT
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.frame import MARGIN_NOTE, STAMP
-from planmethod.render.labels import GROUND
+from planmethod.render.labels import UNDER_LABEL
 from planmethod.render.lint import CODES, lint
 from planmethod.render.typeset import typeset
 
@@ -60,9 +60,9 @@ def test_the_closing_side_of_an_outline_counts() -> None:
 
 @pytest.mark.parametrize("pen", Pen)
 def test_the_ground_of_a_label_breaks_thin_lines_alone(pen: Pen) -> None:
-    line, ground = Stroke((45 + 52j, 90 + 52j), pen), Fill(WHITE, Ink.WHITE, tag=GROUND)
+    line, ground = Stroke((45 + 52j, 90 + 52j), pen), Fill(WHITE, Ink.WHITE, tag=UNDER_LABEL)
     told = codes(line, ground, WORD)
-    assert told == ([] if pen in (Pen.THIN, Pen.PALE) else ["PM-D02"])
+    assert told == ([] if pen in (Pen.THIN, Pen.PALE, Pen.PHANTOM) else ["PM-D02"])
 
 
 def test_white_hides_lines_drawn_before_it() -> None:

@@ -14,7 +14,7 @@ from planmethod.plans.solution import Solution
 from planmethod.problem import loads
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
-from planmethod.render.labels import GROUND
+from planmethod.render.labels import UNDER_LABEL
 from planmethod.render.lint import lint, writings_of
 from planmethod.render.paths import TRAJECTORY, Paths
 from planmethod.render.positions import PRIMES, Positions, bold_position, written
@@ -54,7 +54,9 @@ def strokes(items: tuple[Item, ...], tag: str) -> list[Item]:
 def test_no_label_of_twelve_positions_is_in_the_way(name: str) -> None:
     items = drawn(name).items
     assert lint(items) == []
-    assert not [i for i in items if isinstance(i, Fill) and i.tag == GROUND]  # no line is broken
+    assert not [
+        i for i in items if isinstance(i, Fill) and i.tag == UNDER_LABEL
+    ]  # no line is broken
 
 
 @pytest.mark.parametrize("name", SIX)
@@ -191,6 +193,14 @@ def test_extreme_positions_of_the_press_have_the_crank_across_the_rocker() -> No
         assert abs((crank * rocker.conjugate()).real) < 0.01 * abs(crank) * abs(rocker)
     shown = {w.shown for w in writings_of(drawn("press/press").items)}
     assert {"A′", "A″"} <= shown
+
+
+def test_extreme_positions_are_lines_with_two_dots() -> None:
+    """GOST 2.303: dash-dot with two dots is for parts in extreme positions."""
+    items = drawn("press/press").items
+    shown = [i for i in items if isinstance(i, Stroke) and i.pen is Pen.PHANTOM]
+    assert {i.tag for i in shown} == {"link 1", "link 3", "link 4"}
+    assert len([i for i in items if isinstance(i, Stroke) and i.pen is Pen.PALE]) >= 11 * 3
 
 
 def test_a_link_that_goes_on_has_no_extreme_position() -> None:

@@ -10,10 +10,10 @@ from planmethod.render.typeset import Inscription, typeset
 CLEAR = 0.7  # white between a label and a line, mm
 APART = 0.9  # white between two labels one above the other, mm
 
-GROUND = "ground"
+UNDER_LABEL = "under a label"
 """Tag of the white under a label that breaks the thin lines behind it."""
 
-BREAKABLE = frozenset({Pen.THIN, Pen.PALE})
+BREAKABLE = frozenset({Pen.THIN, Pen.PALE, Pen.PHANTOM})
 """Pens of the lines that it may break."""
 
 
@@ -146,7 +146,7 @@ class Placed:
                 complex(x1, y1) + CLEAR / 2 * (1 + 1j),
             )
             corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
-            items = [Fill(corners, Ink.WHITE, tag=GROUND), *items]
+            items = [Fill(corners, Ink.WHITE, tag=UNDER_LABEL), *items]
         return items if self.leader is None else [Stroke(self.leader, Pen.THIN), *items]
 
 
