@@ -21,7 +21,6 @@ from planmethod.render.labels.candidates import (
     far,
     near,
 )
-from planmethod.render.labels.ladder import dense, ladder
 from planmethod.render.labels.model import ALONE, Label, Placed
 from planmethod.render.labels.others import LEADERS_CROSS, Others
 from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
@@ -119,8 +118,13 @@ class _Places:
 
     def line_up(self) -> None:
         """Place the series of labels whose points are close together."""
+        names = dict.fromkeys(label.series for label in self.labels if label.series)
+        if not names:
+            return
+        from planmethod.render.labels.ladder import dense, ladder
+
         numbers = {id(label): k for k, label in enumerate(self.labels)}
-        for name in dict.fromkeys(label.series for label in self.labels if label.series):
+        for name in names:
             for series in dense([label for label in self.labels if label.series == name]):
                 found = ladder(self.paper, series, self._standing)
                 for label, place in zip(series.labels, found, strict=True):

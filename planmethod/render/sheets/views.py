@@ -18,7 +18,6 @@ from planmethod.render.block import Block, Column, Line, Row
 from planmethod.render.drawing import Disc, Item, Span, View
 from planmethod.render.ellipses import ellipse_inscription
 from planmethod.render.planview import POLE, plan_picture, plan_places
-from planmethod.render.positions import bold_position
 from planmethod.render.schemeview import scheme_picture
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.results import position_text
@@ -154,6 +153,10 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
     asked = manner.entry.position
     if asked is not None and asked in indices:
         return asked
+    if len(indices) == 1:
+        return indices[0]
+    from planmethod.render.positions import bold_position
+
     return bold_position(solution, indices)
 
 
