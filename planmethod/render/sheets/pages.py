@@ -114,7 +114,7 @@ def _sheet(
     """
     entries = [entry for entry in composition.blocks if entry.sheet == number]
     sizes = composition.sizes_for(paper.name)
-    kept: dict[tuple[int, bool], list[Made]] = {}
+    stock = _Stock(solution, indices, {})
     for count, level, dropped, taken_apart in _tries(
         composition.levels,
         droppable=any(entry.droppable for entry in entries),
@@ -122,18 +122,54 @@ def _sheet(
     ):
         rooms = [paper.room(first + k) for k in range(count)]
         inside = rooms[0].inner[2] - rooms[0].inner[0]
-        if (level, dropped) not in kept:
-            kept[level, dropped] = [
-                Made(entry, BLOCKS[entry.kind].make(solution, indices, manner))
-                for entry in entries
-                if not (dropped and entry.droppable)
-                for manner in [Manner(entry, sizes, inside, extras, level)]
-            ]
-        parts = _divided(kept[level, dropped], rooms, composition.arranged, taken_apart)
-        if parts is not None:
+        manners = [
+            Manner(entry, sizes, inside, extras, level)
+            for entry in entries
+            if not (dropped and entry.droppable)
+        ]
+        made = stock.made(manners, sum(map(_free, rooms)))
+        parts = made and _divided(made, rooms, composition.arranged, taken_apart)
+        if parts:
             title, tried = composition.titles.get(number, ""), (dropped, level, taken_apart)
             return [_page(part, corners, title, tried) for part, corners in parts]
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Stock:
+    """Blocks that were made for a sheet: what is tried again is not made again."""
+
+    solution: Solution
+    indices: Sequence[int]
+    blocks: dict[tuple[int, int, float], Block]
+
+    def made(self, manners: Sequence[Manner], room: float) -> list[Made] | None:
+        """Return the blocks of a sheet, or None when they are larger than ``room``, mm².
+
+        The scheme, whose letters take the longest to place, is made last.
+        """
+        found: dict[int, Block] = {}
+        for k in sorted(range(len(manners)), key=lambda k: manners[k].entry.kind == "scheme"):
+            found[k] = self._block(manners[k])
+            room -= found[k].width * found[k].height
+            if room < 0.0:
+                return None
+        return [Made(manner.entry, found[k]) for k, manner in enumerate(manners)]
+
+    def _block(self, manner: Manner) -> Block:
+        entry = manner.entry
+        key = (id(entry), min(manner.level, max(0, len(entry.heights) - 1)), manner.inside)
+        if key not in self.blocks:
+            make = BLOCKS[entry.kind].make
+            self.blocks[key] = make(self.solution, self.indices, manner)
+        return self.blocks[key]
+
+
+def _free(room: Room) -> float:
+    """Return how much of a sheet is free for blocks, mm²."""
+    left, low, right, high = room.inner
+    stamp = (room.stamp[2] - room.stamp[0]) * (room.stamp[3] - room.stamp[1])
+    return (right - left) * (high - low) - stamp
 
 
 def _tries(
