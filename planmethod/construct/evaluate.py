@@ -12,6 +12,7 @@ from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     AtAngle,
+    Carry,
     Compute,
     Given,
     Join,
@@ -22,11 +23,13 @@ from planmethod.construct.steps import (
     MeetCircles,
     MeetLineCircle,
     MeetLines,
+    Moment,
     Name,
     Parallel,
     Perpendicular,
     Similar,
     Step,
+    Total,
     Touch,
 )
 
@@ -152,6 +155,23 @@ def apply(
                 for _ in range(abs(power)):
                     value = value * env[name] if power > 0 else value / ar.nonzero(env[name])
             return value, None
+        case Total(_, terms):
+            total: Number = 0.0
+            for name in terms:
+                total = total + env[name]
+            return total, None
+        case Carry(out, o, a, b, times, turned):
+            vector = env[b] - env[a]
+            if times is not None:
+                vector = vector * env[times]
+            moved = vector * 1j if turned else vector
+            return ar.unless_zero(abs(vector), ar.pricked(out, env[o] + moved), env[o]), None
+        case Moment(out, about, at, a, b):
+            vector = env[b] - env[a]
+            size = abs(vector)
+            arm = _cross(env[at] - env[about], vector) / ar.nonzero(size)
+            moment = ar.read(out, arm) * size
+            return ar.unless_zero(size, moment, size * 0.0), None
         case _:
             assert_never(step)
 

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 
 from planmethod.construct.steps import (
     AtAngle,
+    Carry,
     Compute,
     Given,
     Join,
@@ -19,6 +20,7 @@ from planmethod.construct.steps import (
     MeetCircles,
     MeetLineCircle,
     MeetLines,
+    Moment,
     Name,
     NumberName,
     Parallel,
@@ -27,6 +29,7 @@ from planmethod.construct.steps import (
     Side,
     Similar,
     Step,
+    Total,
     Touch,
     Way,
     makes,
@@ -219,6 +222,35 @@ class Builder:
         """Read a signed length."""
         name = NumberName(out)
         self.steps.append(MeasureAlong(name, tail, head, along))
+        return name
+
+    def carry(
+        self,
+        out: str,
+        origin: PointName,
+        tail: PointName,
+        head: PointName,
+        times: NumberName | None = None,
+        *,
+        turned: bool = False,
+    ) -> PointName:
+        """Carry a segment to another point."""
+        name = PointName(out)
+        self.steps.append(Carry(name, origin, tail, head, times, turned))
+        return name
+
+    def moment(
+        self, out: str, about: PointName, at: PointName, tail: PointName, head: PointName
+    ) -> NumberName:
+        """Measure the arm of a vector and multiply it by its length."""
+        name = NumberName(out)
+        self.steps.append(Moment(name, about, at, tail, head))
+        return name
+
+    def total(self, out: str, *terms: NumberName) -> NumberName:
+        """Add numbers."""
+        name = NumberName(out)
+        self.steps.append(Total(name, terms))
         return name
 
     def compute(self, out: str, *powers: tuple[NumberName, int], factor: float = 1.0) -> NumberName:

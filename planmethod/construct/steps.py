@@ -178,6 +178,38 @@ class MeasureAlong:
 
 
 @dataclass(frozen=True, slots=True)
+class Carry:
+    """Segment of a plan carried to another point, parallel to itself (перенести отрезок).
+
+    ``out`` is ``origin`` plus ``times`` the segment from ``tail`` to ``head``; ``turned``: the
+    segment is turned by +90 degrees, as the plan under a Zhukovsky lever is. A segment of no length
+    has no direction, and needs none.
+    """
+
+    out: PointName
+    origin: PointName
+    tail: PointName
+    head: PointName
+    times: NumberName | None = None
+    turned: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """Moment of a vector of a plan about a point of another drawing (момент силы), mm².
+
+    The vector from ``tail`` to ``head`` acts at ``at``; its arm about ``about`` is measured with
+    the ruler, and multiplied by the vector's length. Positive counter-clockwise.
+    """
+
+    out: NumberName
+    about: PointName
+    at: PointName
+    tail: PointName
+    head: PointName
+
+
+@dataclass(frozen=True, slots=True)
 class Compute:
     """Number from numbers: ``factor`` times a product of powers (вычислить).
 
@@ -188,6 +220,14 @@ class Compute:
     out: NumberName
     factor: float
     powers: tuple[tuple[NumberName, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Total:
+    """Sum of computed numbers (алгебраическая сумма)."""
+
+    out: NumberName
+    terms: tuple[NumberName, ...]
 
 
 Step: TypeAlias = (
@@ -205,7 +245,10 @@ Step: TypeAlias = (
     | Similar
     | Measure
     | MeasureAlong
+    | Carry
+    | Moment
     | Compute
+    | Total
 )
 STEP_TYPES: tuple[type[Step], ...] = get_args(Step)
 
@@ -236,6 +279,10 @@ def operands(step: Step) -> Iterator[tuple[Name, object]]:
     """Yield each name the step uses together with the kind it must have."""
     if isinstance(step, Compute):
         for name, _ in step.powers:
+            yield name, NumberName
+        return
+    if isinstance(step, Total):
+        for name in step.terms:
             yield name, NumberName
         return
     for field, kind in _OPERANDS[type(step)]:

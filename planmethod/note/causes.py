@@ -8,6 +8,7 @@ import numpy as np
 
 from planmethod.construct.steps import (
     AtAngle,
+    Carry,
     Compute,
     Given,
     Join,
@@ -18,11 +19,13 @@ from planmethod.construct.steps import (
     MeetCircles,
     MeetLineCircle,
     MeetLines,
+    Moment,
     Parallel,
     Perpendicular,
     PointName,
     Similar,
     Step,
+    Total,
     Touch,
 )
 from planmethod.note.given import asked_links, asked_points
@@ -126,7 +129,7 @@ class Causes:
                 return words.cause_line.format(line=names.line(step.out))
             case Given(out):
                 return words.cause_given.format(point=names.point(out))
-            case LayOff(out, origin):
+            case LayOff(out, origin) | Carry(out, origin):
                 return words.cause_lay_off.format(of=names.of(origin), point=names.point(out))
             case MeetLines(out):
                 return words.cause_meet.format(point=names.point(out))
@@ -138,7 +141,9 @@ class Causes:
                 return words.cause_similar.format(point=names.point(out))
             case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
                 return words.cause_read.format(segment=names.segment(tail, head))
-            case Known() | Compute():
+            case Moment(_, about, at):
+                return words.cause_read.format(segment=names.segment(about, at))
+            case Known() | Compute() | Total():
                 raise TypeError(f"{step.out} is no stroke")
             case _:
                 assert_never(step)

@@ -6,6 +6,7 @@ from typing import assert_never
 
 from planmethod.construct.steps import (
     AtAngle,
+    Carry,
     Compute,
     Given,
     Join,
@@ -17,11 +18,13 @@ from planmethod.construct.steps import (
     MeetCircles,
     MeetLineCircle,
     MeetLines,
+    Moment,
     Parallel,
     Perpendicular,
     PointName,
     Similar,
     Step,
+    Total,
     Touch,
 )
 from planmethod.note.equations import note_text
@@ -75,6 +78,8 @@ class Narrator:
                 return [self._measure(tail, head)]
             case Compute():
                 return self.motion.compute(step)
+            case Carry() | Moment() | Total():
+                return []  # steps of the force plans, which no protocol has yet
             case _:
                 assert_never(step)
 

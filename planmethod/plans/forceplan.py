@@ -1,0 +1,249 @@
+"""The drawing board of the force plans: loads laid off, chained and weighed (силовой расчёт).
+
+A force is a segment of a plan and the place on the position plan where it acts; a couple is a
+number, N·m. Places are those of the position plan, so arms are measured where a textbook does.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Number
+from planmethod.construct.steps import LineName, NumberName, PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.draft import Draft
+from planmethod.plans.leads import Kinematics
+from planmethod.plans.loads import Applied, LoadKind
+from planmethod.plans.solution import Solution
+
+PREFIX = "f:"
+SCALE = "mu_F"
+
+DOWN = -90.0
+"""Direction of the weights, degrees."""
+
+
+@dataclass(frozen=True, slots=True)
+class Force:
+    """Force on a link (сила): where it acts, and its segment on a force plan."""
+
+    at: PointName
+    tail: PointName
+    head: PointName
+
+    def reversed(self) -> Force:
+        """Return the force that acts back."""
+        return Force(self.at, self.head, self.tail)
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """Load that does not come from a joint, as the plan has it; a force or a couple."""
+
+    applied: Applied
+    force: Force | None
+    couple: NumberName | None
+
+
+@dataclass(frozen=True, slots=True)
+class Reaction:
+    """What one link of a joint does to the other (реакция в кинематической паре).
+
+    Attributes
+    ----------
+    joint : str
+        The point of a revolute pair; the pin of the slider of a prismatic one.
+    on, by : str
+        The link that the force acts on, and the link that exerts it.
+    force : Force
+    couple : NumberName or None
+        Moment about the place of the force, N·m; None in a revolute pair.
+    """
+
+    joint: str
+    on: str
+    by: str
+    force: Force
+    couple: NumberName | None = None
+
+
+@dataclass(slots=True)
+class Board:
+    """State of the force plans while they are being planned (планы сил в работе).
+
+    ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
+    groups that hang on it do to it.
+    """
+
+    draft: Draft
+    kin: Kinematics
+    data: dict[str, Number] = field(default_factory=dict)
+    forces: dict[str, list[Force]] = field(default_factory=dict)
+    couples: dict[str, list[NumberName]] = field(default_factory=dict)
+    given: list[Given] = field(default_factory=list)
+    reactions: list[Reaction] = field(default_factory=list)
+    scale: NumberName = field(init=False)
+    pole: PointName = field(init=False)
+    _count: int = 0
+
+    def __post_init__(self) -> None:
+        self.scale = self.draft.b.known(SCALE)
+        self.pole = self.start()
+
+    @classmethod
+    def of(cls, solution: Solution) -> Board:
+        """Return a board that goes on from the kinematics of a solution, which stays as it is."""
+        draft = copy.copy(solution.construction.draft)
+        draft.b = draft.b.copy()
+        draft.numbers, draft.read = dict(draft.numbers), list(draft.read)
+        return cls(draft, solution.construction.kinematics)
+
+    def name(self, hint: str) -> str:
+        """Return a name that nothing has."""
+        self._count += 1
+        return f"{PREFIX}{hint}{self._count}"
+
+    def known(self, hint: str, value: Number) -> NumberName:
+        """Take numbers of all positions as known."""
+        name = self.draft.b.known(self.name(hint))
+        self.data[name] = value
+        return name
+
+    def start(self) -> PointName:
+        """Put down the first point of a force plan."""
+        point = self.draft.b.given(self.name("o"))
+        self.data[point] = 0j
+        return point
+
+    # Loads -----------------------------------------------------------------------------------
+
+    def load(self, solution: Solution, applied: Iterable[Applied]) -> None:
+        """Lay off what acts on the links beside the reactions."""
+        for one in applied:
+            if one.point is None:
+                couple = self._couple(solution, one)
+                self.couples.setdefault(one.link, []).append(couple)
+                self.given.append(Given(one, None, couple))
+                continue
+            link, place = self.kin.velocity.named[one.point]
+            if one.kind is LoadKind.INERTIA:
+                tail, head = self._inertia(solution, one, link, place)
+            else:
+                tail, head = self._laid_off(one)
+            force = Force(PointName(place), tail, head)
+            self.forces.setdefault(one.link, []).append(force)
+            self.given.append(Given(one, force, None))
+
+    def _couple(self, solution: Solution, one: Applied) -> NumberName:
+        if one.kind is LoadKind.INERTIA_COUPLE and one.link in self.kin.epsilon:
+            dynamics = solution.problem.dynamics
+            assert dynamics is not None
+            inertia = self.known("J", dynamics.masses[one.link].inertia)
+            turning = self.kin.epsilon[one.link]
+            return self.draft.b.compute(self.name("M"), (inertia, 1), (turning, 1), factor=-1.0)
+        return self.known("M", one.couple)
+
+    def _inertia(
+        self, solution: Solution, one: Applied, link: str, place: str
+    ) -> tuple[PointName, PointName]:
+        """Carry the acceleration of the centre of mass over, turned back: Φ = -m·a."""
+        dynamics = solution.problem.dynamics
+        assert dynamics is not None
+        mass = self.known("m", dynamics.masses[one.link].mass)
+        motion, b = self.kin.acceleration, self.draft.b
+        times = b.compute(
+            self.name("k"), (mass, 1), (motion.scale, 1), (self.scale, -1), factor=-1.0
+        )
+        head = motion.point[link, place]
+        return self.pole, b.carry(self.name("F"), self.pole, motion.pole, head, times)
+
+    def _laid_off(self, one: Applied) -> tuple[PointName, PointName]:
+        size = np.abs(one.force)
+        turned: Number = DOWN
+        if one.kind is not LoadKind.WEIGHT:
+            turned = np.degrees(np.angle(one.force))
+        angle, newtons = self.known("angle", turned), self.known("F", size)
+        b = self.draft.b
+        line = b.at_angle(self.pole, None, angle)
+        length = b.compute(self.name("l"), (newtons, 1), (self.scale, -1))
+        return self.pole, b.lay_off(self.name("F"), self.pole, line, length)
+
+    # Plans -----------------------------------------------------------------------------------
+
+    def chain(self, start: PointName, *links: str) -> PointName:
+        """Lay the forces on links off one after another, and return where they end."""
+        for link in links:
+            for force in self.forces.get(link, ()):
+                start = self.draft.b.carry(self.name("c"), start, force.tail, force.head)
+        return start
+
+    def back(self, end: PointName, link: str) -> PointName:
+        """Return where the forces on a link start that end in a point."""
+        for force in self.forces.get(link, ()):
+            end = self.draft.b.carry(self.name("c"), end, force.head, force.tail)
+        return end
+
+    def moment(self, links: Sequence[str], about: PointName) -> NumberName:
+        """Return the moment of all loads on links about a point, N·m."""
+        b = self.draft.b
+        terms = []
+        for link in links:
+            terms += [self.moment_of(force, about) for force in self.forces.get(link, ())]
+            terms += self.couples.get(link, ())
+        return b.total(self.name("M"), *(term for term in terms if term is not None))
+
+    def moment_of(self, force: Force, about: PointName) -> NumberName | None:
+        """Return the moment of a force about a point, N·m; None of one that acts in the point."""
+        if force.at == about:
+            return None
+        b = self.draft.b
+        area = b.moment(self.name("h"), about, force.at, force.tail, force.head)
+        return b.compute(self.name("M"), (area, 1), (self.scale, 1), (self.draft.mu_l, 1))
+
+    def negative(self, number: NumberName) -> NumberName:
+        """Return a number with the other sign."""
+        return self.draft.b.compute(self.name("-"), (number, 1), factor=-1.0)
+
+    def across(
+        self,
+        origin: PointName,
+        line: LineName,
+        moment: NumberName,
+        arm: tuple[tuple[NumberName, int], ...],
+    ) -> PointName:
+        """Lay off a tangential component: a moment over an arm, across a line."""
+        b = self.draft.b
+        over = tuple((name, -power) for name, power in arm)
+        length = b.compute(self.name("t"), (moment, 1), *over, (self.scale, -1))
+        return b.lay_off(self.name("t"), origin, b.perpendicular(origin, line), length)
+
+    def react(
+        self,
+        joint: str,
+        on: str,
+        by: str,
+        force: Force,
+        couple: NumberName | None = None,
+        *,
+        pin: str | None = None,
+        inner: bool = False,
+    ) -> None:
+        """Note a reaction, and what it does to the link that exerts it.
+
+        ``couple`` is about the place of ``force``; with ``pin`` both are moved there. ``inner``
+        reactions act between links that are both done with.
+        """
+        if pin is not None and couple is not None and PointName(pin) != force.at:
+            shift = self.moment_of(force, PointName(pin))
+            assert shift is not None
+            couple = self.draft.b.total(self.name("M"), couple, shift)
+            force = Force(PointName(pin), force.tail, force.head)
+        self.reactions.append(Reaction(joint, on, by, force, couple))
+        if by != FRAME and not inner:
+            self.forces.setdefault(by, []).append(force.reversed())
+            if couple is not None:
+                self.couples.setdefault(by, []).append(self.negative(couple))

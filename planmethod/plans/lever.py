@@ -1,0 +1,58 @@
+"""Zhukovsky lever (жёсткий рычаг Жуковского): the velocity plan turned by 90°, loaded with forces.
+
+A force at a point of the mechanism, carried to the like-named point of the turned velocity plan,
+has there a moment about the pole that is its power; all of them and that of the balancing moment
+give none. A couple M on a link stands there as its pair of forces in the like-named points,
+M·(bc)/l_BC each, which comes to M times the link's angular velocity.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planmethod.construct.steps import NumberName, PointName
+from planmethod.plans.forceplan import Board
+
+
+@dataclass(frozen=True, slots=True)
+class Lever:
+    """The lever of a mechanism (рычаг Жуковского).
+
+    Attributes
+    ----------
+    pole : PointName
+    balance : NumberName
+        Balancing moment on the crank, N·m, or force along the guide of a driving slider, N.
+    """
+
+    pole: PointName
+    balance: NumberName
+
+
+def hang(board: Board) -> Lever | None:
+    """Hang the given loads on the turned velocity plan; None where the driver stands."""
+    b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
+    if drive.rate == 0:
+        return None
+    pole = board.start()
+    powers: list[NumberName] = []
+    for given in board.given:
+        link = given.applied.link
+        if given.couple is not None:
+            if link in board.kin.omega:
+                turning = board.kin.omega[link]
+                powers.append(b.compute(board.name("P"), (given.couple, 1), (turning, 1)))
+            continue
+        assert given.force is not None and given.applied.point is not None
+        at = motion.point[motion.named[given.applied.point]]
+        if at == motion.pole:
+            continue
+        turned = b.carry(board.name("z"), pole, motion.pole, at, turned=True)
+        area = b.moment(board.name("h"), pole, turned, given.force.tail, given.force.head)
+        # The plan is turned by +90°: a moment on it is the power with the other sign.
+        powers.append(
+            b.compute(board.name("P"), (area, 1), (board.scale, 1), (motion.scale, 1), factor=-1.0)
+        )
+    rate = board.kin.omega[drive.link] if drive.is_crank else NumberName("v")
+    whole = b.total(board.name("P"), *powers)
+    return Lever(pole, b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0))
