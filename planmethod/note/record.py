@@ -126,7 +126,8 @@ def record(solution: Solution) -> dict[str, Any]:
     ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along the hand's
     own chain, and ``sigma``, one standard deviation of the drafting error. ``hand`` holds the
     quantities that follow from the read segments with theirs, and the labels of those whose sigma
-    was found by random draws because first order does not hold.
+    was found by random draws because first order does not hold. ``forces`` is there for a problem
+    with ``[dynamics]``: see `planmethod.note.forces`.
     """
     segments = {kind: solution.segments(kind) for kind in PlanKind}
     positions = []
@@ -180,6 +181,10 @@ def record(solution: Solution) -> dict[str, Any]:
             for kind in PlanKind
         }
         entry["hand"] = _hand(solution, i)
+        if solution.problem.dynamics is not None:
+            from planmethod.note.forces import forces_record
+
+            entry["forces"] = forces_record(solution, i)
         positions.append(entry)
     return {
         "schema": SCHEMA,

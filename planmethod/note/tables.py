@@ -121,10 +121,19 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
         for index in range(len(solution.positions)):
             lines += ["", *heading(position_line(solution, words, index)), ""]
             lines += position_tables(solution, words, index, sigmas)
+            lines += _forces(solution, words, index)
             lines += _causes(solution, words, index) if sigma else []
     ruler = given(solution.hand.ruler, words)
     lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
     return "\n".join(lines)
+
+
+def _forces(solution: Solution, words: Wording, index: int) -> list[str]:
+    if solution.problem.dynamics is None:
+        return []
+    from planmethod.note.forces import forces_tables
+
+    return ["", *forces_tables(solution, words, index)]
 
 
 def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
@@ -302,6 +311,14 @@ def _lengths(segment: Segment, words: Wording, i: int) -> list[str]:
     return [fixed(exact, words), given(read, words)]
 
 
+def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:
+    if solution.problem.dynamics is None:
+        return []
+    from planmethod.note.forces import forces_columns
+
+    return forces_columns(solution, words)
+
+
 # Many positions --------------------------------------------------------------------------------
 
 
@@ -345,6 +362,7 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
         (words.many_by_hand.format(title=words.many_velocities), read_v),
         (words.many_accelerations, a),
         (words.many_by_hand.format(title=words.many_accelerations), read_a),
+        (words.many_forces, _many_forces(solution, words)),
         (words.many_sigmas, errors),
     ):
         if columns:

@@ -86,6 +86,7 @@ class Board:
     couples: dict[str, list[NumberName]] = field(default_factory=dict)
     given: list[Given] = field(default_factory=list)
     reactions: list[Reaction] = field(default_factory=list)
+    starts: list[PointName] = field(default_factory=list)
     scale: NumberName = field(init=False)
     pole: PointName = field(init=False)
     _count: int = 0
@@ -117,6 +118,7 @@ class Board:
         """Put down the first point of a force plan."""
         point = self.draft.b.given(self.name("o"))
         self.data[point] = 0j
+        self.starts.append(point)
         return point
 
     # Loads -----------------------------------------------------------------------------------

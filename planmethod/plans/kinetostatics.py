@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planmethod.construct.steps import NumberName, PointName
+from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.forceplan import Board, Force
@@ -29,10 +29,14 @@ from planmethod.plans.position import (
 
 @dataclass(frozen=True, slots=True)
 class Driving:
-    """What balances the driving link: a moment on a crank (N·m), or a force along a guide (mm)."""
+    """What balances the driving link: a moment on a crank (N·m), or a force along a guide.
+
+    ``axis`` is the line of that guide.
+    """
 
     moment: NumberName | None = None
     force: Force | None = None
+    axis: LineName | None = None
 
 
 def group_forces(board: Board, group: AssurGroup) -> None:
@@ -188,4 +192,4 @@ def drive_forces(board: Board) -> Driving:
     end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
     couple = board.negative(board.moment((drive.link,), pin))
     board.react(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
-    return Driving(force=Force(pin, loaded, end))
+    return Driving(force=Force(pin, loaded, end), axis=guide)

@@ -29,6 +29,7 @@ from planmethod.problem.model import Problem
 
 if TYPE_CHECKING:
     from planmethod.plans.drafting import Drafting
+    from planmethod.plans.statics import Statics
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
@@ -345,6 +346,13 @@ class Solution:
         from planmethod.plans.drafting import Drafting
 
         return Drafting(self)
+
+    @cached_property
+    def statics(self) -> Statics:
+        """Reactions and balancing moment; of a problem with ``[dynamics]``."""
+        from planmethod.plans.statics import Statics
+
+        return Statics(self)
 
     def segments(self, kind: PlanKind) -> list[Segment]:
         """Return the segments of a plan in mm: exact, and read along the hand's own chain."""

@@ -6,14 +6,19 @@ of the drawings, whoever reads them.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
-from planmethod.construct.arithmetic import Arithmetic, Float64
+from planmethod.construct.arithmetic import Arithmetic, Float64, Number
+from planmethod.construct.drafting import Counted, Propagated, Sampled
+from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
+from planmethod.construct.scale import Scale, series_near
 from planmethod.construct.steps import Name, NumberName
 from planmethod.errors import AssemblyError
 from planmethod.plans.forceplan import SCALE, Board, Force, Reaction
@@ -21,7 +26,13 @@ from planmethod.plans.impossible import failing
 from planmethod.plans.kinetostatics import drive_forces, group_forces
 from planmethod.plans.lever import Lever, hang
 from planmethod.plans.loads import applied
-from planmethod.plans.solution import UNIT_SCALES, Complexes, Reals, Solution
+from planmethod.plans.solution import EVERY, UNIT_SCALES, Complexes, Reals, Solution
+
+LONGEST = 100.0
+"""Length that the largest force is drawn to, at most, mm."""
+
+BLOCK = 64
+"""Positions whose drafting errors are carried at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,12 +79,23 @@ class Statics:
             asked.append(self.driving.moment)
         if self.driving.force is not None:
             asked += [self.driving.force.tail, self.driving.force.head]
+        if self.driving.axis is not None:
+            asked.append(self.driving.axis)
+        asked.append(self.board.scale)
         return asked + ([self.hung.balance] if self.hung is not None else [])
 
-    def read(self, arithmetic: Arithmetic, scales: dict[str, float]) -> Trace:
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Trace:
         """Read the force plans in an arithmetic, at scales of all plans (units per mm)."""
-        data = {**self.solution.data(scales), **self.board.data}
-        return evaluate(self.program, data, arithmetic)
+        return evaluate(self.program, self._data(scales, EVERY), arithmetic)
+
+    def _data(
+        self, scales: Mapping[str, float], chosen: npt.NDArray[np.intp] | slice
+    ) -> dict[str, Number]:
+        loads = {
+            name: value[chosen] if np.ndim(value) else value
+            for name, value in self.board.data.items()
+        }
+        return {**self.solution.data(scales, chosen), **loads}
 
     @cached_property
     def si(self) -> Trace:
@@ -91,10 +113,10 @@ class Statics:
         if bad.size:
             index = int(bad[0])
             unit = "phi" if self.solution.problem.drive.is_crank else "s"
+            where = f"position {index + 1} ({unit} = {self.solution.positions[index] + 0.0:.12g})"
             raise AssemblyError(
-                f"Cannot close the force plan at position {index + 1} "
-                f"({unit} = {self.solution.positions[index] + 0.0:.12g}): the "
-                "mechanism stands in a dead position, where no forces balance the loads. Ask another."
+                f"Cannot close the force plan at {where}: the mechanism stands in a dead position, "
+                "where no forces balance the loads. Ask another position."
             )
         return trace
 
@@ -123,17 +145,87 @@ class Statics:
             self._number(reaction.couple),
         )
 
+    def _balance(self, trace: Trace) -> Number:
+        """Return what balances the driver, N or N·m, as the force plans of a trace give it."""
+        if self.driving.moment is not None:
+            return trace.value[self.driving.moment]
+        assert self.driving.force is not None and self.driving.axis is not None
+        vector = trace.value[self.driving.force.head] - trace.value[self.driving.force.tail]
+        along = trace.value[self.driving.axis][1]
+        return (vector * along.conjugate()).real / abs(along) * trace.value[self.board.scale]
+
     @cached_property
     def balance(self) -> Reals:
         """Balancing moment on the crank, N·m, or force along the guide of a driving slider, N."""
-        if self.driving.force is None:
-            return self._number(self.driving.moment)
-        slide = self.solution.problem.slides[self.solution.problem.drive.link]
-        axis = self.board.draft.direction(slide)
-        along = self.solution._complex_column(self.si.value[axis][1])
-        return np.asarray((self._vector(self.driving.force) * np.conj(along)).real / np.abs(along))
+        shape = self.solution.positions.shape
+        return np.broadcast_to(np.asarray(self._balance(self.si), dtype=float), shape)
 
     @cached_property
     def lever(self) -> Reals | None:
         """The same by the Zhukovsky lever; None where the driver stands."""
         return None if self.hung is None else self._number(self.hung.balance)
+
+    # Drawn -----------------------------------------------------------------------------------
+
+    @cached_property
+    def scale(self) -> Scale:
+        """Scale of the force plans (масштаб сил): one for all positions, from the series."""
+        forces = [np.abs(reaction.force).max() for reaction in self.reactions]
+        forces += [np.abs(given.applied.force).max() for given in self.board.given]
+        largest = max(forces, default=0.0)
+        per_mm = series_near(largest / LONGEST, up=True) if largest > 0.0 else 1.0
+        return Scale(SCALE, float(per_mm), "N")
+
+    @property
+    def per_mm(self) -> dict[str, float]:
+        """Unit per millimetre of all plans, by the name that the program has for it."""
+        return {**self.solution.per_mm, SCALE: self.scale.per_mm}
+
+    @property
+    def _free(self) -> frozenset[str]:
+        """Points that cannot be off: the poles, which may stand anywhere."""
+        poles = {str(plan.pole) for plan in self.solution.construction.plans}
+        return frozenset(poles | {str(start) for start in self.board.starts})
+
+    def _discrepancy(self, pencil: Arithmetic, chosen: npt.NDArray[np.intp]) -> Number:
+        assert self.hung is not None
+        trace = evaluate(self.program, self._data(self.per_mm, chosen), pencil)
+        with np.errstate(all="ignore"):
+            return trace.value[self.hung.balance] - self._balance(trace)
+
+    @cached_property
+    def discrepancy_sigma(self) -> Reals | None:
+        """Expected size of lever minus force plans as the hand draws them: one sigma, first order.
+
+        N·m, or N for a driving slider; shape (n,). None where the driver stands.
+        """
+        if self.hung is None:
+            return None
+        profile, count = self.solution.profile, len(self.solution.positions)
+        counted = Counted(profile, self._free)
+        self._discrepancy(counted, np.zeros(1, dtype=int))
+        sigmas = []
+        for start in range(0, count, BLOCK):
+            chosen = np.arange(start, min(start + BLOCK, count))
+            pencil = Propagated(profile, self._free, counted.causes)
+            slope = as_dual(self._discrepancy(pencil, chosen)).slope
+            squares = np.zeros((1, 1)) if slope is None else slope**2
+            sigmas.append(np.broadcast_to(np.sqrt(np.sum(squares, axis=0)), chosen.shape))
+        return np.concatenate(sigmas)
+
+    def sample(self, index: int, *, draws: int, seed: int = 1) -> Reals:
+        """Return lever minus force plans of one position from random sheets, shape (draws,)."""
+        pencil = Sampled(self.solution.profile, self._free, draws, seed)
+        found = self._discrepancy(pencil, np.array([index]))
+        return np.broadcast_to(np.asarray(found, dtype=float), (draws,))
+
+    @cached_property
+    def by_hand(self) -> tuple[Reals, Reals] | None:
+        """Balance by the force plans and by the lever as the ruler gives them, along one chain."""
+        if self.hung is None:
+            return None
+        trace = evaluate(self.program, self._data(self.per_mm, EVERY), self.solution.hand)
+        values = (self._balance(trace), trace.value[self.hung.balance])
+        shape = self.solution.positions.shape
+        one, two = (np.broadcast_to(np.asarray(value, dtype=float), shape) for value in values)
+        return one, two

@@ -10,6 +10,8 @@ EN = Wording(
         "mm": "mm",
         "m/s": "m/s",
         "m/s²": "m/s²",
+        "N": "N",
+        "N·m": "N·m",
         "1/s": "s⁻¹",
         "1/s²": "s⁻²",
         "deg": "°",
@@ -130,7 +132,16 @@ EN = Wording(
     columns_vectors=("vector", "segment", "exact, mm", "read, mm", "from the reading, {unit}"),
     columns_lengths=("segment", "exact, mm", "read, mm"),
     sliding_row="{point}: {of} on {to}",
+    table_forces="Reactions in the joints: force on the first link by the second",
+    columns_forces=("joint", "links", "F, N", "φ, °", "M, N·m"),
+    balance_moment="Balancing moment on the driving link: {value} {unit}.",
+    balance_force="Balancing force on the driving link: {value} {unit}.",
+    lever_note=(
+        "From the readings: force plans {plans} {unit}, Zhukovsky lever {lever} {unit}, difference "
+        "{difference} {unit} ({share}%); the drawing lets expect σ = {sigma} {unit}."
+    ),
     hand_note="“Read” is what follows from segments read with a ruler of {ruler} mm divisions.",
+    many_forces="Reactions in the joints, N; balancing moment (force)",
     many_places="Coordinates of points, m",
     many_velocities="Velocities of points, m/s, and angular velocities of links, s⁻¹",
     many_accelerations="Accelerations of points, m/s², and angular accelerations of links, s⁻²",

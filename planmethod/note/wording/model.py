@@ -124,7 +124,13 @@ class Wording:
     columns_vectors: tuple[str, ...]
     columns_lengths: tuple[str, ...]
     sliding_row: str
+    table_forces: str
+    columns_forces: tuple[str, ...]
+    balance_moment: str
+    balance_force: str
+    lever_note: str
     hand_note: str
+    many_forces: str
     many_places: str
     many_velocities: str
     many_accelerations: str
