@@ -37,10 +37,27 @@ def structure_text(mechanism: Mechanism, structure: Structure, lang: str = "ru")
         words.structural_formula.format(formula=structure.formula),
         words.kinematic_order.format(order=" → ".join([first, *order])),
         words.force_order.format(order=" → ".join([*order[::-1], first])),
+        _static_counts(structure, words),
         words.mechanism_class.format(roman=roman(structure.class_number)),
     ):
         lines += wrap(text, rest="  ")
     return "\n".join(lines)
+
+
+def _static_counts(structure: Structure, words: Wording) -> str:
+    """Return equations and unknowns of the force analysis: without friction as many as needed."""
+    equations = 3 * structure.moving_links
+    pairs = 2 * structure.lower_pairs + structure.higher_pairs
+    unknowns = pairs + structure.mobility
+    verdict = words.statically_determinate if equations == unknowns else words.statically_not
+    return words.static_counts.format(
+        n=structure.moving_links,
+        equations=equations,
+        pairs=pairs,
+        w=_signed(structure.mobility),
+        unknowns=unknowns,
+        verdict=verdict,
+    )
 
 
 def local_letters(signature: str, words: Wording) -> str:

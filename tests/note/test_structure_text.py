@@ -70,3 +70,13 @@ def test_a_group_of_class_three_is_told() -> None:
 def test_unknown_language() -> None:
     with pytest.raises(UnknownLanguageError):
         text_of("linkages/ex1", "fr")
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_the_force_analysis_has_as_many_unknowns_as_equations(name: str) -> None:
+    solution = worked(name)
+    text = " ".join(structure_text(solution.problem.mechanism, solution.structure, "en").split())
+    count = 3 * solution.structure.moving_links
+    assert f"= {count} equations" in text
+    assert f"= {count} unknowns" in text
+    assert "statically determinate." in text

@@ -204,6 +204,12 @@ EN = Wording(
     structural_formula="Structural formula: {formula}",
     kinematic_order="Order of the kinematic analysis: {order}",
     force_order="Order of the force analysis: {order}",
+    static_counts=(
+        "Force analysis: N_y = 3n = 3·{n} = {equations} equations, N_F = {pairs} + {w} = "
+        "{unknowns} unknowns (two a lower pair, and what balances the drivers): {verdict}"
+    ),
+    statically_determinate="statically determinate.",
+    statically_not="statically indeterminate.",
     mechanism_class="Class of the mechanism: {roman}",
     joint_outer="outer pairs: {joints}",
     joint_inner="inner pairs: {joints}",

@@ -182,6 +182,9 @@ class Wording:
     structural_formula: str
     kinematic_order: str
     force_order: str
+    static_counts: str
+    statically_determinate: str
+    statically_not: str
     mechanism_class: str
     joint_outer: str
     joint_inner: str

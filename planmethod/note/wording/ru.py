@@ -205,6 +205,12 @@ RU = Wording(
     structural_formula="Формула строения: {formula}",
     kinematic_order="Порядок кинематического расчёта: {order}",
     force_order="Порядок силового расчёта: {order}",
+    static_counts=(
+        "Кинетостатика: N_y = 3n = 3·{n} = {equations} уравнений, N_F = {pairs} + {w} = {unknowns} "
+        "неизвестных (две на низшую пару и уравновешивающие): {verdict}"
+    ),
+    statically_determinate="статически определимо.",
+    statically_not="статически неопределимо.",
     mechanism_class="Класс механизма: {roman}",
     joint_outer="внешние пары: {joints}",
     joint_inner="внутренние пары: {joints}",
