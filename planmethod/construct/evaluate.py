@@ -164,14 +164,15 @@ def apply(
             vector = env[b] - env[a]
             if times is not None:
                 vector = vector * env[times]
-            moved = vector * 1j if turned else vector
-            return ar.unless_zero(abs(vector), ar.pricked(out, env[o] + moved), env[o]), None
+            point = env[o] + (vector * 1j if turned else vector)
+            # Nobody pricks the end of nothing; but what moves the vector moves the point.
+            return ar.unless_zero(abs(vector), ar.pricked(out, point), point), None
         case Moment(out, about, at, a, b):
             vector = env[b] - env[a]
             size = abs(vector)
-            arm = _cross(env[at] - env[about], vector) / ar.nonzero(size)
-            moment = ar.read(out, arm) * size
-            return ar.unless_zero(size, moment, size * 0.0), None
+            area = _cross(env[at] - env[about], vector)
+            moment = ar.read(out, area / ar.nonzero(size)) * size
+            return ar.unless_zero(size, moment, area), None
         case _:
             assert_never(step)
 

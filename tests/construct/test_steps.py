@@ -390,7 +390,7 @@ def test_margins_do_not_depend_on_the_hand() -> None:
 
 def test_every_kind_of_step_is_tested_here() -> None:
     b = Builder()
-    b.given("P"), b.given("Q"), b.given("R"), b.known("x")
+    b.given("P"), b.given("Q"), b.given("R"), b.given("S"), b.known("x")
     pq = b.join(P, Q)
     x = NumberName("x")
     b.meet_lines("1", pq, b.perpendicular(R, pq))
@@ -403,5 +403,9 @@ def test_every_kind_of_step_is_tested_here() -> None:
     b.measure("8", P, Q)
     b.measure_along("9", P, Q, pq)
     b.compute("10", (x, 1))
+    # In test_force_steps.py:
+    b.carry("11", P, Q, R)
+    b.moment("12", P, Q, R, S)
+    b.total("13", x, x)
     kinds = {type(step) for step in b.program().steps}
     assert kinds == set(STEP_TYPES)

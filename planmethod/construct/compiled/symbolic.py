@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from planmethod.construct.arithmetic import Exact, Number, unit_vectors
-from planmethod.construct.compiled.tape import Ref, Tape
+from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import apply, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
@@ -200,6 +200,8 @@ class Symbolic(Exact):
         if type(size.re) is float:
             return other if size.re == 0.0 else value
         (a, b), (c, d) = value._parts(), other._parts()
+        if same(a, c) and same(b, d):
+            return value
         re = self.tape.make("at_zero", size.re, c, a)
         if value.im is None and other.im is None:
             return Symbol(self.tape, re)

@@ -1,0 +1,305 @@
+"""Steps of the force plans in every reading: segments carried over, moments, sums."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planmethod.construct.arithmetic import Arithmetic, Float64
+from planmethod.construct.compiled.blocks import Blocks
+from planmethod.construct.compiled.symbolic import write
+from planmethod.construct.condition import reach
+from planmethod.construct.drafting import Counted, Profile, Propagated, Sampled
+from planmethod.construct.dual import Dual, Duals, as_dual
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.hand import Hand
+from planmethod.construct.jet import Jet, Jets
+from planmethod.construct.program import Builder, Program
+from planmethod.construct.referee import Precise, adjudicate
+from planmethod.construct.steps import Name, NumberName, PointName
+from planmethod.errors import ProgramError
+
+coordinate = st.floats(-300.0, 300.0).map(lambda x: round(x, 6))
+place = st.builds(complex, coordinate, coordinate)
+factor = st.floats(-20.0, 20.0).map(lambda x: round(x, 6))
+
+O, P, Q, A, B = (PointName(name) for name in "OPQAB")  # noqa: E741  letters of a plan
+K = NumberName("k")
+LETTERS = "OPQAB"
+FREE = frozenset(LETTERS)
+PROFILE = Profile("test", 0.2, 0.3, 0.15, 0.5, 0.5)
+
+DATA: dict[str, complex | float] = {
+    "O": 5 - 2j,
+    "P": 10 + 20j,
+    "Q": 40 + 60j,
+    "A": 3 + 4j,
+    "B": -20 + 8j,
+    "k": -1.5,
+}
+
+
+def built(build: Callable[[Builder], Name]) -> Program:
+    b = Builder()
+    for name in LETTERS:
+        b.given(name)
+    b.known("k")
+    out = build(b)
+    return b.program().needed_for([out])
+
+
+CARRIED = built(lambda b: b.carry("X", O, P, Q))
+TIMES = built(lambda b: b.carry("X", O, P, Q, K))
+TURNED = built(lambda b: b.carry("X", O, P, Q, K, turned=True))
+MOMENT = built(lambda b: b.moment("X", A, B, P, Q))
+SUM = built(lambda b: b.total("X", b.moment("M", A, B, P, Q), K, b.measure("l", P, Q), K))
+EVERY = {"carried": CARRIED, "times": TIMES, "turned": TURNED, "moment": MOMENT, "sum": SUM}
+
+
+def read(program: Program, arithmetic: Arithmetic | None = None, /, **data: Any) -> Any:
+    return evaluate(program, {**DATA, **data}, arithmetic or Float64()).value[PointName("X")]
+
+
+def wanted(name: str, **data: Any) -> Any:
+    """Return what a step comes to, by plain arithmetic."""
+    all_data: dict[str, Any] = {**DATA, **data}
+    o, p, q, a, b, k = (all_data[letter] for letter in "OPQABk")
+    moment = (b - a).real * (q - p).imag - (b - a).imag * (q - p).real
+    return {
+        "carried": o + (q - p),
+        "times": o + k * (q - p),
+        "turned": o + 1j * k * (q - p),
+        "moment": moment,
+        "sum": moment + 2 * k + abs(q - p),
+    }[name]
+
+
+# Exactly ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", EVERY)
+@given(place, place, place, place, place, factor)
+def test_values(
+    name: str, o: complex, p: complex, q: complex, a: complex, b: complex, k: float
+) -> None:
+    data: dict[str, Any] = dict(zip("OPQABk", (o, p, q, a, b, k), strict=True))
+    size = 1.0 + abs(o) + (1 + abs(k)) * (abs(p) + abs(q)) + (abs(a) + abs(b)) * (abs(p) + abs(q))
+    assert abs(complex(read(EVERY[name], **data)) - wanted(name, **data)) <= 1e-14 * size
+
+
+def test_a_moment_is_positive_counter_clockwise() -> None:
+    assert read(MOMENT, A=0j, B=10 + 0j, P=0j, Q=3j) == 30.0
+    assert read(MOMENT, A=0j, B=10 + 0j, P=3j, Q=0j) == -30.0
+    assert read(MOMENT, A=0j, B=10 + 0j, P=7 + 7j, Q=8 + 7j) == 0.0
+
+
+def test_a_turned_segment_is_turned_to_the_left() -> None:
+    program = built(lambda b: b.carry("X", O, P, Q, turned=True))
+    assert read(program, O=1 + 1j, P=5 + 0j, Q=8 + 0j) == 1 + 4j
+
+
+def test_positions_are_read_one_by_one() -> None:
+    ends = np.array([40 + 60j, 10 + 20j, -3 + 0j])
+    for name, program in EVERY.items():
+        many = read(program, Q=ends)
+        assert many.shape == (3,)
+        for i, end in enumerate(ends):
+            assert many[i] == read(program, Q=end), name
+
+
+def test_nothing_is_carried_and_has_no_moment() -> None:
+    """A vector of no length has no direction; it spoils no position beside it."""
+    ends = np.array([10 + 20j, 40 + 60j])
+    for name, program in EVERY.items():
+        found = read(program, Q=ends)
+        assert np.isfinite(found).all()
+        assert found[0] == wanted(name, Q=ends[0])
+    assert read(TIMES, k=0.0) == DATA["O"]
+    assert read(MOMENT, B=DATA["A"]) == 0.0
+    assert read(built(lambda b: b.total("X"))) == 0.0
+
+
+def test_what_follows_from_an_impossible_point_is_not_a_number() -> None:
+    def impossible(b: Builder) -> PointName:
+        return b.meet_lines("Z", b.join(P, Q), b.parallel(A, b.join(P, Q)))
+
+    assert np.isnan(read(built(lambda b: b.carry("X", O, P, impossible(b)))))
+    assert np.isnan(read(built(lambda b: b.moment("X", A, B, P, impossible(b)))))
+    assert np.isnan(read(built(lambda b: b.moment("X", A, impossible(b), P, Q))))
+
+
+def test_operands_are_checked() -> None:
+    b = Builder()
+    for name in LETTERS:
+        b.given(name)
+    b.total("X", NumberName("P"))
+    with pytest.raises(ProgramError, match="'P' is not a"):
+        b.program()
+    with pytest.raises(ProgramError, match="no earlier step makes 'm'"):
+        built(lambda b: b.carry("X", O, P, Q, NumberName("m")))
+
+
+def test_only_what_is_needed_is_kept() -> None:
+    assert {step.out for step in MOMENT.steps} == {"A", "B", "P", "Q", "X"}
+    assert {step.out for step in CARRIED.steps} == {"O", "P", "Q", "X"}
+    assert {step.out for step in SUM.steps} == {"A", "B", "P", "Q", "k", "M", "l", "X"}
+
+
+# By hand ------------------------------------------------------------------------------------------
+
+
+def test_the_hand_reads_the_arm_and_knows_the_force() -> None:
+    """The vector is 50 mm long; its arm of 20.8 mm is read as 21, and multiplied by 50."""
+    assert read(MOMENT) == pytest.approx(-20.8 * 50)
+    assert read(MOMENT, Hand(ruler=0.5)) == pytest.approx(-21.0 * 50)
+
+
+@pytest.mark.parametrize("name", ["carried", "times", "turned"])
+def test_the_hand_carries_exactly(name: str) -> None:
+    assert read(EVERY[name], Hand(ruler=1.0)) == read(EVERY[name])
+
+
+def spread(program: Program, profile: Profile = PROFILE, **data: Any) -> tuple[float, float]:
+    """Sigmas of the two coordinates of a result, the given points being sharp."""
+    counted = Counted(profile, FREE)
+    evaluate(program, {**DATA, **data}, counted)
+    value = as_dual(read(program, Propagated(profile, FREE, counted.causes), **data))
+    if value.slope is None:
+        return 0.0, 0.0
+    slope = value.slope[:, 0]
+    return math.sqrt(float((slope.real**2).sum())), math.sqrt(float((slope.imag**2).sum()))
+
+
+def test_a_carried_point_is_pricked() -> None:
+    assert spread(TURNED) == pytest.approx((PROFILE.point, PROFILE.point))
+    assert spread(TURNED, Q=DATA["P"]) == (0.0, 0.0)
+
+
+def test_a_moment_errs_by_the_force_times_the_reading_of_its_arm() -> None:
+    arm = math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12.0))
+    assert spread(MOMENT)[0] == pytest.approx(50.0 * arm)
+    assert spread(MOMENT, Q=DATA["P"])[0] == 0.0
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_sheets_drawn_at_random_spread_as_far(name: str) -> None:
+    fine = replace(PROFILE, ruler=0.1)  # a coarse one rounds one length always the same way
+    values = read(EVERY[name], Sampled(fine, FREE, 4000, 7))
+    across, up = spread(EVERY[name], fine)
+    assert float(np.std(np.real(values))) == pytest.approx(across, rel=0.06)
+    if up:
+        assert float(np.std(np.imag(values))) == pytest.approx(up, rel=0.06)
+
+
+def test_nothing_is_nothing_on_every_sheet() -> None:
+    nothing = {"Q": DATA["P"]}
+    assert np.all(read(TURNED, Sampled(PROFILE, FREE, 50, 7), **nothing) == DATA["O"])
+    assert np.all(read(MOMENT, Sampled(PROFILE, FREE, 50, 7), **nothing) == 0.0)
+    assert read(MOMENT, Hand(ruler=0.5), **nothing) == 0.0
+
+
+# Slopes -------------------------------------------------------------------------------------------
+
+STEP = 1e-6
+
+
+@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("cause", [*LETTERS, "k"])
+@pytest.mark.parametrize("end", [DATA["Q"], DATA["P"]], ids=["vector", "nothing"])
+def test_slopes_are_finite_differences(name: str, cause: str, end: complex) -> None:
+    """Also where the vector is nothing: what moves its end gives a moment all the same."""
+    program = EVERY[name]
+    if name == "sum" and end == DATA["P"]:
+        program = built(lambda b: b.total("X", b.moment("M", A, B, P, Q), K, K))  # |0| has a corner
+    data: dict[str, Any] = {**DATA, "Q": end}
+    for way in (1.0,) if cause == "k" else (1.0, 1j):
+        dual = Dual(np.atleast_1d(data[cause]), np.array([[way]]))
+        found = as_dual(read(program, Duals(), **{**data, cause: dual}))
+        slope = 0.0 if found.slope is None else complex(np.ravel(found.slope)[0])
+        ahead, back = (
+            complex(read(program, **{**data, cause: data[cause] + sign * STEP * way}))
+            for sign in (1, -1)
+        )
+        assert slope == pytest.approx((ahead - back) / (2 * STEP), rel=1e-6, abs=1e-6)
+
+
+def test_rates_are_those_of_moving_points() -> None:
+    for name, program in EVERY.items():
+        moving = {"Q": Jet(DATA["Q"], 3 - 2j, 1 + 5j), "B": Jet(DATA["B"], 1j, -4 + 0j)}
+        found = read(program, Jets(Float64()), **moving)
+        values = [
+            wanted(
+                name,
+                **{p: j.value + j.rate * t + j.acceleration * t * t / 2 for p, j in moving.items()},
+            )
+            for t in (-1e-4, 0.0, 1e-4)
+        ]
+        assert complex(found.value) == pytest.approx(values[1], rel=1e-14)
+        assert complex(found.rate) == pytest.approx((values[2] - values[0]) / 2e-4, rel=1e-6)
+        second = (values[2] - 2 * values[1] + values[0]) / 1e-8
+        assert complex(found.acceleration) == pytest.approx(second, rel=1e-4)
+
+
+def test_reach_of_a_moment() -> None:
+    """|M| and what the last bits of eight coordinates move it by."""
+    found = float(reach(MOMENT, DATA)[PointName("X")][0])
+    arm, force = -23 + 4j, 30 + 40j
+    moved = [20 * force.imag, 3 * force.imag, 8 * force.real, 4 * force.real]
+    moved += [abs(arm.real) * y for y in (60, 20)] + [abs(arm.imag) * x for x in (40, 10)]
+    assert found == pytest.approx(abs(wanted("moment")) + sum(moved))
+
+
+# Other numbers ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_the_referee_agrees(name: str) -> None:
+    few, many = (
+        adjudicate(EVERY[name], DATA, digits=digits).value[PointName("X")] for digits in (30, 60)
+    )
+    assert abs(few - many) <= 1e-27 * abs(many)
+    assert complex(many) == pytest.approx(complex(read(EVERY[name])), rel=1e-15)
+    nothing = {**DATA, "Q": DATA["P"]}
+    found = evaluate(EVERY[name], nothing, Precise()).value[PointName("X")]
+    assert complex(found) == wanted(name, Q=DATA["P"])
+
+
+@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("inputs", [("Q.x", "Q.y"), ("B.x", "B.y", "k"), ("k",)])
+def test_compiled(name: str, inputs: tuple[str, ...]) -> None:
+    """The end of the vector, or the place it acts at, goes from position to position."""
+    program = EVERY[name]
+    used = {step.out for step in program.steps}
+    mine = tuple(one for one in inputs if one.partition(".")[0] in used)
+    rng = np.random.default_rng(3)
+    columns = [rng.uniform(-50.0, 50.0, 6) for _ in mine]
+    if "Q.x" in mine:
+        columns[0][2], columns[1][2] = 10.0, 20.0  # nothing
+    varying: dict[str, Any] = {}
+    for column, one in zip(columns, mine, strict=True):
+        letter, dot, axis = one.partition(".")
+        varying[letter] = varying.get(letter, 0.0) + column * (1j if axis == "y" else 1.0)
+        assert dot or letter == "k"
+    constants = {key: value for key, value in DATA.items() if key in used and key not in varying}
+    written = write(program, constants, mine)
+    assert written.guards == ()
+    symbol = written.value[PointName("X")]
+    refs = [symbol.re] if symbol.im is None else [symbol.re, symbol.im]
+    out = np.empty((len(refs), 6))
+    Blocks(written.tape, refs, written.guards, [frozenset()] * len(refs)).run(columns, out)
+    found = out[0] if len(refs) == 1 else out[0] + 1j * out[1]
+    assert found == pytest.approx(np.broadcast_to(read(program, **varying), (6,)), rel=1e-13)
+
+
+def test_a_carried_point_is_compiled_without_its_length() -> None:
+    written = write(CARRIED, {"O": 0j, "P": 1j}, ("Q.x", "Q.y"))
+    x, y = written.value[PointName("X")]._parts()
+    kinds = {written.tape.nodes[ref].kind for ref in (x, y) if type(ref) is int}
+    assert kinds <= {"input", "add", "sub"}
