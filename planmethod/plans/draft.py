@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import copy
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -87,6 +88,15 @@ class Draft:
     def __post_init__(self) -> None:
         self.mu_l = self.b.known("mu_l")
         self.origin = _origin(self.problem)
+
+    def copy(self) -> Draft:
+        """Return a draft that goes on from here, and leaves this one as it is."""
+        other = copy.copy(self)
+        other.b = self.b.copy()
+        other.numbers, other.read = dict(self.numbers), list(self.read)
+        other.axes, other._drawn = dict(self.axes), set(self._drawn)
+        other.placed = {link: list(points) for link, points in self.placed.items()}
+        return other
 
     # Numbers -------------------------------------------------------------------------------
 

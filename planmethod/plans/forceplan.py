@@ -6,7 +6,6 @@ number, N·m. Places are those of the position plan, so arms are measured where 
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
@@ -98,10 +97,7 @@ class Board:
     @classmethod
     def of(cls, solution: Solution) -> Board:
         """Return a board that goes on from the kinematics of a solution, which stays as it is."""
-        draft = copy.copy(solution.construction.draft)
-        draft.b = draft.b.copy()
-        draft.numbers, draft.read = dict(draft.numbers), list(draft.read)
-        return cls(draft, solution.construction.kinematics)
+        return cls(solution.construction.draft.copy(), solution.construction.kinematics)
 
     def name(self, hint: str) -> str:
         """Return a name that nothing has."""
