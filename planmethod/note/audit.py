@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
 
-from planmethod.note.quantities import PLANS, Quantities, UnansweredError, Why
+from planmethod.note.quantities import PLANS, Quantities, UnansweredError, Why, is_angle
 from planmethod.plans.model import PlanKind
 from planmethod.plans.selfcheck import verify
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem, Published, Scales
-from planmethod.problem.selector import Selector, parse_selector
+from planmethod.problem.selector import FORCES, Selector, parse_selector
 
 DRAFTING_MM = 1.0
 """How far a careful drawing may be off, mm of the plan (точность построения)."""
@@ -37,6 +38,10 @@ UNITS = {
     "m/s^2": "mu_a",
 }
 """Of which plan a scale ``per_mm`` is, by the unit of its value."""
+
+NEWTONS = ("Н", "N")
+METRES = ("м", "m")
+RADIANS = ("рад", "rad")
 
 
 class Verdict(Enum):
@@ -162,33 +167,65 @@ def audit(problem: Problem, *, ruler: float = RULER_MM) -> list[Audited]:
     """
     if not problem.published:
         return []
-    scales = source_scales(problem)
+    scales, mu_f = source_scales(problem), source_force_scale(problem)
     solution = Solution(replace(problem, scales=scales), ruler=ruler)
     verify(solution)
-    return [_audited(solution, scales, value) for value in problem.published]
+    places = [Quantities(solution, index, mu_f) for index in range(len(solution.positions))]
+    return [_audited(places, scales, value) for value in problem.published]
 
 
-def _audited(solution: Solution, scales: Scales, value: Published) -> Audited:
+def source_force_scale(problem: Problem) -> float | None:
+    """Return the scale of the source's force plans, N/mm: ``per_mm`` of its first force."""
+    forces = (v.per_mm for v in problem.published if v.unit in NEWTONS and v.per_mm is not None)
+    return next(forces, None)
+
+
+def _audited(places: Sequence[Quantities], scales: Scales, value: Published) -> Audited:
     try:
         selector = _selector(value, scales)
-        at = Quantities(solution, _position(value, len(solution.positions)))
-        exact, read = at.exact(selector), at.read(selector)
-        per_mm = value.per_mm or _per_mm(at, selector, scales)
+        at = places[_position(value, len(places))]
+        unit = _unit(at, selector, value)
+        exact, read = at.exact(selector) * unit, at.read(selector)
+        per_mm = value.per_mm or _per_mm(at, selector, scales, unit)
     except UnansweredError as error:
         return Audited(value, why=error.why)
-    if selector.kind == "phi" and selector.over is None:
-        exact = value.value - _nearest_turn(value.value - exact)
-    return Audited(value, exact, read, per_mm)
+    if is_angle(selector) and selector.over is None:
+        exact = value.value - _nearest_turn((value.value - exact) / unit) * unit
+    return Audited(value, exact, None if read is None else read * unit, per_mm)
 
 
-def _per_mm(at: Quantities, selector: Selector, scales: Scales) -> float | None:
+def _unit(at: Quantities, selector: Selector, value: Published) -> float:
+    """Return what a degree, or a millimetre of the position plan, is in the unit of the value."""
+    if selector.over is None and is_angle(selector) and value.unit in RADIANS:
+        return math.radians(1.0)
+    if selector.over is None and _drawn_on(selector) is PlanKind.POSITION and _is_true(value):
+        return at.solution.scales[PlanKind.POSITION].per_mm
+    return 1.0
+
+
+def _is_true(value: Published) -> bool:
+    """Whether the source prints a length of the drawing in its true size."""
+    return value.unit in METRES
+
+
+def _drawn_on(selector: Selector) -> PlanKind | None:
+    """Return the plan in whose millimetres a quantity is."""
+    if selector.kind in FORCES and selector.kind.split()[0] in ("arm", "shift"):
+        return PlanKind.POSITION
+    return PLANS.get(selector.kind)
+
+
+def _per_mm(at: Quantities, selector: Selector, scales: Scales, unit: float) -> float | None:
     """Return what a millimetre of its plan is worth in an angle or a rate."""
+    if selector.kind in FORCES:
+        told = is_angle(selector) and selector.over is None and at.mu_f is not None
+        return at.forces.turn(selector) * unit if told else None
     lever = at.lever(selector)
     if lever is None:
         return None
     plan, worth = lever
     scale: float | None = getattr(scales, SYMBOLS[plan])
-    return None if scale is None else scale * worth
+    return None if scale is None else scale * worth * unit
 
 
 def _selector(value: Published, scales: Scales) -> Selector:
@@ -196,8 +233,10 @@ def _selector(value: Published, scales: Scales) -> Selector:
         raise UnansweredError(Why.NO_WHAT)
     selector = parse_selector(value.what)
     for part in (selector, selector.over):
-        plan = PLANS.get(part.kind) if part else None
-        if plan is not None and getattr(scales, SYMBOLS[plan]) is None:
+        plan = _drawn_on(part) if part else None
+        if plan is None or (plan is PlanKind.POSITION and _is_true(value)):
+            continue
+        if getattr(scales, SYMBOLS[plan]) is None:
             raise UnansweredError(Why.NO_SCALE)
     return selector
 

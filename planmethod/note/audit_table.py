@@ -44,7 +44,9 @@ EN = Phrases(
         "names and remarks are as they stand there.",
         "The difference is printed less exact: in the unit of the value, in percent of the exact "
         "value, and in millimetres of the plan. The millimetres of an ω or ε are those of the "
-        "segment from which it follows; of an angle, those at the far end of its link.",
+        "segment from which it follows; of an angle, those at the far end of its link, or of its "
+        "force on the plan. Forces are read off force plans in the source's scale, or in the "
+        "program's where the source tells none.",
         "- **agrees**: the exact value rounds to the printed digits;\n"
         "- **drawing**: no more than {limit} mm off, which is what careful drafting gives. A slip "
         "of the source too small to tell from drafting is here too, and its remark says so;\n"
@@ -88,6 +90,10 @@ EN = Phrases(
         Why.NO_LINK: "no link joins these points",
         Why.NO_SLIDING: "no sliding pair of these points",
         Why.ZERO_DIVISOR: "the divisor is zero",
+        Why.NO_FORCES: "the file has no masses and no loads",
+        Why.NO_JOINT: "these links have no joint",
+        Why.NO_DIRECTION: "the force is zero: it has no direction and no arm",
+        Why.STANDS: "the driving link stands: there is no lever",
     },
 )
 
@@ -100,7 +106,8 @@ RU = Phrases(
         "названия и примечания стоят так, как они даны там.",
         "Разность — напечатанное минус точное: в единицах величины, в процентах точного значения и "
         "в миллиметрах плана. Миллиметры ω и ε — это миллиметры отрезка, из которого они следуют; "
-        "миллиметры угла — на дальнем конце звена.",
+        "миллиметры угла — на дальнем конце звена или силы на плане. Силы сняты с планов "
+        "сил в масштабе источника, а если он не указан — в масштабе программы.",
         "- **сходится**: точное значение округляется до напечатанного;\n"
         "- **чертёж**: разность не больше {limit} мм, это точность аккуратного построения. Описка "
         "источника, неотличимая от погрешности чертежа, тоже здесь, о ней говорит примечание;\n"
@@ -145,6 +152,10 @@ RU = Phrases(
         Why.NO_LINK: "эти точки не принадлежат одному звену",
         Why.NO_SLIDING: "эти точки не образуют поступательной пары",
         Why.ZERO_DIVISOR: "делитель равен нулю",
+        Why.NO_FORCES: "в файле нет масс и нагрузок",
+        Why.NO_JOINT: "эти звенья не образуют кинематической пары",
+        Why.NO_DIRECTION: "сила равна нулю: у неё нет ни направления, ни плеча",
+        Why.STANDS: "начальное звено неподвижно: рычага нет",
     },
 )
 

@@ -10,6 +10,8 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
@@ -18,7 +20,10 @@ from planmethod.plans.leads import Relative
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion import Motion
 from planmethod.plans.solution import Solution
-from planmethod.problem.selector import POLE, Selector
+from planmethod.problem.selector import FORCES, POLE, Selector
+
+if TYPE_CHECKING:
+    from planmethod.note.force_quantities import ForceQuantities
 
 PLANS: Mapping[str, PlanKind] = {
     "length": PlanKind.POSITION,
@@ -53,6 +58,15 @@ class Why(Enum):
     NO_LINK = "no link"  # turning of a point about one that no link joins it to
     NO_SLIDING = "no sliding"  # the points are not a prismatic pair's
     ZERO_DIVISOR = "zero divisor"
+    NO_FORCES = "no forces"  # the file has neither masses nor loads
+    NO_JOINT = "no joint"  # the links do not touch each other
+    NO_DIRECTION = "no direction"  # a force that is nothing has no angle and no arm
+    STANDS = "stands"  # the lever of a driving link that does not move
+
+
+def is_angle(selector: Selector) -> bool:
+    """Whether a quantity is taken with a protractor."""
+    return selector.kind == "phi" or selector.kind.startswith("angle ")
 
 
 class UnansweredError(Exception):
@@ -112,12 +126,34 @@ class Quantities:
     solution : Solution
     position : int
         From 0.
+    mu_f : float or None, N/mm
+        Scale of the source's force plans; the program's own where the source tells none.
     """
 
-    def __init__(self, solution: Solution, position: int = 0) -> None:
+    def __init__(self, solution: Solution, position: int = 0, mu_f: float | None = None) -> None:
         self.solution = solution
         self.position = position
+        self.mu_f = mu_f
         self.kin = solution.construction.kinematics
+
+    @cached_property
+    def forces(self) -> ForceQuantities:
+        """Quantities of the force analysis.
+
+        Raises
+        ------
+        UnansweredError
+            When the file has neither masses nor loads.
+        """
+        from planmethod.note.force_quantities import ForceQuantities
+
+        return ForceQuantities(self, self.mu_f)
+
+    @property
+    def si(self) -> Reading:
+        """Exact plans in SI units."""
+        unit = dict.fromkeys(PlanKind, 1.0)
+        return Reading(self.solution, self.position, self.solution.si, float, unit)
 
     def exact(self, selector: Selector) -> float:
         """Return the exact value in SI units (degrees, millimetres of a plan).
@@ -127,16 +163,14 @@ class Quantities:
         UnansweredError
             When the solution has no such quantity.
         """
-        unit = dict.fromkeys(PlanKind, 1.0)
-        reading = Reading(self.solution, self.position, self.solution.si, float, unit)
-        return self._quotient(selector, reading)
+        return self._quotient(selector, self.si)
 
     def read(self, selector: Selector) -> float | None:
         """Return the value that follows from the segments read with the ruler.
 
         None for an angle, which is taken with a protractor and not with the ruler.
         """
-        if "phi" in (selector.kind, selector.over.kind if selector.over else None):
+        if any(part is not None and is_angle(part) for part in (selector, selector.over)):
             return None
         solution = self.solution
         scales = {kind: scale.per_mm for kind, scale in solution.scales.items()}
@@ -149,7 +183,7 @@ class Quantities:
         An omega or epsilon is a segment over the arm on which it was read; an angle shows best
         at the far end of its link. None for other quantities, and for a rate that is not read off.
         """
-        if selector.over is not None:
+        if selector.over is not None or selector.kind in FORCES:
             return None
         kind, name = selector.kind, selector.names[0]
         if kind == "phi":
@@ -185,20 +219,24 @@ class Quantities:
 
     def _value(self, selector: Selector, reading: Reading) -> float:
         kind, names = selector.kind, selector.names
+        if kind in FORCES:
+            return self.forces.value(selector, reading)
         if kind in COMPONENTS:
             plan = COMPONENTS[kind]
-            at = reading.point(self._at(plan, names[0])) - reading.point(self._at(plan, POLE))
+            head, pole = (self.plan_point(plan, name) for name in (names[0], POLE))
+            at = reading.point(head) - reading.point(pole)
             return reading.measure(plan, at.real if kind.endswith("x") else at.imag)
         if kind in MAGNITUDES:
             plan = MAGNITUDES[kind]
-            tail = names[1] if len(names) > 1 else POLE
-            return reading.between(plan, self._at(plan, tail), self._at(plan, names[0]))
+            about = names[1] if len(names) > 1 else POLE
+            tail, head = (self.plan_point(plan, name) for name in (about, names[0]))
+            return reading.between(plan, tail, head)
         if kind in PLANS:
             plan = PLANS[kind]
-            tail, head = (self._at(plan, name) for name in names)
+            tail, head = (self.plan_point(plan, name) for name in names)
             return reading.between(plan, tail, head) / self.solution.scales[plan].per_mm
         if kind in ("an", "at"):
-            link, arm = self._arm(reading, *names)
+            link, arm = self.arm(reading, *names)
             if kind == "an":
                 return float(reading.number(self.kin.omega.get(link)) ** 2 * arm)
             return abs(reading.number(self.kin.epsilon.get(link))) * arm
@@ -221,7 +259,7 @@ class Quantities:
     def _motion(self, plan: PlanKind) -> Motion:
         return self.kin.velocity if plan is PlanKind.VELOCITY else self.kin.acceleration
 
-    def _at(self, plan: PlanKind, name: str) -> PointName:
+    def plan_point(self, plan: PlanKind, name: str) -> PointName:
         """Return the plan point of a point's name; the pole of the position plan is the origin."""
         motion = self._motion(plan)
         if name == POLE and plan is not PlanKind.POSITION:
@@ -238,7 +276,7 @@ class Quantities:
         motion = self.kin.velocity
         return {link: place for link, place in motion.point if motion.label(link, place) == name}
 
-    def _arm(self, reading: Reading, point: str, about: str) -> tuple[str, float]:
+    def arm(self, reading: Reading, point: str, about: str) -> tuple[str, float]:
         """Return the link that joins two points, and their distance, m.
 
         As on paper: a given length is taken as given, another one is read off the drawing.

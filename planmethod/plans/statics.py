@@ -154,11 +154,15 @@ class Statics:
         along = trace.value[self.driving.axis][1]
         return (vector * along.conjugate()).real / abs(along) * trace.value[self.board.scale]
 
+    def balance_of(self, trace: Trace) -> Reals:
+        """Return what balances the driver in a reading of the force plans, N·m or N."""
+        shape = self.solution.positions.shape
+        return np.broadcast_to(np.asarray(self._balance(trace), dtype=float), shape)
+
     @cached_property
     def balance(self) -> Reals:
         """Balancing moment on the crank, N·m, or force along the guide of a driving slider, N."""
-        shape = self.solution.positions.shape
-        return np.broadcast_to(np.asarray(self._balance(self.si), dtype=float), shape)
+        return self.balance_of(self.si)
 
     @cached_property
     def lever(self) -> Reals | None:

@@ -14,9 +14,10 @@ from planmethod.problem.fields import (
     read_text,
     show,
 )
+from planmethod.problem.loads import Dynamics
 from planmethod.problem.model import Published
-from planmethod.problem.names import TITLE_LIMIT, listed, near, segment
-from planmethod.problem.selector import SelectorError, parse_selector, unknown_names
+from planmethod.problem.names import TITLE_LIMIT, listed, near, segment, short
+from planmethod.problem.selector import SelectorError, is_force, parse_selector, unknown_names
 
 NOTE_LIMIT = 1000
 TABLE_KEYS = ("gears", "point")
@@ -34,6 +35,7 @@ def read_published(
     table: object,
     points: Collection[str],
     links: Collection[str],
+    dynamics: Dynamics | None,
     positions: int,
 ) -> tuple[Published, ...]:
     """Read ``[published."name"]``.
@@ -43,6 +45,8 @@ def read_published(
     points, links : collection of str
         Names that ``what`` may use (coincident points included); both empty when they are not
         known because of other faults, and then the names are not checked.
+    dynamics : Dynamics or None
+        Masses and loads, which the quantities of the force analysis need.
     positions : int
         Number of positions of the driver; 0 when it is not known.
     """
@@ -81,7 +85,7 @@ def read_published(
         }
         position = _read_position(faults, f"{path}.position", given.get("position"), positions)
         if texts["what"]:
-            _check_what(faults, f"{path}.what", texts["what"], points, links)
+            _check_what(faults, f"{path}.what", texts["what"], points, links, dynamics)
         if value is not None:
             found.append(Published(name, value, per_mm=per_mm, position=position, **texts))
     return tuple(found)
@@ -100,18 +104,34 @@ def _read_position(faults: Faults, path: str, value: object, positions: int) -> 
 
 
 def _check_what(
-    faults: Faults, path: str, what: str, points: Collection[str], links: Collection[str]
+    faults: Faults,
+    path: str,
+    what: str,
+    points: Collection[str],
+    links: Collection[str],
+    dynamics: Dynamics | None,
 ) -> None:
     try:
         selector = parse_selector(what)
     except SelectorError as error:
-        faults.add(path, str(error), 'For example: "v C", "an C B", "omega 2".')
+        faults.add(path, str(error), 'For example: "v C", "an C B", "omega 2", "F 2 1".')
         return
     if not points or not links:
         return
-    for name in unknown_names(selector, points, links):
-        guess = near(name, [*points, *links])
-        hint = f"Did you mean '{guess}'?" if guess else f"Points: {listed(points)}."
+    if is_force(selector) and dynamics is None:
+        faults.add(
+            path,
+            f"'{short(what)}' is of the force analysis, and the file has no masses and no loads",
+            "Give [dynamics] or [[loads]].",
+        )
+        return
+    loads = [load.name for load in dynamics.loads] if dynamics else []
+    for name in unknown_names(selector, points, links, loads):
+        guess = near(name, [*points, *links, *loads])
+        known = f"Points: {listed(points)}"
+        if is_force(selector):
+            known += f"; links: {listed(links)}" + (f"; loads: {listed(loads)}" if loads else "")
+        hint = f"Did you mean '{guess}'?" if guess else f"{known}."
         faults.add(path, f"the mechanism has no '{name}'", hint)
 
 

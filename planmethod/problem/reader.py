@@ -157,6 +157,7 @@ def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem 
         given.get("published", {}),
         () if faults else points,
         () if faults else tuple(links),
+        dynamics,
         len(drive.positions) if drive else 0,
     )
     if faults or drive is None or mechanism is None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from enum import Enum
 
+from planmethod.mechanism.model import FRAME
 from planmethod.problem.names import near, short
 
 
@@ -15,10 +17,11 @@ class Selector:
     Attributes
     ----------
     kind : str
-        A key of `QUANTITIES`.
+        A key of `QUANTITIES` or of `FORCES`.
     names : tuple of str
         Points, or one link; the pole of a plan is ``p``. Coincident points have the number of
-        their link: ``B3`` is the point of link 3 under the pin B.
+        their link: ``B3`` is the point of link 3 under the pin B. Of a force: what the `Role` of
+        each says.
     over : Selector or None
         Divisor of a quotient such as ``vx D / omega 1``.
     """
@@ -49,10 +52,50 @@ QUANTITIES: Mapping[str, tuple[int, ...]] = {
     "segment velocity": (2,),
     "segment acceleration": (2,),
 }
-"""Kinds of quantity and how many names each may have."""
+"""Kinds of quantity of the motion, and how many names each may have."""
 
 LINK_KINDS = frozenset({"phi", "omega", "epsilon"})
 POLE = "p"
+
+
+class Role(Enum):
+    """What a name of a force stands for."""
+
+    LINK = "link"
+    BODY = "body"  # a link, or the frame
+    POINT = "point"
+    LOAD = "load"  # an external load, by its letter in the file
+
+
+_ON_BY = (Role.BODY, Role.BODY)
+_LINE = (Role.POINT, Role.POINT)
+
+FORCES: Mapping[str, tuple[tuple[Role, ...], ...]] = {
+    "F": (_ON_BY,),
+    "Ft": ((*_ON_BY, *_LINE),),
+    "Fn": ((*_ON_BY, *_LINE),),
+    "M": (_ON_BY,),
+    "weight": ((Role.LINK,),),
+    "inertia": ((Role.LINK,),),
+    "inertia couple": ((Role.LINK,),),
+    "shift": ((Role.LINK,),),
+    "load": ((Role.LOAD,),),
+    "angle F": (_ON_BY,),
+    "angle inertia": ((Role.LINK,),),
+    "angle load": ((Role.LOAD,),),
+    "arm F": ((*_ON_BY, Role.POINT),),
+    "arm weight": ((Role.LINK, Role.POINT),),
+    "arm inertia": ((Role.LINK, Role.POINT),),
+    "arm load": ((Role.LOAD, Role.POINT),),
+    "balance": ((), (Role.POINT,)),
+    "lever": ((), (Role.POINT,)),
+}
+"""Kinds of quantity of the force analysis, and what the names of each are, in every form it has."""
+
+_PAIRED = frozenset(kind.split()[0] for kind in (*QUANTITIES, *FORCES) if " " in kind)
+"""First words of kinds that have two; ``inertia`` is a kind without its second too."""
+
+_ABOUT = "about"
 
 
 class SelectorError(ValueError):
@@ -66,6 +109,8 @@ def parse_selector(text: str) -> Selector:
     --------
     >>> parse_selector("v C B")
     Selector(kind='v', names=('C', 'B'), over=None)
+    >>> parse_selector("arm weight 2 about C")
+    Selector(kind='arm weight', names=('2', 'C'), over=None)
 
     Raises
     ------
@@ -82,35 +127,84 @@ def parse_selector(text: str) -> Selector:
 
 def _parse_one(text: str) -> Selector:
     words = text.split()
-    if words and words[0] == "segment":
-        words[:2] = [" ".join(words[:2])]
     if not words:
         raise SelectorError('expected a quantity such as "v C", got nothing')
-    kind, *names = words
-    if kind not in QUANTITIES:
-        guess = near(kind, QUANTITIES)
-        tail = f" (the nearest is '{guess}')" if guess else ""
-        raise SelectorError(f"unknown quantity '{short(kind)}'{tail}")
-    counts = QUANTITIES[kind]
+    kind, names = _kind(words)
+    counts = QUANTITIES.get(kind) or tuple(len(form) for form in FORCES[kind])
+    if kind.startswith("arm "):
+        if names[-2:-1] != [_ABOUT]:
+            raise SelectorError(f"'{kind}' ends with '{_ABOUT}' and a point")
+        del names[-2]
     if len(names) not in counts:
         wanted = " or ".join(map(str, counts))
         raise SelectorError(f"'{kind}' goes with {wanted} names, got {len(names)}")
-    if len(set(names)) != len(names):
-        raise SelectorError(f"'{kind}' needs two different names")
-    return Selector(kind, tuple(names))
+    selector = Selector(kind, tuple(names))
+    for pair in _must_differ(selector):
+        if len(set(pair)) != len(pair):
+            raise SelectorError(f"'{kind}' needs two different names")
+    return selector
 
 
-def unknown_names(selector: Selector, points: Collection[str], links: Collection[str]) -> list[str]:
+def _kind(words: list[str]) -> tuple[str, list[str]]:
+    """Split the words of a quantity into its kind, of one word or two, and its names."""
+    first = words[0]
+    for size in (2, 1) if first in _PAIRED else (1,):
+        kind = " ".join(words[:size])
+        if kind in QUANTITIES or kind in FORCES:
+            return kind, words[size:]
+    known = [*QUANTITIES, *FORCES]
+    unknown = " ".join(words[:2]) if first in _PAIRED else first
+    guess = near(unknown, known)
+    tail = f" (the nearest is '{guess}')" if guess else ""
+    raise SelectorError(f"unknown quantity '{short(unknown)}'{tail}")
+
+
+def _must_differ(selector: Selector) -> list[tuple[str, ...]]:
+    """Return the names among which none may be twice: points, and links."""
+    if selector.kind in QUANTITIES:
+        return [selector.names]
+    told = roles(selector)
+    bodies = tuple(name for name, role in told if role is Role.BODY)
+    return [bodies, tuple(name for name, role in told if role is Role.POINT)]
+
+
+def roles(selector: Selector) -> list[tuple[str, Role]]:
+    """Return the names of a force, and what each stands for."""
+    form = next(form for form in FORCES[selector.kind] if len(form) == len(selector.names))
+    return list(zip(selector.names, form, strict=True))
+
+
+def is_force(selector: Selector) -> bool:
+    """Whether a quantity, or what it is divided by, is of the force analysis."""
+    return selector.kind in FORCES or (selector.over is not None and is_force(selector.over))
+
+
+def unknown_names(
+    selector: Selector,
+    points: Collection[str],
+    links: Collection[str],
+    loads: Collection[str] = (),
+) -> list[str]:
     """Names of a selector that the mechanism does not have.
 
     Parameters
     ----------
     points : collection of str
         Points, coincident ones such as ``B3`` among them.
+    loads : collection of str
+        Letters of the external loads.
     """
-    if selector.kind in LINK_KINDS:
+    if selector.kind in FORCES:
+        known = {
+            Role.LINK: links,
+            Role.BODY: {*links, FRAME},
+            Role.POINT: points,
+            Role.LOAD: loads,
+        }
+        found = [name for name, role in roles(selector) if name not in known[role]]
+    elif selector.kind in LINK_KINDS:
         found = [name for name in selector.names if name not in links]
     else:
         extra = {POLE} if selector.kind.startswith("segment") else set()
         found = [name for name in selector.names if name not in points and name not in extra]
-    return found + (unknown_names(selector.over, points, links) if selector.over else [])
+    return found + (unknown_names(selector.over, points, links, loads) if selector.over else [])

@@ -17,6 +17,7 @@ from planmethod.problem.names import (
     segment,
     split_pair,
 )
+from planmethod.problem.selector import SelectorError, is_force, parse_selector
 
 Path = tuple[str, ...]
 
@@ -27,7 +28,10 @@ _HOLDERS = (Mapping, list)
 """What a path may lead through: a table, or the loads."""
 
 _MOTION = ("frame", "links", "driver", "assembly")
-"""Tables on which the published values depend."""
+"""Tables on which all published values depend."""
+
+_FORCES = ("dynamics", "loads")
+"""Tables on which the published values of the force analysis depend."""
 
 
 def read_variants(faults: Faults, table: Mapping[str, Any]) -> dict[str, dict[Path, Any]]:
@@ -170,11 +174,16 @@ def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: Path)
 def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> dict[str, Any]:
     """Lay the overrides of a variant over the main part; the table itself is left as it is.
 
-    Published values belong to the main part: a variant that moves otherwise has only its own.
+    Published values belong to the main part: a variant that moves otherwise has only its own, and
+    one with other masses or loads keeps those of the motion.
     """
     result = dict(table)
     if any(path[0] in _MOTION for path in overrides):
         result.pop("published", None)
+    elif any(path[0] in _FORCES for path in overrides):
+        entries = result.get("published")
+        if isinstance(entries, Mapping):
+            result["published"] = {k: v for k, v in entries.items() if not _of_forces(v)}
     for path, value in overrides.items():
         level: Any = result
         for part, after in pairwise(path):
@@ -185,6 +194,15 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> di
         elif path == ("driver", "omega"):
             level.pop("n", None)
     return result
+
+
+def _of_forces(entry: object) -> bool:
+    """Whether a published value is of the force analysis; one that is faulty is not."""
+    what = entry.get("what") if isinstance(entry, Mapping) else None
+    try:
+        return isinstance(what, str) and bool(what) and is_force(parse_selector(what))
+    except SelectorError:
+        return False
 
 
 def _opened(level: Any, part: str, after: str) -> Any:

@@ -15,7 +15,7 @@ import pytest
 
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
 from planmethod.problem.model import Convention
-from planmethod.problem.selector import parse_selector
+from planmethod.problem.selector import FORCES, QUANTITIES, parse_selector
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = sorted((ROOT / "problems").glob("*/*.toml"))
@@ -167,6 +167,11 @@ def test_every_key_is_documented(kind: str) -> None:
         assert "`guides`" in DOCS
     else:
         assert set(keys.KNOWN[kind]) <= documented
+
+
+@pytest.mark.parametrize("kind", [*QUANTITIES, *FORCES])
+def test_every_quantity_is_documented(kind: str) -> None:
+    assert re.search(rf"`{kind}[ `]", DOCS)
 
 
 def documented_files() -> list[str]:

@@ -93,6 +93,45 @@ def test_published_values_stay_where_the_motion_is_the_same() -> None:
     assert [item.value for item in own.published] == [2]
 
 
+LOADED = TEXT.replace(
+    "[variants]",
+    """[published]
+"v" = { value = 2, what = "v A" }
+"F" = { value = 3, what = "F 2 1" }
+"h" = { value = 4, what = "M 2 1 / F 2 1" }
+"listed" = { value = 5 }
+[dynamics.links.2]
+mass = 2
+centre = "D"
+[[loads]]
+name = "P"
+link = "3"
+at = "B"
+force = 10
+angle = 0
+[variants]
+""",
+).replace('[published."v_A"]\nvalue = 1\n', "")
+
+
+@pytest.mark.parametrize(
+    ("variant", "kept"),
+    [
+        ('"stamp.group" = "M-2"', ["v", "F", "h", "listed"]),
+        ("dynamics.links.2.mass = 3", ["v", "listed"]),
+        ("dynamics.gravity = 9.8", ["v", "listed"]),
+        ("loads.P.force = 5", ["v", "listed"]),
+        ("loads.P.force = 5, published.F.value = 6", ["v", "listed", "F"]),
+        ("driver.omega = 5, loads.P.force = 5", []),
+    ],
+)
+def test_published_forces_stay_where_masses_and_loads_are_the_same(
+    variant: str, kept: list[str]
+) -> None:
+    problem = loads(f"{LOADED}v = {{ {variant} }}", name="v", variant="v")
+    assert [item.name for item in problem.published] == kept
+
+
 def test_an_override_is_read_with_all_checks() -> None:
     with pytest.raises(ProblemError) as caught:
         read("v = { links.1.OA = -1 }", "v")

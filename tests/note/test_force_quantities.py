@@ -1,0 +1,290 @@
+"""Every kind of selector of forces against numbers worked out by hand, and the audit of forces."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import atan2, degrees, hypot, pi, sqrt
+
+import pytest
+from slotted import KULISA, SCALES, R, problem_of
+
+from planmethod.note.audit import Audited, Verdict, audit, source_force_scale
+from planmethod.note.audit_table import EN, RU
+from planmethod.note.quantities import Quantities, UnansweredError, Why
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+from planmethod.problem.model import Problem
+from planmethod.problem.selector import FORCES, parse_selector
+
+LOADS = """
+[dynamics]
+gravity = 10
+[dynamics.links.3]
+mass = 2
+centre = "D"
+inertia = 0.5
+[[loads]]
+name = "P"
+link = "3"
+at = "D"
+force = 100
+angle = -45
+[[loads]]
+name = "M_{2}"
+link = "2"
+couple = 4
+"""
+"""The kulisa at 45 degrees with a force across it at its end, and a couple on the stone."""
+
+MU_F = 2.0
+
+
+def loaded(*entries: str, driver: str = "omega = 10") -> Problem:
+    text = KULISA.replace("omega = 10", driver) + SCALES + LOADS
+    return loads("\n".join([text, "[published]", *entries]), name="kulisa")
+
+
+@cache
+def kulisa() -> Quantities:
+    return Quantities(Solution(loaded(), ruler=0.5), 0, MU_F)
+
+
+# Across the kulisa: the load, the inertia of a^t = 3 and the weight; along it: a^n = 7.5.
+ACROSS = 100 + 6 + 20 * R
+ALONG = 15 - 20 * R
+PRESSURE = (0.3 * ACROSS + 5 - 4) / (0.2 * R)  # moments of stone and kulisa about C
+INERTIA = hypot(15, 6)
+
+EXACT = {
+    "weight 3": 20.0,
+    "weight 2": 0.0,
+    "inertia 3": INERTIA,
+    "inertia 1": 0.0,
+    "inertia couple 3": 5.0,
+    "load P": 100.0,
+    "load M_{2}": 4.0,
+    "shift 3": 5 / INERTIA / 0.002,
+    "F 2 1": PRESSURE,
+    "F 1 2": PRESSURE,
+    "F 3 2": PRESSURE,
+    "F 3 0": hypot(ALONG, PRESSURE - ACROSS),
+    "F 0 3": hypot(ALONG, PRESSURE - ACROSS),
+    "F 1 0": PRESSURE,
+    "Ft 2 1 C D": PRESSURE,
+    "Fn 2 1 C D": 0.0,
+    "Ft 3 0 C B3": PRESSURE - ACROSS,
+    "Fn 3 0 C D": ALONG,
+    "Fn 2 1 A B": PRESSURE * R,
+    "M 2 3": 4.0,
+    "M 3 2": 4.0,
+    "M 2 1": 0.0,
+    "M 2 3 / F 2 3": 4 / PRESSURE,
+    "angle F 3 2": 135.0,
+    "angle F 2 3": 315.0,
+    "angle inertia 3": degrees(pi / 4 + atan2(-6, 15)),
+    "angle load P": 315.0,
+    "arm weight 3 about C": 150 * R,
+    "arm weight 3 about D": 0.0,
+    "arm inertia 3 about C": 150 * 6 / INERTIA,
+    "arm load P about C": 150.0,
+    "arm F 1 2 about A": 50 * R,
+    "arm F 2 1 about C": 100 * R,
+    "arm F 3 2 about C": 100 * R + 500 * 4 / PRESSURE,  # the couple shifts the line of action
+    "balance": 0.1 * R * PRESSURE,
+    "balance B": R * PRESSURE,
+    "lever": 0.1 * R * PRESSURE,
+    "lever B": R * PRESSURE,
+    "balance / F 2 1": 0.1 * R,
+}
+
+
+@pytest.mark.parametrize(("what", "value"), EXACT.items())
+def test_exact_values_of_forces(what: str, value: float) -> None:
+    assert kulisa().exact(parse_selector(what)) == pytest.approx(value, rel=1e-12, abs=1e-11)
+
+
+def test_every_force_is_tested() -> None:
+    assert {parse_selector(what).kind for what in EXACT} == set(FORCES)
+
+
+def test_what_is_nothing_is_nothing_and_not_rounding() -> None:
+    for what in ("Fn 2 1 C D", "M 2 1", "weight 2"):
+        assert kulisa().exact(parse_selector(what)) == 0.0
+
+
+# By hand ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("what", ["F 2 1", "F 3 0", "Ft 3 0 C D", "Fn 3 0 C D", "F 1 0"])
+def test_a_force_is_read_off_its_plan_with_the_ruler(what: str) -> None:
+    selector = parse_selector(what)
+    steps = kulisa().read(selector) / (0.5 * MU_F)  # type: ignore[operator]
+    assert steps == pytest.approx(round(steps), abs=1e-9)
+    assert steps * 0.5 * MU_F == pytest.approx(kulisa().exact(selector), rel=0.02, abs=1)
+
+
+def test_what_was_laid_off_is_not_read_again() -> None:
+    """The tangential reaction is its moment over the arm CB, which was read 70.5 mm."""
+    at = kulisa()
+    assert at.read(parse_selector("load P")) == 100.0
+    assert at.read(parse_selector("weight 3")) == 20.0
+    steps = at.read(parse_selector("Ft 2 1 C D")) / (0.5 * MU_F)  # type: ignore[operator]
+    assert abs(steps - round(steps)) > 0.01
+    assert steps * 0.5 * MU_F == pytest.approx(PRESSURE, rel=0.02)
+
+
+def test_inertia_follows_from_the_acceleration_read() -> None:
+    at = kulisa()
+    a_d, epsilon = at.read(parse_selector("a D")), at.read(parse_selector("epsilon 3"))
+    assert a_d is not None
+    assert epsilon is not None
+    assert at.read(parse_selector("inertia 3")) == pytest.approx(2 * a_d, rel=1e-12)
+    assert at.read(parse_selector("inertia couple 3")) == pytest.approx(0.5 * epsilon, rel=1e-12)
+
+
+def test_arms_are_read_off_the_drawing() -> None:
+    read = {what: kulisa().read(parse_selector(what)) for what in EXACT if what.startswith("arm w")}
+    assert read == {"arm weight 3 about C": pytest.approx(106.0), "arm weight 3 about D": 0.0}
+
+
+def test_the_hands_balance_is_that_of_its_plans() -> None:
+    solution = Solution(loaded(), ruler=0.5)
+    own = Quantities(solution)
+    assert solution.statics.by_hand is not None
+    plans, lever = solution.statics.by_hand
+    assert own.read(parse_selector("balance")) == plans[0]
+    assert own.read(parse_selector("lever")) == lever[0]
+
+
+def test_an_angle_of_a_force_is_not_read_with_a_ruler() -> None:
+    assert kulisa().read(parse_selector("angle F 2 1")) is None
+
+
+# What there is not -----------------------------------------------------------------------------
+
+SLIDER = """
+title = "Кулиса"
+[frame]
+A = [0, 0]
+C = [0.2, 0.1]
+guides.x-x = { through = "A", angle = 0 }
+[links.1]
+points = ["B"]
+slides = { on = "x-x" }
+[links.2]
+points = ["B", "D"]
+BD = 0.15
+[links.3]
+points = ["C", "D"]
+CD = 0.15
+[driver]
+link = "1"
+s = 0
+v = 1
+[assembly]
+D = "above B"
+[[loads]]
+name = "P"
+link = "1"
+at = "B"
+force = 30
+angle = 180
+"""
+
+
+def asked(problem: Problem, what: str) -> float:
+    return Quantities(Solution(problem)).exact(parse_selector(what))
+
+
+def test_a_driving_slider_is_balanced_along_its_guide() -> None:
+    slider = loads(SLIDER, name="slider")
+    assert asked(slider, "balance") == pytest.approx(30.0)
+    assert asked(slider, "lever") == pytest.approx(30.0)
+    with pytest.raises(UnansweredError) as caught:
+        asked(slider, "balance B")
+    assert caught.value.why is Why.NO_LINK
+
+
+@pytest.mark.parametrize(
+    ("problem", "what", "why"),
+    [
+        (problem_of(), "F 2 1", Why.NO_FORCES),
+        (loaded(), "F 1 3", Why.NO_JOINT),
+        (loaded(), "angle inertia 1", Why.NO_DIRECTION),
+        (loaded(), "arm load M_{2} about C", Why.NO_DIRECTION),
+        (loaded(), "arm F 1 0 about Q", Why.NO_POINT),
+        (loaded(), "shift 1", Why.ZERO_DIVISOR),
+        (loaded(), "balance D", Why.NO_LINK),
+        (loaded(), "F 1 0 / weight 1", Why.ZERO_DIVISOR),
+        (loaded(driver="omega = 0"), "lever", Why.STANDS),
+    ],
+)
+def test_what_the_forces_do_not_have(problem: Problem, what: str, why: Why) -> None:
+    with pytest.raises(UnansweredError) as caught:
+        asked(problem, what)
+    assert caught.value.why is why
+    assert EN.whys[why]
+    assert RU.whys[why]
+
+
+def test_a_force_that_is_nothing_has_no_direction() -> None:
+    text = KULISA + LOADS.replace("force = 100", "force = 0").replace("mass = 2", "mass = 0")
+    still = loads(text.replace("inertia = 0.5", "").replace("couple = 4", "couple = 0"), name="k")
+    assert asked(still, "F 3 0") == 0.0
+    for what in ("angle F 3 0", "arm F 3 0 about A"):
+        with pytest.raises(UnansweredError) as caught:
+            asked(still, what)
+        assert caught.value.why is Why.NO_DIRECTION
+
+
+# Audit -----------------------------------------------------------------------------------------
+
+
+def test_millimetres_of_a_force_and_of_its_angle() -> None:
+    problem = loaded(
+        'f = { value = 320, unit = "Н", per_mm = 2, what = "F 2 1" }',
+        'a = { value = 136, unit = "град", what = "angle F 3 2" }',
+        'h = { value = 105, unit = "мм", per_mm = 1, what = "arm weight 3 about C" }',
+    )
+    assert source_force_scale(problem) == MU_F
+    force, angle, arm = audit(problem)
+    assert force.mm == pytest.approx((320 - PRESSURE) / 2)
+    assert angle.mm == pytest.approx(pi / 180 * PRESSURE / 2)
+    assert arm.mm == pytest.approx(105 - 150 * R)
+    assert (angle.verdict, arm.verdict) == (Verdict.DIFFERS, Verdict.DIFFERS)
+
+
+def test_without_a_scale_of_the_source_an_angle_has_no_millimetres() -> None:
+    force, angle = audit(
+        loaded(
+            'f = { value = 320, unit = "Н", what = "F 2 1" }',
+            'a = { value = 134, unit = "град", what = "angle F 3 2" }',
+        )
+    )
+    assert (force.mm, angle.mm) == (None, None)
+    assert force.read is not None
+
+
+def test_radians_and_true_lengths() -> None:
+    turned, true, part = audit(
+        loaded(
+            f'a = {{ value = {3 * pi / 4 - 2 * pi}, unit = "рад", what = "angle F 3 2" }}',
+            'h = { value = 0.21, unit = "м", per_mm = 0.002, what = "arm weight 3 about C" }',
+            'l = { value = 0.14, unit = "м", what = "length C B3" }',
+        )
+    )
+    assert turned.difference == pytest.approx(0.0, abs=1e-9)
+    assert true.exact == pytest.approx(0.3 * R)
+    assert true.read == pytest.approx(0.212)
+    assert true.mm == pytest.approx((0.21 - 0.3 * R) / 0.002)
+    assert part.exact == pytest.approx(0.2 * R)
+    assert part.read == pytest.approx(0.141)
+
+
+def test_true_lengths_need_no_scale() -> None:
+    entry = 'h = { value = 0.21, unit = "м", what = "arm weight 3 about C" }'
+    drawn = 'd = { value = 106, unit = "мм", what = "arm weight 3 about C" }'
+    text = KULISA + LOADS + f"[published]\n{entry}\n{drawn}\n"
+    found: list[Audited] = audit(loads(text, name="kulisa"))
+    assert found[0].exact == pytest.approx(0.15 * sqrt(2))
+    assert found[1].why is Why.NO_SCALE
