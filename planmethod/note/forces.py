@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from planmethod.note.plaintext import fixed, found, table, wrap
+from planmethod.note.plaintext import fixed, found, spoken, table, wrap
+from planmethod.note.sigmas import sigma_text
 from planmethod.note.wording import Wording
 from planmethod.plans.solution import Solution
 from planmethod.plans.statics import JointForce, Statics
@@ -20,6 +22,11 @@ def _angle(force: complex, largest: float) -> float | None:
         return None
     angle = float(np.degrees(np.angle(force))) % 360.0
     return angle + 0.0
+
+
+def _finite(value: float) -> float | None:
+    """Return a plain float, None (null) for what a drawing cannot tell."""
+    return float(value) if np.isfinite(value) else None
 
 
 def _largest(statics: Statics, index: int) -> float:
@@ -37,9 +44,9 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     drawing of the profile lets expect, ``hand`` what the ruler gives.
     """
     statics = solution.statics
-    largest = _largest(statics, index)
+    drawn, largest = statics.drawn, _largest(statics, index)
 
-    def told(joint: JointForce) -> dict[str, Any]:
+    def told(number: int, joint: JointForce) -> dict[str, Any]:
         force, at = complex(joint.force[index]), complex(joint.at[index])
         return {
             "joint": joint.joint,
@@ -51,24 +58,25 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             "angle_deg": _angle(force, largest),
             "at": [at.real + 0.0, at.imag + 0.0],
             "moment": float(joint.moment[index]) + 0.0,
+            "read": float(drawn.read(number)[index]) + 0.0,
+            "sigma": _finite(drawn.sigma(number)[index]),
         }
 
     quantity = "moment" if solution.problem.drive.is_crank else "force"
     balance = float(statics.balance[index])
     record: dict[str, Any] = {
-        "reactions": [told(joint) for joint in statics.reactions],
+        "reactions": [told(k, joint) for k, joint in enumerate(statics.reactions)],
         "driving": {quantity: balance + 0.0},
         "mu": statics.scale.per_mm,
     }
     if statics.lever is not None:
-        assert statics.discrepancy_sigma is not None and statics.by_hand is not None
+        assert drawn.discrepancy_sigma is not None and drawn.balances is not None
         lever = float(statics.lever[index])
-        plans, hung = (float(values[index]) for values in statics.by_hand)
-        sigma = float(statics.discrepancy_sigma[index])
+        plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
         record["lever"] = {
             quantity: lever + 0.0,
             "difference": lever - balance,
-            "sigma": sigma if np.isfinite(sigma) else None,
+            "sigma": _finite(drawn.discrepancy_sigma[index]),
             "hand": {"plans": plans, "lever": hung, "difference": hung - plans},
         }
     return record
@@ -90,41 +98,50 @@ def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
     return [*columns, balance]
 
 
-def forces_tables(solution: Solution, words: Wording, index: int) -> list[str]:
-    """Return the table of reactions of one position, and how the lever compares."""
+def forces_tables(
+    solution: Solution, words: Wording, index: int, *, sigma: Sequence[str] | None = None
+) -> list[str]:
+    """Return the table of reactions of one position, and how the lever compares.
+
+    ``sigma`` is the header with the column of the drafting errors, where they are asked for.
+    """
     statics = solution.statics
     largest = _largest(statics, index)
     rows = []
-    for joint in statics.reactions:
+    for number, joint in enumerate(statics.reactions):
         force = complex(joint.force[index])
         angle = _angle(force, largest)
         size = 0.0 if angle is None else abs(force)
         moment = float(joint.moment[index])
+        off = float(statics.drawn.sigma(number)[index]) if sigma is not None else 0.0
         rows.append(
             [
                 joint.joint,
                 f"{joint.on}←{joint.by}",
                 found(size, words),
+                found(float(statics.drawn.read(number)[index]), words),
+                *([spoken(sigma_text(off), words)] if sigma is not None else []),
                 "—" if angle is None else fixed(angle, words),
                 "—" if abs(moment) <= NOTHING * largest else found(moment, words),
             ]
         )
-    lines = [words.table_forces, *table(words.columns_forces, rows, left=2)]
+    lines = [words.table_forces, *table(sigma or words.columns_forces, rows, left=2)]
     crank = solution.problem.drive.is_crank
     unit = words.units["N·m"] if crank else words.units["N"]
     balance = words.balance_moment if crank else words.balance_force
     lines += wrap(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
     if statics.lever is not None:
-        assert statics.discrepancy_sigma is not None and statics.by_hand is not None
-        plans, hung = (float(values[index]) for values in statics.by_hand)
-        sigma = float(statics.discrepancy_sigma[index])
+        drawn = statics.drawn
+        assert drawn.discrepancy_sigma is not None and drawn.balances is not None
+        plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
+        expected = float(drawn.discrepancy_sigma[index])
         lines += wrap(
             words.lever_note.format(
                 lever=found(hung, words),
                 plans=found(plans, words),
                 difference=found(hung - plans, words),
                 share=fixed(100.0 * abs(hung - plans) / abs(plans), words) if plans else "—",
-                sigma=found(sigma, words),
+                sigma=found(expected, words),
                 unit=unit,
             )
         )

@@ -121,19 +121,20 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
         for index in range(len(solution.positions)):
             lines += ["", *heading(position_line(solution, words, index)), ""]
             lines += position_tables(solution, words, index, sigmas)
-            lines += _forces(solution, words, index)
+            lines += _forces(solution, words, index, sigmas)
             lines += _causes(solution, words, index) if sigma else []
     ruler = given(solution.hand.ruler, words)
     lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
     return "\n".join(lines)
 
 
-def _forces(solution: Solution, words: Wording, index: int) -> list[str]:
+def _forces(solution: Solution, words: Wording, index: int, sigmas: Sigmas) -> list[str]:
     if solution.problem.dynamics is None:
         return []
     from planmethod.note.forces import forces_tables
 
-    return ["", *forces_tables(solution, words, index)]
+    header = sigmas.header(words.columns_forces, 3) if sigmas.asked else None
+    return ["", *forces_tables(solution, words, index, sigma=header)]
 
 
 def _causes(solution: Solution, words: Wording, index: int) -> list[str]:

@@ -14,13 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
-from planmethod.construct.drafting import Counted, Propagated, Sampled
-from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, series_near
 from planmethod.construct.steps import Name, NumberName
 from planmethod.errors import AssemblyError
+from planmethod.plans.drawnforces import DrawnForces
 from planmethod.plans.forceplan import SCALE, Board, Force, Reaction
 from planmethod.plans.impossible import failing
 from planmethod.plans.kinetostatics import drive_forces, group_forces
@@ -30,9 +29,6 @@ from planmethod.plans.solution import EVERY, UNIT_SCALES, Complexes, Reals, Solu
 
 LONGEST = 100.0
 """Length that the largest force is drawn to, at most, mm."""
-
-BLOCK = 64
-"""Positions whose drafting errors are carried at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,11 +82,12 @@ class Statics:
 
     def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Trace:
         """Read the force plans in an arithmetic, at scales of all plans (units per mm)."""
-        return evaluate(self.program, self._data(scales, EVERY), arithmetic)
+        return evaluate(self.program, self.data(scales, EVERY), arithmetic)
 
-    def _data(
+    def data(
         self, scales: Mapping[str, float], chosen: npt.NDArray[np.intp] | slice
     ) -> dict[str, Number]:
+        """Return the data of the program at given scales, for some positions."""
         loads = {
             name: value[chosen] if np.ndim(value) else value
             for name, value in self.board.data.items()
@@ -145,7 +142,7 @@ class Statics:
             self._number(reaction.couple),
         )
 
-    def _balance(self, trace: Trace) -> Number:
+    def balance_in(self, trace: Trace) -> Number:
         """Return what balances the driver, N or N·m, as the force plans of a trace give it."""
         if self.driving.moment is not None:
             return trace.value[self.driving.moment]
@@ -157,7 +154,7 @@ class Statics:
     def balance_of(self, trace: Trace) -> Reals:
         """Return what balances the driver in a reading of the force plans, N·m or N."""
         shape = self.solution.positions.shape
-        return np.broadcast_to(np.asarray(self._balance(trace), dtype=float), shape)
+        return np.broadcast_to(np.asarray(self.balance_in(trace), dtype=float), shape)
 
     @cached_property
     def balance(self) -> Reals:
@@ -185,51 +182,7 @@ class Statics:
         """Unit per millimetre of all plans, by the name that the program has for it."""
         return {**self.solution.per_mm, SCALE: self.scale.per_mm}
 
-    @property
-    def _free(self) -> frozenset[str]:
-        """Points that cannot be off: the poles, which may stand anywhere."""
-        poles = {str(plan.pole) for plan in self.solution.construction.plans}
-        return frozenset(poles | {str(start) for start in self.board.starts})
-
-    def _discrepancy(self, pencil: Arithmetic, chosen: npt.NDArray[np.intp]) -> Number:
-        assert self.hung is not None
-        trace = evaluate(self.program, self._data(self.per_mm, chosen), pencil)
-        with np.errstate(all="ignore"):
-            return trace.value[self.hung.balance] - self._balance(trace)
-
     @cached_property
-    def discrepancy_sigma(self) -> Reals | None:
-        """Expected size of lever minus force plans as the hand draws them: one sigma, first order.
-
-        N·m, or N for a driving slider; shape (n,). None where the driver stands.
-        """
-        if self.hung is None:
-            return None
-        profile, count = self.solution.profile, len(self.solution.positions)
-        counted = Counted(profile, self._free)
-        self._discrepancy(counted, np.zeros(1, dtype=int))
-        sigmas = []
-        for start in range(0, count, BLOCK):
-            chosen = np.arange(start, min(start + BLOCK, count))
-            pencil = Propagated(profile, self._free, counted.causes)
-            slope = as_dual(self._discrepancy(pencil, chosen)).slope
-            squares = np.zeros((1, 1)) if slope is None else slope**2
-            sigmas.append(np.broadcast_to(np.sqrt(np.sum(squares, axis=0)), chosen.shape))
-        return np.concatenate(sigmas)
-
-    def sample(self, index: int, *, draws: int, seed: int = 1) -> Reals:
-        """Return lever minus force plans of one position from random sheets, shape (draws,)."""
-        pencil = Sampled(self.solution.profile, self._free, draws, seed)
-        found = self._discrepancy(pencil, np.array([index]))
-        return np.broadcast_to(np.asarray(found, dtype=float), (draws,))
-
-    @cached_property
-    def by_hand(self) -> tuple[Reals, Reals] | None:
-        """Balance by the force plans and by the lever as the ruler gives them, along one chain."""
-        if self.hung is None:
-            return None
-        trace = evaluate(self.program, self._data(self.per_mm, EVERY), self.solution.hand)
-        values = (self._balance(trace), trace.value[self.hung.balance])
-        shape = self.solution.positions.shape
-        one, two = (np.broadcast_to(np.asarray(value, dtype=float), shape) for value in values)
-        return one, two
+    def drawn(self) -> DrawnForces:
+        """What a hand makes of the force plans, and how far it may be off."""
+        return DrawnForces(self)

@@ -26,10 +26,12 @@ def statics_of(name: str, profile: str = "board") -> Statics:
 def test_the_predicted_sigma_is_that_of_random_sheets(name: str) -> None:
     """Half of the middle 68 % of 4000 sheets over the prediction: 0.98 to 1.04 in 24 positions."""
     statics = statics_of(name)
-    sigma = statics.discrepancy_sigma
+    sigma = statics.drawn.discrepancy_sigma
     assert sigma is not None
     for index, predicted in enumerate(sigma):
-        low, high = np.percentile(statics.sample(index, draws=DRAWS), [15.865, 84.135])
+        low, high = np.percentile(
+            statics.drawn.sample(index, draws=DRAWS)["difference"], [15.865, 84.135]
+        )
         assert (high - low) / 2 == pytest.approx(predicted, rel=0.06), index
 
 
@@ -37,7 +39,7 @@ def test_the_predicted_sigma_is_that_of_random_sheets(name: str) -> None:
 def test_the_size_expected_is_no_flat_share(name: str) -> None:
     """Five per cent are too little in one position and too much in another."""
     statics = statics_of(name)
-    sigma = statics.discrepancy_sigma
+    sigma = statics.drawn.discrepancy_sigma
     assert sigma is not None
     share = sigma / np.abs(statics.balance)
     assert share.min() < 0.05 < share.max()
@@ -47,16 +49,33 @@ def test_the_size_expected_is_no_flat_share(name: str) -> None:
 def test_the_ruler_stays_within_what_the_drawing_lets_expect(name: str) -> None:
     """The ruler alone errs less than the whole hand."""
     statics = statics_of(name)
-    sigma, hand = statics.discrepancy_sigma, statics.by_hand
+    sigma, hand = statics.drawn.discrepancy_sigma, statics.drawn.balances
     assert sigma is not None
     assert hand is not None
-    plans, lever = hand
+    plans, lever = hand.plans, hand.lever
     assert (np.abs(lever - plans) > 0).any()
     assert (np.abs(lever - plans) < 3.0 * sigma).all()
 
 
 def test_a_better_hand_has_smaller_errors_in_proportion() -> None:
-    sigmas = [statics_of("press/press", profile).discrepancy_sigma for profile in PROFILES]
+    sigmas = [statics_of("press/press", profile).drawn.discrepancy_sigma for profile in PROFILES]
     cad, board, coarse = (sigma for sigma in sigmas if sigma is not None)
     assert (cad < 0.1 * board).all()
     assert (board < coarse).all()
+
+
+@pytest.mark.parametrize("name", TWELVE)
+def test_sigmas_of_reactions_are_those_of_random_sheets(name: str) -> None:
+    """For reactions longer than three sigmas: near zero no length errs normally."""
+    statics = statics_of(name)
+    told = 0
+    for index in (0, 4, 7):
+        sampled = statics.drawn.sample(index, draws=DRAWS)
+        for k, joint in enumerate(statics.reactions):
+            sigma = float(statics.drawn.sigma(k)[index])
+            if abs(joint.force[index]) < 3.0 * sigma or sigma == 0.0:
+                continue
+            told += 1
+            # Their mean square: rounded to the ruler's step, they have no fine percentiles.
+            assert np.std(sampled[str(k)]) == pytest.approx(sigma, rel=0.06), (index, k)
+    assert told >= 10
