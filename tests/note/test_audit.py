@@ -182,6 +182,18 @@ def audits() -> tuple[tuple[Problem, list[Audited]], ...]:
         ("six-link", "ε3", "неточного чертежа"),
         ("six-link", "a_H = a_S5", "неточного чертежа"),
         ("task12", "p'd' (план ускорений)", "82,08"),
+        ("six-link", "l_CL в (2.12)", "38 мм"),
+        ("six-link", "h_G2", "CS2 = 25 мм"),
+        ("six-link", "F36", "с плечом 54 мм"),
+        ("six-link", "M1д", "из-за плеча"),
+        ("six-link", "G1", "g = 9,8"),
+        ("task12", "M1", "F12 = 2116,7"),
+        ("task12", "Φ5", "10,1·30 = 303"),
+        ("task12", "F10", "2475"),
+        ("press", "G3", "147,15"),
+        ("press", "R65", "от камня"),
+        ("press", "R63", "ни с шатуном, ни с камнем"),
+        ("press", "R16", "направлена наоборот"),
     ],
 )
 def test_errors_of_the_sources_differ(stem: str, name: str, reason: str) -> None:
@@ -214,6 +226,15 @@ def test_slips_smaller_than_drafting_are_told_in_the_remark(
 def test_size_of_the_six_links_errors() -> None:
     """The drawing of the source was off where the mechanism is sensitive."""
     expected = {"v_H": 38, "ε2": -20, "a_C": -10, "ε3": 11, "a_H = a_S5": -10}
+    for name, percent in expected.items():
+        found = audited("six-link")[name].percent
+        assert found is not None
+        assert round(found) == percent, name
+
+
+def test_size_of_the_errors_of_the_wrong_arm() -> None:
+    """An arm of 54 mm for 38: the pressure of the rocker doubles, the driving moment vanishes."""
+    expected = {"F36": 146, "F32 = F23": 145, "M1д": 80}  # of the moment: less, and it is negative
     for name, percent in expected.items():
         found = audited("six-link")[name].percent
         assert found is not None

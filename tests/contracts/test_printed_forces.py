@@ -1,0 +1,43 @@
+"""Printed forces of the textbooks beside values computed apart from the plans, with 50 digits."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from typing import Any
+
+import pytest
+from worked import ROOT, path_of, problem_of
+
+from planmethod.note.audit import audit
+from planmethod.problem.selector import is_force, parse_selector
+
+
+@cache
+def computed() -> dict[str, Any]:
+    values: dict[str, Any] = json.loads((ROOT / "tests/data/published-forces.json").read_text("utf-8"))
+    return values
+
+
+NAMES = list(computed()["printed"])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_exact_values_of_printed_forces(name: str) -> None:
+    found = {item.published.name: item.exact for item in audit(problem_of(name))}
+    for what, value in computed()["printed"][name].items():
+        assert found[what] == pytest.approx(value, rel=1e-9, abs=1e-9), what
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_printed_force_is_left_unchecked(name: str) -> None:
+    forces = {
+        item.name
+        for item in problem_of(name).published
+        if item.what and is_force(parse_selector(item.what))
+    }
+    assert forces <= set(computed()["printed"][name]), path_of(name)
+
+
+def test_every_file_with_loads_is_checked() -> None:
+    assert set(NAMES) == {"levers/six-link", "levers/task12", "press/press"}
