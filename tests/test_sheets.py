@@ -33,6 +33,7 @@ MANY = {
     "levers/six-link": [150.0 + 10.0 * k for k in range(12)],  # it does not go all round
     "levers/task12": ALL_ROUND,
     "press/press": ALL_ROUND,
+    "press/press-stone": ALL_ROUND,
 }
 
 

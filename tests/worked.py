@@ -35,7 +35,7 @@ def problem_of(name: str) -> Problem:
 
 @cache
 def exact_values() -> dict[str, Any]:
-    """Exact values of five of the mechanisms, computed apart from the plans."""
+    """Exact values of six of the files, computed apart from the plans."""
     values: dict[str, Any] = json.loads((ROOT / "tests/data/exact.json").read_text("utf-8"))
     return values
 

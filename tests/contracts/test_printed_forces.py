@@ -10,6 +10,7 @@ import pytest
 from worked import ROOT, path_of, problem_of
 
 from planmethod.note.audit import audit
+from planmethod.plans.solution import Solution
 from planmethod.problem.selector import is_force, parse_selector
 
 
@@ -40,4 +41,22 @@ def test_no_printed_force_is_left_unchecked(name: str) -> None:
 
 
 def test_every_file_with_loads_is_checked() -> None:
-    assert set(NAMES) == {"levers/six-link", "levers/task12", "press/press"}
+    assert set(NAMES) == {"levers/six-link", "levers/task12", "press/press", "press/press-stone"}
+
+
+def test_forces_of_the_press_with_a_stone() -> None:
+    statics = Solution(problem_of("press/press-stone")).statics
+    wanted = computed()["stone"]
+    found = {}
+    for joint in statics.reactions:
+        force = complex(joint.force[0])
+        found[f"{joint.on} {joint.by}"] = force
+        found[f"{joint.by} {joint.on}"] = -force
+        assert abs(joint.moment[0]) <= 1e-9  # all forces of a stone go through its pin
+    largest = max(abs(complex(*pair)) for pair in wanted["reactions"].values())
+    assert len(statics.reactions) == len(wanted["reactions"])
+    for joint_, pair in wanted["reactions"].items():
+        assert abs(found[joint_] - complex(*pair)) <= 1e-9 * largest, joint_
+    assert statics.balance[0] == pytest.approx(wanted["balance"], rel=1e-9)
+    assert statics.lever is not None
+    assert statics.lever[0] == pytest.approx(wanted["balance"], rel=1e-9)

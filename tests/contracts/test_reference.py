@@ -25,6 +25,11 @@ SLIDING = {
     "levers/six-link": {"CL": ("H", "4", "2"), "yy": ("H", "5", "0")},
     "levers/task12": {"F": ("B", "3", "2"), "E": ("E", "5", "4"), "K": ("E", "5", "0")},
     "press/press": {"kulisa": ("A", "3", "2"), "guide": ("B", "5", "0")},
+    "press/press-stone": {
+        "kulisa": ("A", "3", "2"),
+        "N": ("B", "4", "3"),
+        "guide": ("B", "5", "0"),
+    },
 }
 """What the exact values call a pair, and the record: point, of, to."""
 

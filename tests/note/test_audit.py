@@ -194,6 +194,7 @@ def audits() -> tuple[tuple[Problem, list[Audited]], ...]:
         ("press", "R65", "от камня"),
         ("press", "R63", "ни с шатуном, ни с камнем"),
         ("press", "R16", "направлена наоборот"),
+        ("press-stone", "R63", "ни с камнем, ни с шатуном"),
     ],
 )
 def test_errors_of_the_sources_differ(stem: str, name: str, reason: str) -> None:
@@ -239,6 +240,12 @@ def test_size_of_the_errors_of_the_wrong_arm() -> None:
         found = audited("six-link")[name].percent
         assert found is not None
         assert round(found) == percent, name
+
+
+def test_the_force_plan_of_the_press_is_that_of_the_stone() -> None:
+    for name in ("R54", "R65", "плечо F34"):
+        assert audited("press")[name].verdict is Verdict.DIFFERS
+        assert audited("press-stone")[name].verdict is not Verdict.DIFFERS
 
 
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)

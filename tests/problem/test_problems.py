@@ -26,6 +26,7 @@ DOCS = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
 LINKAGES = ROOT / "problems" / "linkages"
 LEVERS = ROOT / "problems" / "levers"
 PRESS = ROOT / "problems" / "press" / "press.toml"
+STONE = ROOT / "problems" / "press" / "press-stone.toml"
 
 
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
@@ -42,7 +43,8 @@ def test_every_problem_and_variant_loads(path: Path) -> None:
 
 def test_the_worked_examples_are_here() -> None:
     names = {path.stem for path in PROBLEMS}
-    assert {"ex1", "ex2", "ex3", "six-link", "task12", "task12-variants", "press"} <= names
+    levers = {"six-link", "task12", "task12-variants", "press", "press-stone"}
+    assert names >= {"ex1", "ex2", "ex3", *levers}
 
 
 @pytest.mark.parametrize(
@@ -53,6 +55,7 @@ def test_the_worked_examples_are_here() -> None:
         (LEVERS / "six-link.toml", 66),
         (LEVERS / "task12.toml", 79),
         (PRESS, 39),
+        (STONE, 12),
     ],
     ids=lambda value: value.stem if isinstance(value, Path) else "",
 )
@@ -71,7 +74,7 @@ def test_points_of_the_examples() -> None:
         path.stem: list(
             dict.fromkeys(p for body in load(path).bodies.values() for p in body.points)
         )
-        for path in (*LINKAGES.glob("ex*.toml"), *LEVERS.glob("*.toml"), PRESS)
+        for path in (*LINKAGES.glob("ex*.toml"), *LEVERS.glob("*.toml"), PRESS, STONE)
     }
     assert points["ex1"] == ["A", "B", "C", "D"]
     assert points["ex2"] == ["O", "C", "A", "B", "D"]
@@ -79,6 +82,7 @@ def test_points_of_the_examples() -> None:
     assert points["six-link"] == ["A", "D", "B", "C", "S2", "H"]
     assert points["task12"] == points["task12-variants"] == ["A", "C", "B", "D", "S3", "E", "S5"]
     assert points["press"] == ["O3", "O1", "A", "S1", "S3", "N", "B"]
+    assert points["press-stone"] == ["O3", "O1", "A", "S1", "S3", "B"]
 
 
 def test_the_press_crank_follows_from_the_speed_ratio() -> None:
@@ -91,6 +95,18 @@ def test_the_press_crank_follows_from_the_speed_ratio() -> None:
         90 + math.degrees(theta / 2) + 120, rel=1e-14
     )
     assert problem.drive.rate == pytest.approx(130 * math.pi / 30, rel=1e-15)
+
+
+def test_the_two_readings_of_the_press_differ_in_link_4_only() -> None:
+    rod, stone = load(PRESS), load(STONE)
+    assert rod.drive == stone.drive
+    assert rod.dynamics == stone.dynamics
+    assert rod.guides == stone.guides
+    assert {link: rod.bodies[link] for link in "125"} == {
+        link: stone.bodies[link] for link in "125"
+    }
+    assert "4" not in rod.slides
+    assert (stone.slides["4"].host, stone.slides["4"].label) == ("3", rod.slides["2"].label)
 
 
 def test_the_rod_of_the_six_link_is_square_to_the_coupler() -> None:
