@@ -16,7 +16,9 @@ from planmethod.problem.selector import is_force, parse_selector
 
 @cache
 def computed() -> dict[str, Any]:
-    values: dict[str, Any] = json.loads((ROOT / "tests/data/published-forces.json").read_text("utf-8"))
+    values: dict[str, Any] = json.loads(
+        (ROOT / "tests/data/published-forces.json").read_text("utf-8")
+    )
     return values
 
 
