@@ -7,7 +7,7 @@ number, N·m. Places are those of the position plan, so arms are measured where 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.leads import Kinematics
 from planmethod.plans.loads import Applied, LoadKind
+from planmethod.plans.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.solution import Solution
 
 PREFIX = "f:"
@@ -28,15 +29,16 @@ DOWN = -90.0
 
 @dataclass(frozen=True, slots=True)
 class Force:
-    """Force on a link (сила): where it acts, and its segment on a force plan."""
+    """Force on a link (сила): where it acts, its segment on a force plan, and its letter."""
 
     at: PointName
     tail: PointName
     head: PointName
+    symbol: str = ""
 
-    def reversed(self) -> Force:
+    def reversed(self, symbol: str = "") -> Force:
         """Return the force that acts back."""
-        return Force(self.at, self.head, self.tail)
+        return Force(self.at, self.head, self.tail, symbol)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +77,7 @@ class Board:
     """State of the force plans while they are being planned (планы сил в работе).
 
     ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
-    groups that hang on it do to it.
+    groups that hang on it do to it. ``symbols`` are the letters of the couples.
     """
 
     draft: Draft
@@ -85,6 +87,8 @@ class Board:
     couples: dict[str, list[NumberName]] = field(default_factory=dict)
     given: list[Given] = field(default_factory=list)
     reactions: list[Reaction] = field(default_factory=list)
+    plans: list[ForcePlan] = field(default_factory=list)
+    symbols: dict[NumberName, str] = field(default_factory=dict)
     starts: list[PointName] = field(default_factory=list)
     scale: NumberName = field(init=False)
     pole: PointName = field(init=False)
@@ -125,6 +129,7 @@ class Board:
             if one.point is None:
                 couple = self._couple(solution, one)
                 self.couples.setdefault(one.link, []).append(couple)
+                self.symbols[couple] = one.name
                 self.given.append(Given(one, None, couple))
                 continue
             link, place = self.kin.velocity.named[one.point]
@@ -132,7 +137,7 @@ class Board:
                 tail, head = self._inertia(solution, one, link, place)
             else:
                 tail, head = self._laid_off(one)
-            force = Force(PointName(place), tail, head)
+            force = Force(PointName(place), tail, head, one.name)
             self.forces.setdefault(one.link, []).append(force)
             self.given.append(Given(one, force, None))
 
@@ -172,18 +177,32 @@ class Board:
 
     # Plans -----------------------------------------------------------------------------------
 
-    def chain(self, start: PointName, *links: str) -> PointName:
-        """Lay the forces on links off one after another, and return where they end."""
-        for link in links:
-            for force in self.forces.get(link, ()):
-                start = self.draft.b.carry(self.name("c"), start, force.tail, force.head)
+    def chain(self, start: PointName, link: str, into: list[Edge]) -> PointName:
+        """Lay the forces on a link off one after another, and return where they end.
+
+        The laid off edges are put ``into`` a list.
+        """
+        for force in self.forces.get(link, ()):
+            end = self.draft.b.carry(self.name("c"), start, force.tail, force.head)
+            into.append(Edge(force.symbol, link, force.at, start, end))
+            start = end
         return start
 
-    def back(self, end: PointName, link: str) -> PointName:
+    def back(self, end: PointName, link: str, into: list[Edge]) -> PointName:
         """Return where the forces on a link start that end in a point."""
         for force in self.forces.get(link, ()):
-            end = self.draft.b.carry(self.name("c"), end, force.head, force.tail)
+            start = self.draft.b.carry(self.name("c"), end, force.head, force.tail)
+            into.insert(0, Edge(force.symbol, link, force.at, start, end))
+            end = start
         return end
+
+    def couples_on(self, *links: str) -> tuple[CoupleOn, ...]:
+        """Return the couples on links so far, with their letters."""
+        return tuple(
+            CoupleOn(self.symbols[name], link, name)
+            for link in links
+            for name in self.couples.get(link, ())
+        )
 
     def moment(self, links: Sequence[str], about: PointName) -> NumberName:
         """Return the moment of all loads on links about a point, N·m."""
@@ -227,21 +246,32 @@ class Board:
         force: Force,
         couple: NumberName | None = None,
         *,
-        pin: str | None = None,
         inner: bool = False,
     ) -> None:
         """Note a reaction, and what it does to the link that exerts it.
 
-        ``couple`` is about the place of ``force``; with ``pin`` both are moved there. ``inner``
-        reactions act between links that are both done with.
+        ``couple`` is about the place of ``force``. ``inner`` reactions act between links that are
+        both done with.
         """
-        if pin is not None and couple is not None and PointName(pin) != force.at:
+        force = replace(force, symbol=reaction_symbol(on, by))
+        self.reactions.append(Reaction(joint, on, by, force, couple))
+        if couple is not None:
+            self.symbols[couple] = reaction_symbol(on, by, letter="M")
+        if by != FRAME and not inner:
+            self.forces.setdefault(by, []).append(force.reversed(reaction_symbol(by, on)))
+            if couple is not None:
+                opposite = self.negative(couple)
+                self.symbols[opposite] = reaction_symbol(by, on, letter="M")
+                self.couples.setdefault(by, []).append(opposite)
+
+    def press(
+        self, pin: str, on: str, by: str, force: Force, couple: NumberName, *, inner: bool = False
+    ) -> CoupleOn:
+        """Note the reaction of a guide, moved to the pin of its slider if it is an outer one."""
+        if not inner and PointName(pin) != force.at:
             shift = self.moment_of(force, PointName(pin))
             assert shift is not None
             couple = self.draft.b.total(self.name("M"), couple, shift)
             force = Force(PointName(pin), force.tail, force.head)
-        self.reactions.append(Reaction(joint, on, by, force, couple))
-        if by != FRAME and not inner:
-            self.forces.setdefault(by, []).append(force.reversed())
-            if couple is not None:
-                self.couples.setdefault(by, []).append(self.negative(couple))
+        self.react(pin, on, by, force, couple, inner=inner)
+        return CoupleOn(self.symbols[couple], on, couple, force.at)

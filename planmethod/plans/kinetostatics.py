@@ -11,13 +11,29 @@ a force on every link.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.forceplan import Board, Force
-from planmethod.plans.leads import arm
+from planmethod.plans.leads import arm, track_note
+from planmethod.plans.model import Known
+from planmethod.plans.motion import mark
+from planmethod.plans.polygons import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    Balance,
+    Components,
+    CoupleOn,
+    Edge,
+    ForcePlan,
+    Moments,
+    as_known,
+    back,
+    reaction_edge,
+)
 from planmethod.plans.position import (
     inner_point,
     lead_point,
@@ -54,74 +70,163 @@ def group_forces(board: Board, group: AssurGroup) -> None:
             _sliding(board, group)
 
 
-def _tangent(board: Board, lead: Lead, origin: PointName, middle: str) -> PointName:
+def _tangent(
+    board: Board, lead: Lead, origin: PointName, middle: str
+) -> tuple[PointName, Components]:
     """Lay off the tangential reaction of a revolute lead: its moment about the middle joint."""
     outer = lead_point(lead)
     lever = arm(board.draft, lead.link, outer, middle)
     moment = board.moment((lead.link,), PointName(middle))
-    return board.across(origin, lever.line, moment, lever.length)
+    end = board.across(origin, lever.line, moment, lever.length)
+    return end, Components(lead, PointName(outer), mark(outer, middle))
 
 
 def _two_revolute(board: Board, group: AssurGroup) -> None:
-    b, middle = board.draft.b, inner_point(group)
+    b, middle = board.draft.b, PointName(inner_point(group))
     one, two = group.leads
     start = board.start()
-    first = _tangent(board, one, start, middle)
-    between = board.chain(first, one.link)
-    loaded = board.chain(between, two.link)
-    last = _tangent(board, two, loaded, middle)
+    first, at_one = _tangent(board, one, start, middle)
+    loads: tuple[list[Edge], list[Edge]] = ([], [])
+    between = board.chain(first, one.link, loads[0])
+    loaded = board.chain(between, two.link, loads[1])
+    last, at_two = _tangent(board, two, loaded, middle)
     lines = (
         b.parallel(start, arm(board.draft, one.link, lead_point(one), middle).line),
         b.parallel(last, arm(board.draft, two.link, lead_point(two), middle).line),
     )
     end = b.meet_lines(board.name("x"), *lines)
+    edges = (
+        at_one.normal(end, start),
+        at_one.tangential(start, first),
+        at_two.tangential(loaded, last),
+        at_two.normal(last, end),
+    )
+    polygon = (*edges[:2], *loads[0], *loads[1], *edges[2:])
+    wholes = (at_one.whole(end, first), at_two.whole(loaded, end))
+    inner = reaction_edge(one.link, two.link, middle, between, end)
+    board.plans.append(
+        ForcePlan(
+            group.links,
+            polygon,
+            wholes,
+            inner,
+            (
+                Balance(group.links, polygon),
+                Balance((one.link,), (as_known(wholes[0]), *loads[0], inner)),
+            ),
+            (
+                Moments((one.link,), middle, tuple(loads[0]), board.couples_on(one.link), edges[1]),
+                Moments((two.link,), middle, tuple(loads[1]), board.couples_on(two.link), edges[2]),
+            ),
+            board.couples_on(*group.links),
+        )
+    )
     for lead, tail, head in ((one, end, first), (two, loaded, end)):
         at = PointName(lead_point(lead))
         board.react(at, lead.link, lead.to, Force(at, tail, head))
-    inner = Force(PointName(middle), between, end)
-    board.react(middle, one.link, two.link, inner, inner=True)
+    board.react(middle, one.link, two.link, Force(middle, between, end), inner=True)
 
 
 def _revolute_and_slider(board: Board, group: AssurGroup) -> None:
-    b, middle = board.draft.b, inner_point(group)
+    b, middle = board.draft.b, PointName(inner_point(group))
     revolute, prismatic = split(group)
     slide = slide_of(board.draft, prismatic.joint)
     start = board.start()
-    first = _tangent(board, revolute, start, middle)
-    between = board.chain(first, revolute.link)
-    loaded = board.chain(between, prismatic.link)
+    first, hinged = _tangent(board, revolute, start, middle)
+    loads: tuple[list[Edge], list[Edge]] = ([], [])
+    between = board.chain(first, revolute.link, loads[0])
+    loaded = board.chain(between, prismatic.link, loads[1])
     end = b.meet_lines(
         board.name("x"),
         b.parallel(start, arm(board.draft, revolute.link, lead_point(revolute), middle).line),
         b.perpendicular(loaded, board.draft.direction(slide)),
     )
+    pressed = _guide_edge(board, prismatic, loaded, end)
+    two = (hinged.normal(end, start), hinged.tangential(start, first))
+    whole = hinged.whole(end, first)
+    polygon = (*two, *loads[0], *loads[1], pressed)
+    inner = reaction_edge(revolute.link, prismatic.link, middle, between, end)
+    known = (board.couples_on(revolute.link), board.couples_on(prismatic.link))
     at = PointName(lead_point(revolute))
     board.react(at, revolute.link, revolute.to, Force(at, end, first))
-    _guide_reaction(board, prismatic, Force(PointName(middle), loaded, end))
-    inner = Force(PointName(middle), between, end)
-    board.react(middle, revolute.link, prismatic.link, inner, inner=True)
+    guide = _guide_reaction(board, prismatic, Force(middle, loaded, end))
+    board.react(middle, revolute.link, prismatic.link, Force(middle, between, end), inner=True)
+    board.plans.append(
+        ForcePlan(
+            group.links,
+            polygon,
+            (whole,),
+            inner,
+            (
+                Balance(group.links, polygon),
+                Balance((revolute.link,), (as_known(whole), *loads[0], inner)),
+            ),
+            (
+                Moments((revolute.link,), middle, tuple(loads[0]), known[0], two[1]),
+                _of_guide(guide, [*loads[1], back(inner, prismatic.link)], known[1]),
+            ),
+            (*known[0], *known[1], guide),
+        )
+    )
 
 
 def _two_sliders(board: Board, group: AssurGroup) -> None:
     b, middle = board.draft.b, PointName(inner_point(group))
     one, two = group.leads
     start = board.start()
-    between = board.chain(start, one.link)
-    loaded = board.chain(between, two.link)
+    loads: tuple[list[Edge], list[Edge]] = ([], [])
+    between = board.chain(start, one.link, loads[0])
+    loaded = board.chain(between, two.link, loads[1])
     guides = [board.draft.direction(slide_of(board.draft, lead.joint)) for lead in (one, two)]
     end = b.meet_lines(
         board.name("x"), b.perpendicular(start, guides[0]), b.perpendicular(loaded, guides[1])
     )
-    _guide_reaction(board, one, Force(middle, end, start))
-    _guide_reaction(board, two, Force(middle, loaded, end))
+    pressed = (_guide_edge(board, one, end, start), _guide_edge(board, two, loaded, end))
+    polygon = (pressed[0], *loads[0], *loads[1], pressed[1])
+    inner = reaction_edge(one.link, two.link, middle, between, end)
+    known = (board.couples_on(one.link), board.couples_on(two.link))
+    found = (
+        _guide_reaction(board, one, Force(middle, end, start)),
+        _guide_reaction(board, two, Force(middle, loaded, end)),
+    )
     board.react(middle, one.link, two.link, Force(middle, between, end), inner=True)
+    board.plans.append(
+        ForcePlan(
+            group.links,
+            polygon,
+            (),
+            inner,
+            (
+                Balance(group.links, polygon),
+                Balance((one.link,), (as_known(pressed[0]), *loads[0], inner)),
+            ),
+            (
+                _of_guide(found[0], [*loads[0], inner], known[0]),
+                _of_guide(found[1], [*loads[1], back(inner, two.link)], known[1]),
+            ),
+            (*known[0], *known[1], *found),
+        )
+    )
 
 
-def _guide_reaction(board: Board, lead: Lead, force: Force) -> None:
+def _guide_reaction(board: Board, lead: Lead, force: Force) -> CoupleOn:
     """Note the reaction of a guide: its moment balances those of the slider's other loads."""
     couple = board.negative(board.moment((lead.link,), force.at))
     pin = slide_of(board.draft, lead.joint).pin
-    board.react(pin, lead.link, lead.to, force, couple, pin=pin)
+    return board.press(pin, lead.link, lead.to, force, couple)
+
+
+def _guide_edge(board: Board, lead: Lead, tail: PointName, head: PointName) -> Edge:
+    """Return the reaction of a guide, which is across it."""
+    slide = slide_of(board.draft, lead.joint)
+    note = track_note(slide, board.draft.problem, turned=True)
+    return reaction_edge(lead.link, lead.to, PointName(slide.pin), tail, head, note)
+
+
+def _of_guide(couple: CoupleOn, edges: Sequence[Edge], known: tuple[CoupleOn, ...]) -> Moments:
+    """Return the moments about the pin of a slider, which give the moment of its guide."""
+    assert couple.at is not None
+    return Moments((couple.on,), couple.at, tuple(map(as_known, edges)), known, couple=couple)
 
 
 def _swinging(board: Board, group: AssurGroup) -> None:
@@ -134,18 +239,44 @@ def _swinging(board: Board, group: AssurGroup) -> None:
     moment = board.moment((slider.link, host.link), pivot)
     start = board.start()
     first = board.across(start, line, moment, ((apart, 1), (board.draft.mu_l, 1)))
-    between = board.chain(first, slider.link)
+    loads: tuple[list[Edge], list[Edge]] = ([], [])
+    between = board.chain(first, slider.link, loads[0])
     end = b.meet_lines(
         board.name("x"),
         b.parallel(start, line),
         b.perpendicular(between, board.draft.direction(slide)),
     )
-    loaded = board.chain(between, host.link)
+    loaded = board.chain(between, host.link, loads[1])
     couple = board.negative(board.moment((slider.link,), at))
+    hinged = Components(slider, at, mark(at, pivot))
+    two = (hinged.normal(end, start), hinged.tangential(start, first))
+    whole = hinged.whole(end, first)
+    stands = reaction_edge(host.link, host.to, pivot, loaded, end)
+    note = track_note(slide, board.draft.problem, turned=True)
+    inner = reaction_edge(slider.link, host.link, at, between, end, note)
+    known, of_slider = board.couples_on(*group.links), board.couples_on(slider.link)
     board.react(at, slider.link, slider.to, Force(at, end, first))
     board.react(pivot, host.link, host.to, Force(pivot, loaded, end))
     pressed = Force(at, between, end)
-    board.react(slide.pin, slider.link, host.link, pressed, couple, inner=True)
+    held = board.press(slide.pin, slider.link, host.link, pressed, couple, inner=True)
+    polygon = (*two, *loads[0], *loads[1], stands)
+    board.plans.append(
+        ForcePlan(
+            group.links,
+            polygon,
+            (whole,),
+            inner,
+            (
+                Balance((slider.link,), (*two, *loads[0], inner)),
+                Balance(group.links, (as_known(whole), *loads[0], *loads[1], stands)),
+            ),
+            (
+                Moments(group.links, pivot, (*loads[0], *loads[1]), known, two[1]),
+                _of_guide(held, loads[0], of_slider),
+            ),
+            known,
+        )
+    )
 
 
 def _sliding(board: Board, group: AssurGroup) -> None:
@@ -155,41 +286,90 @@ def _sliding(board: Board, group: AssurGroup) -> None:
     outer, inner = slide_of(board.draft, prismatic.joint), slide_of(board.draft, group.inner[0])
     at = PointName(lead_point(revolute))
     start = board.start()
-    loaded = board.chain(start, prismatic.link)
+    loads: tuple[list[Edge], list[Edge]] = ([], [])
+    loaded = board.chain(start, prismatic.link, loads[1])
     end = b.meet_lines(
         board.name("x"),
         b.perpendicular(start, board.draft.direction(inner)),
         b.perpendicular(loaded, board.draft.direction(outer)),
     )
-    first = board.back(start, revolute.link)
+    first = board.back(start, revolute.link, loads[0])
     own = board.moment((revolute.link,), at)
     other = board.moment((prismatic.link,), at)
     both = board.draft.b.total(board.name("M"), own, other)
+    across = _guide_edge(board, prismatic, loaded, end)
+    hinge = reaction_edge(revolute.link, revolute.to, at, end, first)
+    note = track_note(inner, board.draft.problem, turned=True)
+    between = reaction_edge(prismatic.link, revolute.link, at, end, start, note)
+    known, of_one = board.couples_on(*group.links), board.couples_on(revolute.link)
     board.react(at, revolute.link, revolute.to, Force(at, end, first))
-    board.react(
-        outer.pin,
-        prismatic.link,
-        prismatic.to,
-        Force(at, loaded, end),
-        board.negative(both),
-        pin=outer.pin,
-    )
+    across_pin = Force(at, loaded, end)
+    guide = board.press(outer.pin, prismatic.link, prismatic.to, across_pin, board.negative(both))
     pressed = Force(at, start, end)
-    board.react(inner.pin, revolute.link, prismatic.link, pressed, board.negative(own), inner=True)
+    held = board.press(
+        inner.pin, revolute.link, prismatic.link, pressed, board.negative(own), inner=True
+    )
+    board.plans.append(
+        ForcePlan(
+            group.links,
+            (hinge, *loads[0], *loads[1], across),
+            (),
+            between,
+            (
+                Balance((prismatic.link,), (between, *loads[1], across)),
+                Balance((revolute.link,), (hinge, *loads[0], back(between, revolute.link))),
+            ),
+            (
+                _of_guide(held, loads[0], of_one),
+                replace(_of_guide(guide, [hinge, *loads[0], *loads[1]], known), links=group.links),
+            ),
+            (*known, guide),
+        )
+    )
 
 
 def drive_forces(board: Board) -> Driving:
     """Find what balances the driving link, and the reaction of the frame."""
     b, drive = board.draft.b, board.draft.problem.drive
+    links = (drive.link,)
     start = board.start()
-    loaded = board.chain(start, drive.link)
+    loads: list[Edge] = []
+    loaded = board.chain(start, drive.link, loads)
+    known = board.couples_on(drive.link)
     if drive.pivot is not None:
         pivot = PointName(drive.pivot)
         board.react(drive.pivot, drive.link, FRAME, Force(pivot, loaded, start))
-        return Driving(moment=board.negative(board.moment((drive.link,), pivot)))
+        moment = board.negative(board.moment((drive.link,), pivot))
+        stands = reaction_edge(drive.link, FRAME, pivot, loaded, start)
+        balancing = CoupleOn(BALANCING_MOMENT, drive.link, moment, pivot)
+        board.plans.append(
+            ForcePlan(
+                links,
+                (*loads, stands),
+                balances=(Balance(links, (*loads, stands)),),
+                moments=(Moments(links, pivot, tuple(loads), known, couple=balancing),),
+                couples=(*known, balancing),
+            )
+        )
+        return Driving(moment=moment)
     slide = board.draft.problem.slides[drive.link]
     guide, pin = board.draft.direction(slide), PointName(slide.pin)
     end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
     couple = board.negative(board.moment((drive.link,), pin))
-    board.react(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
-    return Driving(force=Force(pin, loaded, end), axis=guide)
+    held = board.press(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
+    problem = board.draft.problem
+    drives = Edge(
+        BALANCING_FORCE, drive.link, pin, loaded, end, Known.ONE, track_note(slide, problem)
+    )
+    note = track_note(slide, problem, turned=True)
+    presses = reaction_edge(drive.link, FRAME, pin, end, start, note)
+    board.plans.append(
+        ForcePlan(
+            links,
+            (*loads, drives, presses),
+            balances=(Balance(links, (*loads, drives, presses)),),
+            moments=(_of_guide(held, loads, known),),
+            couples=(*known, held),
+        )
+    )
+    return Driving(force=Force(pin, loaded, end, BALANCING_FORCE), axis=guide)

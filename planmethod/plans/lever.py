@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.forceplan import Board
+from planmethod.plans.forceplan import Board, Given
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,10 +23,13 @@ class Lever:
     pole : PointName
     balance : NumberName
         Balancing moment on the crank, N·m, or force along the guide of a driving slider, N.
+    hung : tuple of (Given, PointName or None)
+        The loads that do work, and the points of the lever where the forces among them hang.
     """
 
     pole: PointName
     balance: NumberName
+    hung: tuple[tuple[Given, PointName | None], ...] = ()
 
 
 def hang(board: Board) -> Lever | None:
@@ -36,18 +39,21 @@ def hang(board: Board) -> Lever | None:
         return None
     pole = board.start()
     powers: list[NumberName] = []
+    hung: list[tuple[Given, PointName | None]] = []
     for given in board.given:
         link = given.applied.link
         if given.couple is not None:
             if link in board.kin.omega:
                 turning = board.kin.omega[link]
                 powers.append(b.compute(board.name("P"), (given.couple, 1), (turning, 1)))
+                hung.append((given, None))
             continue
         assert given.force is not None and given.applied.point is not None
         at = motion.point[motion.named[given.applied.point]]
         if at == motion.pole:
             continue
         turned = b.carry(board.name("z"), pole, motion.pole, at, turned=True)
+        hung.append((given, turned))
         area = b.moment(board.name("h"), pole, turned, given.force.tail, given.force.head)
         # The plan is turned by +90°: a moment on it is the power with the other sign.
         powers.append(
@@ -55,4 +61,5 @@ def hang(board: Board) -> Lever | None:
         )
     rate = board.kin.omega[drive.link] if drive.is_crank else NumberName("v")
     whole = b.total(board.name("P"), *powers)
-    return Lever(pole, b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0))
+    balance = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
+    return Lever(pole, balance, tuple(hung))

@@ -1,0 +1,193 @@
+"""What the force plans are made of besides their steps: polygons, equations, moments (планы сил).
+
+The numbers come from the steps; these records say which segment is which force, in the order in
+which a plan is drawn, and which equation found it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from planmethod.construct.steps import NumberName, PointName
+from planmethod.mechanism.groups import Lead
+from planmethod.plans.model import Known
+
+BALANCING_MOMENT = "M_{ур}"
+BALANCING_FORCE = "F_{ур}"
+
+
+class Share(Enum):
+    """What of a force a segment shows (составляющая)."""
+
+    WHOLE = "whole"
+    NORMAL = "normal"  # along the link (нормальная)
+    TANGENTIAL = "tangential"  # across the link (касательная)
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """One side of a force polygon, and the term of the equation that it shows (вектор плана сил).
+
+    Attributes
+    ----------
+    symbol : str
+        Letter in rich text: ``G_{2}``, ``F^{n}_{21}``; of a reaction the first index is the link
+        that it acts on, the second the link that exerts it.
+    on : str
+        The link that the force acts on.
+    at : PointName
+        Where on the position plan.
+    tail, head : PointName
+        Ends on the force plan.
+    known : Known
+        Before the plan is drawn.
+    note : str
+        Direction under the term where only that is known: ``∥ BC``, ``⊥ y-y``.
+    """
+
+    symbol: str
+    on: str
+    at: PointName
+    tail: PointName
+    head: PointName
+    known: Known = Known.BOTH
+    note: str = ""
+    share: Share = Share.WHOLE
+
+
+@dataclass(frozen=True, slots=True)
+class CoupleOn:
+    """Couple on a link: a moment of inertia forces, of a guide, the balancing one (пара сил).
+
+    ``at`` is the place it is about, or None where that is all the same.
+    """
+
+    symbol: str
+    on: str
+    moment: NumberName
+    at: PointName | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """Equation of forces: the forces add up to nothing (уравнение сил)."""
+
+    links: tuple[str, ...]
+    edges: tuple[Edge, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """Equation of moments that gives a force or a couple (уравнение моментов).
+
+    Attributes
+    ----------
+    links : tuple of str
+    about : PointName
+    edges : tuple of Edge
+        The known forces, where they are laid off (all of them, those through the point too).
+    couples : tuple of CoupleOn
+        The known couples.
+    force : Edge or None
+        The found force, whose arm is from ``about`` to its place.
+    couple : CoupleOn or None
+        The found couple.
+    """
+
+    links: tuple[str, ...]
+    about: PointName
+    edges: tuple[Edge, ...]
+    couples: tuple[CoupleOn, ...]
+    force: Edge | None = None
+    couple: CoupleOn | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ForcePlan:
+    """Force plan of links that are cut free together (план сил группы или начального звена).
+
+    Attributes
+    ----------
+    links : tuple of str
+    polygon : tuple of Edge
+        One after another, closed.
+    wholes : tuple of Edge
+        Reactions whose components are in the polygon.
+    inner : Edge or None
+        The reaction in the inner joint, which closes the plan of one of the links.
+    balances : tuple of Balance
+        In the order of solving.
+    moments : tuple of Moments
+        In the order of solving.
+    couples : tuple of CoupleOn
+        On the links from outside them.
+    """
+
+    links: tuple[str, ...]
+    polygon: tuple[Edge, ...]
+    wholes: tuple[Edge, ...] = ()
+    inner: Edge | None = None
+    balances: tuple[Balance, ...] = ()
+    moments: tuple[Moments, ...] = ()
+    couples: tuple[CoupleOn, ...] = ()
+
+    @property
+    def reactions(self) -> tuple[Edge, ...]:
+        """The forces that the plan finds."""
+        found = [edge for edge in self.polygon if edge.known is not Known.BOTH]
+        return (*found, *self.wholes, *(() if self.inner is None else (self.inner,)))
+
+
+def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = "F") -> str:
+    """Return the letter of a reaction on a link, exerted by another: ``F_{21}``, ``F^{n}_{21}``."""
+    index = f"{on},{by}" if len(on) > 1 or len(by) > 1 else f"{on}{by}"
+    above = {Share.WHOLE: "", Share.NORMAL: "^{n}", Share.TANGENTIAL: "^{τ}"}[share]
+    return f"{letter}{above}_{{{index}}}"
+
+
+@dataclass(frozen=True, slots=True)
+class Components:
+    """Reaction of a revolute lead in two shares (нормальная и касательная составляющие).
+
+    ``line`` are the letters of the link from the joint to the middle one, in rich text.
+    """
+
+    lead: Lead
+    at: PointName
+    line: str
+
+    def _edge(self, tail: PointName, head: PointName, share: Share) -> Edge:
+        symbol = reaction_symbol(self.lead.link, self.lead.to, share)
+        return Edge(symbol, self.lead.link, self.at, tail, head, share=share)
+
+    def normal(self, tail: PointName, head: PointName) -> Edge:
+        """Return the share along the link, which the plan finds."""
+        edge = self._edge(tail, head, Share.NORMAL)
+        return replace(edge, known=Known.ONE, note=f"∥ {self.line}")
+
+    def tangential(self, tail: PointName, head: PointName) -> Edge:
+        """Return the share across the link, which moments have found."""
+        return self._edge(tail, head, Share.TANGENTIAL)
+
+    def whole(self, tail: PointName, head: PointName) -> Edge:
+        """Return the reaction itself."""
+        return replace(self._edge(tail, head, Share.WHOLE), known=Known.NOTHING)
+
+
+def reaction_edge(
+    on: str, by: str, at: PointName, tail: PointName, head: PointName, note: str = ""
+) -> Edge:
+    """Return a reaction that a plan finds: of a known direction if there is a ``note``."""
+    known = Known.ONE if note else Known.NOTHING
+    return Edge(reaction_symbol(on, by), on, at, tail, head, known, note)
+
+
+def as_known(edge: Edge) -> Edge:
+    """Return a force that an equation before has found."""
+    return replace(edge, known=Known.BOTH, note="")
+
+
+def back(edge: Edge, on: str) -> Edge:
+    """Return what acts back, on the other link, when it has been found."""
+    return Edge(reaction_symbol(on, edge.on), on, edge.at, edge.head, edge.tail)

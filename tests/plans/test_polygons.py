@@ -1,0 +1,100 @@
+"""What the force plans say of themselves: polygons close, equations hold, letters fit."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from worked import problem_of
+
+from planmethod.plans.model import Known
+from planmethod.plans.polygons import Edge, Share, reaction_symbol
+from planmethod.plans.solution import Reals, Solution
+from planmethod.plans.statics import Statics
+
+LOADED = ("levers/six-link", "levers/task12", "press/press")
+TURN = {"levers/six-link": (140, 150, 160), "levers/task12": tuple(range(5, 365, 45))}
+
+
+def statics_of(name: str) -> Statics:
+    return Statics(Solution(problem_of(name), positions=TURN.get(name)))
+
+
+def drawn(statics: Statics, edge: Edge) -> Reals:
+    ends = (statics.solution.complexes(statics.si, end) for end in (edge.tail, edge.head))
+    tail, head = ends
+    return np.asarray(head - tail)
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_polygons_close_edge_by_edge(name: str) -> None:
+    statics = statics_of(name)
+    assert [plan.links for plan in statics.board.plans] == [
+        *(group.links for group in statics.solution.structure.force_order),
+        (statics.solution.problem.drive.link,),
+    ]
+    for plan in statics.board.plans:
+        ring = [*plan.polygon, plan.polygon[0]]
+        assert all(one.head == two.tail for one, two in pairwise(ring))
+        assert {edge.on for edge in plan.polygon} == set(plan.links)
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_equations_hold_and_have_two_unknowns(name: str) -> None:
+    statics = statics_of(name)
+    for plan in statics.board.plans:
+        for balance in plan.balances:
+            forces = [drawn(statics, edge) for edge in balance.edges]
+            peak = max(float(np.max(np.abs(force))) for force in forces)
+            assert np.all(np.abs(sum(forces)) <= 1e-9 * peak)
+            unknown = sum(2 - edge.known.value for edge in balance.edges)
+            assert unknown == 2
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_edges_are_the_loads_and_the_reactions(name: str) -> None:
+    statics = statics_of(name)
+    reactions = {reaction_symbol(r.on, r.by): r.force for r in statics.reactions}
+    reactions |= {reaction_symbol(r.by, r.on): -r.force for r in statics.reactions}
+    loads = {given.applied.name: given.applied.force for given in statics.board.given}
+    seen = set()
+    for plan in statics.board.plans:
+        inner = () if plan.inner is None else (plan.inner,)
+        for edge in (*plan.polygon, *plan.wholes, *inner):
+            if edge.share is Share.WHOLE:
+                seen.add(edge.symbol)
+                expected = {**loads, **reactions}[edge.symbol]
+                assert drawn(statics, edge) == pytest.approx(expected, rel=1e-9, abs=1e-6)
+    assert {name for name, force in loads.items() if np.any(force)} <= seen
+    assert all({reaction_symbol(r.on, r.by), reaction_symbol(r.by, r.on)} & seen
+               for r in statics.reactions)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_moments_give_what_they_say(name: str) -> None:
+    statics = statics_of(name)
+    read = statics.solution.complexes
+    for plan in statics.board.plans:
+        for equation in plan.moments:
+            about = read(statics.si, equation.about)
+            whole = sum(
+                ((read(statics.si, e.at) - about).conj() * drawn(statics, e)).imag
+                for e in (*equation.edges, *([equation.force] if equation.force else []))
+            )
+            couples = [*equation.couples, *([equation.couple] if equation.couple else [])]
+            values = [statics.solution.reals(statics.si, couple.moment) for couple in couples]
+            assert whole + sum(values) == pytest.approx(0.0, abs=1e-7)
+
+
+def test_letters_of_the_components() -> None:
+    assert reaction_symbol("2", "1", Share.NORMAL) == "F^{n}_{21}"
+    assert reaction_symbol("10", "2") == "F_{10,2}"
+    plan = statics_of("levers/six-link").board.plans[1]
+    assert [(edge.symbol, edge.known, edge.note) for edge in plan.polygon[:2]] == [
+        ("F^{n}_{21}", Known.ONE, "∥ BC"),
+        ("F^{τ}_{21}", Known.BOTH, ""),
+    ]
+    assert [edge.symbol for edge in plan.reactions] == [
+        "F^{n}_{21}", "F^{n}_{30}", "F_{21}", "F_{30}", "F_{23}",
+    ]  # fmt: skip
