@@ -15,6 +15,8 @@ UNITS_RU = {
     "1/s²": "с^{−2}",
     "mm": "мм",
     "deg": "°",
+    "N": "Н",
+    "N·m": "Н·м",
 }
 """Units in Russian, as rich text."""
 

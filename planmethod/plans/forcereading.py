@@ -1,0 +1,203 @@
+"""Force plans of one position, read at the scales of their drawings (планы сил в масштабе)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import Trace
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.steps import NumberName, PointName
+from planmethod.errors import Fault, ProblemError
+from planmethod.plans.forceplan import SCALE, Force
+from planmethod.plans.polygons import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    CoupleOn,
+    Edge,
+    ForcePlan,
+    Share,
+)
+from planmethod.plans.scaling import Box
+from planmethod.plans.solution import Solution
+from planmethod.plans.statics import Statics
+from planmethod.problem.model import Convention
+
+PLAN_BOX: Box = (100.0, 100.0)
+"""What the largest of the force plans shall fill, mm: a usual size on training drawings."""
+
+NOTHING = 1e-7
+"""Share of the largest force of a position below which a force is none."""
+
+
+class ForceReading:
+    """The forces of a solution in one position, as they are drawn and as a hand reads them.
+
+    Parameters
+    ----------
+    solution : Solution
+    index : int
+        Which position.
+    box : (float, float), mm
+        What the largest plan shall fill; its scale, a member of the series, is that of all plans.
+
+    Raises
+    ------
+    ProblemError
+        The problem file gives neither masses nor loads.
+    """
+
+    def __init__(self, solution: Solution, index: int, box: Box = PLAN_BOX) -> None:
+        if solution.problem.dynamics is None:
+            hint = "Give the masses in [dynamics] and the loads in [[loads]]."
+            fault = Fault("dynamics", "missing, so there are no forces to analyse", hint)
+            raise ProblemError(solution.problem.name, [fault])
+        self.solution, self.index, self.box = solution, index, box
+        self.statics = Statics(solution)
+        self.plans: tuple[ForcePlan, ...] = tuple(self.statics.board.plans)
+
+    # Scale and traces ------------------------------------------------------------------------
+
+    @cached_property
+    def scale(self) -> Scale:
+        """Scale of all force plans, N per mm."""
+        sizes = [self._extent(plan) for plan in self.plans]
+        inverse = self.solution.problem.scales.convention is Convention.MM_PER_UNIT
+        width = max(size[0] for size in sizes)
+        height = max(size[1] for size in sizes)
+        return Scale(SCALE, choose_scale((width, height), self.box, mm_per_unit=inverse), "N")
+
+    def _extent(self, plan: ForcePlan) -> Box:
+        ends = [end for edge in plan.polygon for end in (edge.tail, edge.head)]
+        places = np.asarray([self._column(self.statics.si, end) for end in ends])
+        return float(np.ptp(places.real)), float(np.ptp(places.imag))
+
+    @cached_property
+    def paper(self) -> Trace:
+        """Exact reading at the scales of the drawings: millimetres of the plans."""
+        scales = {**self.solution.per_mm, SCALE: self.scale.per_mm}
+        return self.statics.read(Float64(), scales)
+
+    @cached_property
+    def by_hand(self) -> Trace:
+        """Reading of a draughtsman who measures the arms with a ruler."""
+        scales = {**self.solution.per_mm, SCALE: self.scale.per_mm}
+        return self.statics.read(self.solution.hand, scales)
+
+    def _column(self, trace: Trace, name: PointName) -> complex:
+        return complex(self.solution.complexes(trace, name)[self.index])
+
+    # Places, forces, couples -----------------------------------------------------------------
+
+    def place(self, point: PointName) -> complex:
+        """Return a place of the position plan, mm."""
+        return self._column(self.solution.paper, point)
+
+    def end(self, point: PointName) -> complex:
+        """Return an end of a force plan, or a point of the lever, mm."""
+        return self._column(self.paper, point)
+
+    def vector(self, edge: Edge) -> complex:
+        """Return a force as its segment on the plan, mm."""
+        return self.end(edge.head) - self.end(edge.tail)
+
+    def force(self, edge: Edge) -> complex:
+        """Return a force, N."""
+        return self.of_force(Force(edge.at, edge.tail, edge.head))
+
+    def of_force(self, force: Force) -> complex:
+        """Return a force of the board, N."""
+        si = self.statics.si
+        return self._column(si, force.head) - self._column(si, force.tail)
+
+    def read(self, edge: Edge) -> float:
+        """Return the size of a force as the hand has it on its plan, N."""
+        return self.read_force(Force(edge.at, edge.tail, edge.head))
+
+    def number(self, name: NumberName) -> float:
+        """Return a moment, N·m, or another computed number."""
+        return float(self.solution.reals(self.statics.si, name)[self.index])
+
+    def read_number(self, name: NumberName) -> float:
+        """Return a moment as the hand has it, N·m."""
+        return float(self.solution.reals(self.by_hand, name)[self.index])
+
+    def read_force(self, force: Force | None) -> float:
+        """Return the size of a force as the hand has it on its plan, N; zero of none."""
+        if force is None:
+            return 0.0
+        tail, head = self._column(self.by_hand, force.tail), self._column(self.by_hand, force.head)
+        return abs(head - tail) * self.scale.per_mm
+
+    def arm(self, edge: Edge, about: PointName) -> float:
+        """Return the arm of a force about a point as the hand measures it, mm.
+
+        Positive where the force turns counter-clockwise.
+        """
+        force = self.vector(edge)
+        if not abs(force):
+            return 0.0
+        across = ((self.place(edge.at) - self.place(about)).conjugate() * force).imag / abs(force)
+        return float(self.solution.hand.ruled(across))
+
+    @property
+    def balancing_symbol(self) -> str:
+        """The letter of what balances the driving link."""
+        return BALANCING_MOMENT if self.statics.driving.force is None else BALANCING_FORCE
+
+    # What there is to show -------------------------------------------------------------------
+
+    @cached_property
+    def peak(self) -> float:
+        """The largest force of the position, N."""
+        edges = [edge for plan in self.plans for edge in (*plan.polygon, *plan.wholes)]
+        return max((abs(self.force(edge)) for edge in edges), default=0.0)
+
+    @cached_property
+    def peak_moment(self) -> float:
+        """The largest moment that counts beside the forces, N·m."""
+        moments = [abs(self.number(one.moment)) for plan in self.plans for one in plan.couples]
+        lengths = [length for _, _, length in self.solution.problem.lengths]
+        return max([*moments, self.peak * max(lengths, default=0.0)])
+
+    def is_none(self, edge: Edge) -> bool:
+        """Tell whether a force is nothing beside the others."""
+        return abs(self.force(edge)) <= NOTHING * self.peak
+
+    def is_no_couple(self, couple: CoupleOn) -> bool:
+        """Tell whether a couple is nothing beside the others."""
+        return abs(self.number(couple.moment)) <= NOTHING * self.peak_moment
+
+    def shown(self, plan: ForcePlan) -> list[Edge]:
+        """Return the sides of a plan that are something.
+
+        A component that is the whole reaction, for the other is nothing, is so shown.
+        """
+        sides = [edge for edge in plan.polygon if not self.is_none(edge)]
+        parts = [(edge.on, edge.at) for edge in sides if edge.share is not Share.WHOLE]
+        return [
+            replace(edge, share=Share.WHOLE) if parts.count((edge.on, edge.at)) == 1 else edge
+            for edge in sides
+        ]
+
+    def wholes(self, plan: ForcePlan) -> list[Edge]:
+        """Return the reactions that are something and have two components."""
+        parts = [(e.on, e.at) for e in self.shown(plan) if e.share is not Share.WHOLE]
+        return [edge for edge in plan.wholes if (edge.on, edge.at) in parts]
+
+    def inner(self, plan: ForcePlan) -> Edge | None:
+        """Return the reaction in the inner joint, if it is something."""
+        return None if plan.inner is None or self.is_none(plan.inner) else plan.inner
+
+    def couples(self, plan: ForcePlan) -> list[CoupleOn]:
+        """Return the couples that are something."""
+        return [couple for couple in plan.couples if not self.is_no_couple(couple)]
+
+
+@lru_cache(maxsize=32)
+def force_reading(solution: Solution, index: int, box: Box = PLAN_BOX) -> ForceReading:
+    """Return the forces of a position; kept, since several views of a sheet show them."""
+    return ForceReading(solution, index, box)
