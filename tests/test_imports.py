@@ -10,6 +10,7 @@ import pytest
 from worked import path_of
 
 EX3 = str(path_of("linkages/ex3"))
+SIX_LINK = str(path_of("levers/six-link"))
 
 ALL = "numpy", "shapely", "svgwrite", "reportlab", "matplotlib", "mpmath", "ezdxf", "scipy"
 FONTS = ("fontTools",)
@@ -97,3 +98,30 @@ def test_a_command_imports_what_it_uses(
     modules = imported(tmp_path, *args)
     assert needs <= modules
     assert modules & spares == set()
+
+
+@pytest.mark.parametrize(
+    ("args", "there"),
+    [(("sheet", SIX_LINK), False), (("sheet", SIX_LINK, "--layout", "forces"), True)],
+    ids=["kinematics", "forces"],
+)
+def test_forces_are_imported_by_their_sheet_alone(
+    tmp_path: Path, args: tuple[str, ...], there: bool
+) -> None:
+    program = (
+        "import sys\n"
+        "from planmethod.cli import cli\n"
+        "try:\n"
+        f"    cli({[*args, '--format', 'svg']!r})\n"
+        "except SystemExit as done:\n"
+        "    assert not done.code, done.code\n"
+        "print('\\nMODULES', *(name for name in sys.modules if name.startswith('planmethod')))\n"
+    )
+    modules = run(tmp_path, program)
+    for name in (
+        "plans.statics",
+        "plans.kinetostatics",
+        "render.forces.cut",
+        "note.force_formulas",
+    ):
+        assert (f"planmethod.{name}" in modules) is there

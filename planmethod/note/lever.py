@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from planmethod.note.force_formulas import NEWTON, NEWTON_METRE, arm_symbol, found, short, signed_sum
+from planmethod.note.force_formulas import (
+    NEWTON,
+    NEWTON_METRE,
+    arm_symbol,
+    found,
+    short,
+    signed_sum,
+)
 from planmethod.note.letters import shown_letters
 from planmethod.note.numbers import russian
 from planmethod.plans.forcereading import ForceReading
@@ -14,12 +21,8 @@ STANDS = "Начальное звено неподвижно: рычаг не с
 
 def both_balances(reading: ForceReading) -> tuple[float, float | None]:
     """Return the balancing moment or force as the hand finds it: by the plans, by the lever."""
-    driving, hung = reading.statics.driving, reading.statics.hung
-    if driving.moment is not None:
-        plans = reading.read_number(driving.moment)
-    else:
-        sense = 1.0 if reading.statics.balance[reading.index] >= 0 else -1.0
-        plans = sense * reading.read_force(driving.force)
+    plans = float(reading.statics.balance_of(reading.by_hand)[reading.index])
+    hung = reading.statics.hung
     return plans, None if hung is None else reading.read_number(hung.balance)
 
 

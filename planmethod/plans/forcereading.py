@@ -23,7 +23,6 @@ from planmethod.plans.polygons import (
 )
 from planmethod.plans.scaling import Box
 from planmethod.plans.solution import Solution
-from planmethod.plans.statics import Statics
 from planmethod.problem.model import Convention
 
 PLAN_BOX: Box = (100.0, 100.0)
@@ -56,7 +55,7 @@ class ForceReading:
             fault = Fault("dynamics", "missing, so there are no forces to analyse", hint)
             raise ProblemError(solution.problem.name, [fault])
         self.solution, self.index, self.box = solution, index, box
-        self.statics = Statics(solution)
+        self.statics = solution.statics
         self.plans: tuple[ForcePlan, ...] = tuple(self.statics.board.plans)
 
     # Scale and traces ------------------------------------------------------------------------

@@ -127,7 +127,7 @@ class View:
     Attributes
     ----------
     kind : str
-        ``position``, ``velocity``, ``acceleration`` or ``structure``.
+        ``position``, ``velocity``, ``acceleration``, ``forces`` or ``structure``.
     box : Bounds, mm
         The picture with its title and inscriptions.
     scale : str

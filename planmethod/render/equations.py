@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from planmethod.plans.model import Vector, VectorEquation
+from planmethod.plans.model import Known, Vector, VectorEquation
 from planmethod.render.block import Line, Lines
 from planmethod.render.drawing import Item, Pen, Stroke
 from planmethod.render.typeset import (
@@ -181,6 +181,60 @@ def _equation(
             # Later rows begin under the first term after the sign "=", or further left if the
             # note there sticks out.
             indent = max(0.0, setter.sign_x)
+    rows.append(setter.row())
+    return EquationBlock(tuple(rows), size)
+
+
+def balance_block(
+    head: str,
+    vectors: Sequence[tuple[str, Known, str]],
+    height: float = 5.0,
+    *,
+    width: float | None = None,
+) -> EquationBlock:
+    """Return a sum of vectors that is nothing (уравнение равновесия).
+
+    Parameters
+    ----------
+    head : str
+        What the sum is called, rich text.
+    vectors : sequence of (str, Known, str)
+        Symbol, what of it is known, and the note under it.
+    height, width : float, mm
+        As those of `equation_block`.
+    """
+    for size in smaller_heights(height):
+        block = _balance(head, vectors, size, width)
+        if width is None or block.width <= width:
+            break
+    return block
+
+
+def _balance(
+    head: str, vectors: Sequence[tuple[str, Known, str]], size: float, width: float | None
+) -> EquationBlock:
+    small = max(2.5, index_height(size))
+    nothing = typeset("", small)
+    terms = [
+        _Term(typeset(head, size), nothing, 0),
+        *(
+            _Term(typeset(vector_markup(symbol), size), typeset(note, small), known.value)
+            for symbol, known, note in vectors
+        ),
+        _Term(typeset("0", size), nothing, 0),
+    ]
+    setter = _RowSetter(size)
+    rows: list[_EquationRow] = []
+    for k, term in enumerate(terms):
+        last = k == len(terms) - 1
+        sign = "=" if last or k == 1 else "+"
+        if k and width is not None and setter.reach(term, sign, last=last) > width:
+            setter.sign(sign)
+            rows.append(setter.row())
+            setter = _RowSetter(size)
+        if k:
+            setter.sign(sign)
+        setter.put(term)
     rows.append(setter.row())
     return EquationBlock(tuple(rows), size)
 

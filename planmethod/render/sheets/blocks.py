@@ -28,14 +28,31 @@ Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """Kind of block: what makes it, and the keys of a composition file that it listens to."""
+    """Kind of block: what makes it, and the keys of a composition file that it listens to.
+
+    ``each``: there is one for every force plan, whose blocks in a row stand together.
+    """
 
     make: Maker
     keys: tuple[str, ...]
+    each: bool = False
+
+
+def _late(name: str) -> Maker:
+    """Return a maker of `planmethod.render.sheets.forces`, imported when it is first needed."""
+
+    def make(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+        from planmethod.render.sheets.forces import MAKERS
+
+        return MAKERS[name](solution, indices, manner)
+
+    return make
 
 
 _VIEW = ("title", "title_height", "letter", "height", "position")
 _TEXT = ("title", "height", "width")
+_FORCES = ("title_height", "letter", "height", "position")
+_FORCE_TEXT = ("height", "width", "position")
 
 BLOCKS: Mapping[str, Kind] = MappingProxyType(
     {
@@ -46,5 +63,13 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "calculation": Kind(calculation_block, ("of", "title", "height", "position")),
         "results": Kind(results_block, (*_TEXT, "columns")),
         "text": Kind(text_block, ("text", *_TEXT)),
+        "loads": Kind(_late("loads"), _VIEW),
+        "load-statement": Kind(_late("load-statement"), (*_TEXT, "position")),
+        "cut": Kind(_late("cut"), _FORCES, each=True),
+        "force-equations": Kind(_late("force-equations"), _FORCE_TEXT, each=True),
+        "force-plan": Kind(_late("force-plan"), _FORCES, each=True),
+        "lever": Kind(_late("lever"), _VIEW),
+        "lever-equation": Kind(_late("lever-equation"), (*_TEXT, "position")),
+        "reactions": Kind(_late("reactions"), (*_TEXT, "position")),
     }
 )

@@ -106,7 +106,7 @@ def controlled_kinematics(
         return bool(spans) and min(span.length for span in spans) >= SHORTEST - 1e-6
 
     def advised(finding: Finding, drawing: Drawing) -> Finding:
-        if finding.code != "PM-D08":
+        if finding.code != "PM-D08" or finding.view not in _KEYS:
             return finding
         view = next(v for v in drawing.views if v.kind == finding.view)
         key, inverse = _KEYS[view.kind], problem.scales.convention is Convention.MM_PER_UNIT

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
 
@@ -112,7 +112,7 @@ def _sheet(
 
     What is tried is told by `_tries`.
     """
-    entries = [entry for entry in composition.blocks if entry.sheet == number]
+    entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
     sizes = composition.sizes_for(paper.name)
     stock = _Stock(solution, indices, {})
     for count, level, dropped, taken_apart in _tries(
@@ -133,6 +133,23 @@ def _sheet(
             title, tried = composition.titles.get(number, ""), (dropped, level, taken_apart)
             return [_page(part, corners, title, tried) for part, corners in parts]
     return None
+
+
+def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:
+    """Return entries with those of a force plan once for each of the plans.
+
+    Such entries that follow one another stand in a group of their own for every plan: for those of
+    the structural groups, the last one first, and for that of the driver.
+    """
+    found: list[Entry] = []
+    for each, run in groupby(entries, lambda entry: BLOCKS[entry.kind].each):
+        own = list(run)
+        if not each:
+            found += own
+            continue
+        for k in range(len(solution.structure.groups) + 1):
+            found += [replace(e, number=k, group=(*e.group, f"plan-{k + 1}")) for e in own]
+    return found
 
 
 @dataclass(frozen=True, slots=True)

@@ -61,6 +61,8 @@ class Entry:
         The only position that is shown.
     columns : tuple of str
         Kinds of columns of a table: v, ω, a, ε; empty for all.
+    number : int
+        Which of the force plans, from 0: the blocks of one are made for each of them.
     """
 
     kind: str
@@ -77,6 +79,7 @@ class Entry:
     per_row: int | None = None
     position: int | None = None
     columns: tuple[str, ...] = ()
+    number: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-SHIPPED = ("one-position", "many-positions", "homework", "coursework-12")
+SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces")
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
 

@@ -1,0 +1,1 @@
+"""Views of the force analysis: links cut free, force plans, lever (силовой расчёт на листе)."""

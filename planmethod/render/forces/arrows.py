@@ -1,0 +1,186 @@
+"""Forces and couples drawn on links: arrows of one length that keep clear of one another.
+
+A force may be moved along its line of action, so it is drawn from its point outwards, or to its
+point from outside, or further out, wherever nothing else lies on the same line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from planmethod.plans.draft import cis
+from planmethod.render.drawing import Arc, Disc, Fill, Item, Pen, Stroke
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.symbols import arc_points, turn_arrow, unit, vector_arrow
+from planmethod.render.typeset import typeset, vector_markup
+
+LENGTH = 22.0
+"""Length of the arrow of a force on a link, mm: the same for all, whatever the force."""
+
+HEAD = 4.0
+"""Length of its head, mm."""
+
+FORCE = "force"
+COUPLE = "couple"
+"""First words of the tags of arrows; the second is the letter."""
+
+MANNER = replace(BUSY, leader_from=4.5, stranger=25.0)
+"""How the letter of a force looks for its place: nearest to its own arrow, or with a leader."""
+
+_NEAR = 3.0  # mm: nearer two arrows would read as one
+_ON = 1.0  # mm: nearer an arrow lies on a link
+_LEVELS = 4
+
+Segment = tuple[complex, complex]
+
+
+@dataclass(frozen=True, slots=True)
+class Acting:
+    """Force to be drawn: its letter, where it acts, mm, and in which direction."""
+
+    symbol: str
+    at: complex
+    direction: complex
+    pen: Pen = Pen.MAIN
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """Couple to be drawn: its letter, a place on its link, mm, and its sense."""
+
+    symbol: str
+    at: complex
+    sense: int
+
+
+def distance(place: complex, segment: Segment) -> float:
+    """Return how far a place is from a segment, mm."""
+    start, along = segment[0], segment[1] - segment[0]
+    if abs(along) < 1e-9:
+        return abs(place - start)
+    part = ((place - start) * along.conjugate()).real / abs(along) ** 2
+    return abs(place - start - along * min(1.0, max(0.0, part)))
+
+
+def lay_forces(
+    forces: Sequence[Acting], bars: Sequence[Segment], *, length: float = LENGTH, gap: float = 2.0
+) -> list[tuple[Acting, Segment]]:
+    """Return where the arrow of each force is drawn, its tail and its head.
+
+    ``bars`` are the lines of the links, which arrows rather do not lie on; ``gap`` is the white
+    between an arrow and its point, mm.
+    """
+    placed: list[tuple[Acting, Segment]] = []
+    for force in forces:
+        along = unit(force.direction)
+        tries: list[tuple[float, int, Segment]] = []
+        for level in range(_LEVELS):
+            near, far = gap + level * (length + gap), gap + level * (length + gap) + length
+            outward = (force.at + along * near, force.at + along * far)
+            inward = (force.at - along * far, force.at - along * near)
+            for k, segment in enumerate((outward, inward)):
+                cost = 6.0 * level + 1.0 * k + _crowded(segment, [s for _, s in placed], bars)
+                tries.append((cost, len(tries), segment))
+        placed.append((force, min(tries)[2]))
+    return placed
+
+
+def _crowded(segment: Segment, arrows: Iterable[Segment], bars: Iterable[Segment]) -> float:
+    """Return what an arrow costs among others and on links."""
+    places = [segment[0] + (segment[1] - segment[0]) * k / 10 for k in range(1, 11)]
+    cost = 0.0
+    for other in arrows:
+        near = sum(distance(place, other) < _NEAR for place in places)
+        cost += 8.0 * near if near > 2 else 1.0 * near
+    for bar in bars:
+        on = sum(distance(place, bar) < _ON for place in places)
+        cost += 1.5 * on if on > 2 else 0.5 * on
+    return cost
+
+
+def force_items(
+    placed: Iterable[tuple[Acting, Segment]], height: float, prefix: str
+) -> tuple[list[Item], list[Label]]:
+    """Return the arrows of forces and their letters."""
+    items: list[Item] = []
+    labels: list[Label] = []
+    for k, (force, (tail, head)) in enumerate(placed):
+        tag = f"{FORCE} {force.symbol}"
+        items += vector_arrow(tail, head, pen=force.pen, length=HEAD, tag=tag)
+        labels.append(
+            Label(
+                typeset(vector_markup(force.symbol), height),
+                (tail + head) / 2,
+                (tail + 0.35 * (head - tail), head),
+                gap=1.0,
+                priority=1,
+                name=f"{prefix} force {k}: {force.symbol}",
+                manner=MANNER,
+            )
+        )
+    return items, labels
+
+
+def couple_items(
+    couples: Sequence[Turning], around: Sequence[Item], height: float, prefix: str
+) -> tuple[list[Item], list[Label]]:
+    """Return circular arrows where there is room for them, and their letters."""
+    items: list[Item] = []
+    labels: list[Label] = []
+    for k, couple in enumerate(couples):
+        lines = list(_lines([*around, *items]))
+        radius, middle = _room(couple.at, lines)
+        tag = f"{COUPLE} {couple.symbol}"
+        items += turn_arrow(
+            couple.at, radius, couple.sense, middle=middle, sweep=_SWEEP, pen=Pen.MAIN, length=HEAD,
+            tag=tag,
+        )  # fmt: skip
+        out = cis(middle)
+        labels.append(
+            Label(
+                typeset(couple.symbol, height),
+                couple.at + radius * out,
+                prefer=out,
+                gap=1.5,
+                priority=1,
+                name=f"{prefix} couple {k}: {couple.symbol}",
+                manner=MANNER,
+            )
+        )
+    return items, labels
+
+
+_SWEEP = 100.0  # of a circular arrow, degrees
+_RADII = (9.0, 12.0, 15.0, 18.0, 22.0)
+
+
+def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, float]:
+    """Return the radius and the middle of a circular arrow that crosses least, mm, degrees."""
+    best = (-1e9, 0.0, 0.0)
+    for radius in _RADII:
+        near = [line for line in lines if distance(centre, line) < radius + 6.0]
+        for middle in range(0, 360, 15):
+            turns = [middle + _SWEEP * (k / 8 - 0.5) for k in range(9)]
+            places = [centre + radius * cis(turn) for turn in turns]
+            gaps = [min((distance(p, line) for line in near), default=5.0) for p in places]
+            worth = sum(min(gap, 4.0) for gap in gaps) / 9 + 0.5 * min(*gaps, 3.0) - 0.1 * radius
+            if worth > best[0] + 1e-9:
+                best = (worth, radius, float(middle))
+    return best[1], best[2]
+
+
+def _lines(items: Iterable[Item]) -> Iterable[Segment]:
+    for item in items:
+        match item:
+            case Stroke(points=points):
+                yield from pairwise(points)
+            case Fill(points=points):
+                yield from pairwise([*points, points[0]])
+            case Arc():
+                yield from pairwise(arc_points(item))
+            case Disc(centre=centre):
+                yield centre, centre
+            case _:
+                continue

@@ -1,0 +1,76 @@
+"""The Zhukovsky lever drawn: the turned velocity plan with the forces at its points."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from planmethod.note.letters import shown_letters
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.leverreading import HungCouple, LeverReading
+from planmethod.plans.model import PlanKind
+from planmethod.render.block import Picture
+from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.extent import lettered
+from planmethod.render.forces.arrows import (
+    Acting,
+    Turning,
+    couple_items,
+    force_items,
+    lay_forces,
+)
+from planmethod.render.labels import Label
+from planmethod.render.planview import similar_lines
+from planmethod.render.typeset import typeset
+
+LEVER = "lever"
+"""Tag of the lines of the lever."""
+
+
+@lru_cache(maxsize=32)
+def lever_picture(reading: ForceReading, letter_height: float) -> Picture:
+    """Return the lever with all that hangs on it, its pole at the origin, mm."""
+    solution = reading.solution
+    lever, plan = LeverReading(reading), solution.construction.plan(PlanKind.VELOCITY)
+    pairs = [(vector.tail, vector.head) for vector in plan.vectors]
+    pairs += similar_lines(solution, plan)
+    bars = [
+        (lever.place(tail), lever.place(head))
+        for tail, head in pairs
+        if abs(lever.place(head) - lever.place(tail)) > 0.3
+    ]
+    items: list[Item] = [Stroke(bar, Pen.THIN, tag=LEVER) for bar in bars]
+    spots: list[tuple[complex, list[str]]] = []
+    for name, own in sorted(
+        shown_letters(solution.problem, plan).items(), key=lambda pair: pair[0] != plan.pole
+    ):
+        place = lever.place(name)
+        for other, letters in spots:
+            if abs(other - place) < 0.3:
+                letters += [letter for letter in own if letter not in letters]
+                break
+        else:
+            spots.append((place, list(own)))
+    items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
+    prefix = f"lever {reading.index}"
+    middle = sum(place for place, _ in spots) / len(spots)
+    labels = [
+        Label(
+            typeset(", ".join(letters), letter_height),
+            place,
+            prefer=place - middle,
+            gap=1.4,
+            name=f"{prefix}: point {letters[0]}",
+        )
+        for place, letters in spots
+    ]
+    forces = [Acting(force.symbol, force.at, force.force) for force in lever.forces]
+    arrows, letters_of_forces = force_items(lay_forces(forces, ()), letter_height, prefix)
+    items += arrows
+    turnings = [_turning(one) for one in lever.couples if one.lever_moment]
+    turns, letters_of_couples = couple_items(turnings, items, letter_height, prefix)
+    return lettered([*items, *turns], [*letters_of_forces, *letters_of_couples, *labels])
+
+
+def _turning(one: HungCouple) -> Turning:
+    place = 0j if one.segment is None else sum(one.segment) / 2
+    return Turning(one.symbol, place, 1 if one.lever_moment > 0 else -1)

@@ -1,0 +1,120 @@
+"""A force plan as a draughtsman draws it: the polygon with arrows and letters (план сил)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.polygons import Edge, Share
+from planmethod.render.block import Picture
+from planmethod.render.drawing import Disc, Ink, Item, Pen
+from planmethod.render.extent import lettered
+from planmethod.render.forces.arrows import FORCE, MANNER, Segment, distance
+from planmethod.render.labels import Label
+from planmethod.render.symbols import unit, vector_arrow
+from planmethod.render.typeset import typeset, vector_markup
+
+START = "start of a force plan"
+"""Tag of the disc where the drawing of a plan begins: one for each plan."""
+
+_LEAST = 0.3
+"""Shortest segment that is drawn, mm."""
+
+
+def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
+    """Return the segments of a force plan that are drawn: polygon, resultants, inner reaction."""
+    plan = reading.plans[number]
+    inner = reading.inner(plan)
+    edges = [*reading.shown(plan), *reading.wholes(plan), *([] if inner is None else [inner])]
+    ends: set[frozenset[complex]] = set()
+    result = []
+    for edge in edges:
+        places = frozenset(_rounded(reading.end(end)) for end in (edge.tail, edge.head))
+        if abs(reading.vector(edge)) >= _LEAST and places not in ends:
+            ends.add(places)
+            result.append(edge)
+    return result
+
+
+def _rounded(place: complex) -> complex:
+    return complex(round(place.real, 3), round(place.imag, 3))
+
+
+def _written(reading: ForceReading, number: int, edge: Edge) -> str:
+    """Return what is written at a segment: all reactions that it shows.
+
+    A component may be the whole reaction, and the inner reaction the same line.
+    """
+    plan = reading.plans[number]
+    others = [*plan.wholes, *([] if plan.inner is None else [plan.inner])]
+    written = [vector_markup(edge.symbol)]
+    tail, head = reading.end(edge.tail), reading.end(edge.head)
+    for other in others:
+        ends = reading.end(other.tail), reading.end(other.head)
+        if other.symbol == edge.symbol:
+            continue
+        if max(abs(ends[0] - tail), abs(ends[1] - head)) < 1e-3:
+            written.append(vector_markup(other.symbol))
+        elif max(abs(ends[0] - head), abs(ends[1] - tail)) < 1e-3:
+            written.append(f"−{vector_markup(other.symbol)}")
+    return " = ".join(written)
+
+
+def apart(reading: ForceReading, number: int) -> list[complex]:
+    """Return by how much the segments of a plan are drawn beside their places, mm.
+
+    Segments that lie on one another would hide each other's heads.
+    """
+    placed: list[Segment] = []
+    shifts: list[complex] = []
+    for edge in drawn_edges(reading, number):
+        tail, head = reading.end(edge.tail), reading.end(edge.head)
+        along = unit(head - tail)
+        across = 1j * (along if (along.imag, along.real) > (0.0, 0.0) else -along)
+        for step in (0, 1, -1, 2, -2, 3, -3):
+            shift = step * _BESIDE * across
+            if not any(_hides((tail + shift, head + shift), other) for other in placed):
+                break
+        placed.append((tail + shift, head + shift))
+        shifts.append(shift)
+    return shifts
+
+
+_BESIDE = 1.8
+_HIDES = 0.3
+"""Between segments drawn beside one another; between those that hide one another, mm."""
+
+
+def _hides(one: Segment, other: Segment) -> bool:
+    """Tell whether two segments lie on one another for more than a point."""
+    short, long = sorted((one, other), key=lambda part: abs(part[1] - part[0]))
+    places = [short[0] + (short[1] - short[0]) * k / 8 for k in range(9)]
+    return sum(distance(place, long) < _HIDES for place in places) > 2
+
+
+@lru_cache(maxsize=64)
+def polygon_picture(reading: ForceReading, number: int, letter_height: float) -> Picture:
+    """Return the force plan of a group or of the driver, its first point at the origin, mm."""
+    edges, shifts = drawn_edges(reading, number), apart(reading, number)
+    items: list[Item] = []
+    labels: list[Label] = []
+    ends = [reading.end(end) for edge in edges for end in (edge.tail, edge.head)] or [0j]
+    centre = sum(ends) / len(ends)
+    for k, (edge, shift) in enumerate(zip(edges, shifts, strict=True)):
+        tail, head = reading.end(edge.tail) + shift, reading.end(edge.head) + shift
+        thin = edge.share is not Share.WHOLE
+        pen = Pen.THIN if thin else Pen.MAIN
+        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=f"{FORCE} {edge.symbol}")
+        labels.append(
+            Label(
+                typeset(_written(reading, number, edge), letter_height),
+                (tail + head) / 2,
+                (tail, head),
+                prefer=(tail + head) / 2 - centre,
+                gap=1.0,
+                name=f"plan {reading.index} {number} {k}: {edge.symbol}",
+                manner=MANNER,
+            )
+        )
+    items.append(Disc(ends[0], 0.7, Ink.BLACK, tag=START))
+    return lettered(items, labels)

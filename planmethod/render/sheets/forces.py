@@ -1,0 +1,297 @@
+"""Blocks of the force analysis: loads, links cut free, force plans, lever, reactions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TypeAlias
+
+from planmethod.construct.scale import Scale
+from planmethod.note.force_formulas import (
+    closing_lines,
+    found,
+    load_lines,
+    plan_moments,
+    plan_title,
+    statement,
+    wanted,
+)
+from planmethod.note.given import point_name
+from planmethod.note.lever import STANDS, both_balances, difference, lever_lines
+from planmethod.note.numbers import UNITS_RU, alike, russian
+from planmethod.note.plaintext import plain_text
+from planmethod.plans.forcereading import NOTHING, ForceReading, force_reading
+from planmethod.plans.model import Known, PlanKind
+from planmethod.plans.polygons import reaction_symbol
+from planmethod.plans.scaling import own_scale
+from planmethod.plans.solution import Solution
+from planmethod.render.block import Block, Column, Line, Picture, heading, paragraph
+from planmethod.render.drawing import Disc, Item, Span, View
+from planmethod.render.equations import balance_block, formula_block
+from planmethod.render.forces.cut import cut_picture, loads_picture
+from planmethod.render.forces.leverpicture import lever_picture
+from planmethod.render.forces.polygon import START, apart, drawn_edges, polygon_picture
+from planmethod.render.frame import STAMP_WIDTH
+from planmethod.render.pack import EDGE
+from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.views import Viewed, scale_inscription, shown_position
+from planmethod.render.tables import Cell, TableColumn, table_block
+from planmethod.render.typeset import typeset
+
+NOT_TO_SCALE = "Стрелки сил на схемах не в масштабе"
+APART = "Векторы на одной прямой разнесены"
+NBSP = "\u00a0"
+
+Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
+
+
+def _reading(solution: Solution, indices: Sequence[int], manner: Manner) -> ForceReading:
+    return force_reading(solution, shown_position(solution, indices, manner))
+
+
+# Views -------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PlanViewed(Viewed):
+    """A force plan among the blocks of a sheet: what the hand measures on it are the reactions."""
+
+    reading: ForceReading
+    number: int
+
+    def view(self, items: Sequence[Item], corner: complex) -> View:
+        """Return what is told of the plan whose items were placed at a corner."""
+        reading = self.reading
+        edges = drawn_edges(reading, self.number)
+        starts = [item.centre for item in items if isinstance(item, Disc) and item.tag == START]
+        shift = starts[0] - reading.end(edges[0].tail) if edges and starts else 0j
+        known = {edge.symbol for edge in reading.plans[self.number].polygon}
+        known -= {edge.symbol for edge in reading.plans[self.number].reactions}
+        return View(
+            "forces",
+            (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag),
+            "μ_{F}",
+            reading.scale.per_mm,
+            tuple(
+                Span(
+                    plain_text(edge.symbol),
+                    reading.index if len(self.solution.positions) > 1 else None,
+                    shift + reading.end(edge.tail),
+                    shift + reading.end(edge.head),
+                )
+                for edge in edges
+                if edge.symbol not in known
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class SchemeViewed(Viewed):
+    """A scheme or a lever: nothing is measured on it but arms."""
+
+    scale: Scale
+
+    def view(self, items: Sequence[Item], corner: complex) -> View:
+        """Return what is told of the view."""
+        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
+        letter = self.scale.symbol.removeprefix("mu_")
+        return View(self.kind.value, box, f"μ_{{{letter}}}", self.scale.per_mm)
+
+
+def _named(picture: Block, title: str, said: Sequence[str], manner: Manner) -> Block:
+    """Return a picture with its name and what is said under it."""
+    height = manner.text(manner.sizes.text)
+    lines = [Line(typeset(title, manner.title), underline=True)]
+    lines += [Line(typeset(text, height)) for text in said]
+    return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
+
+
+def _scheme(
+    reading: ForceReading, picture: Picture, title: str, manner: Manner, *said: str
+) -> Viewed:
+    solution, kind = reading.solution, PlanKind.POSITION
+    scale = solution.scales[kind]
+    told = [scale_inscription(scale, solution.problem.scales.convention), *said]
+    block = _named(picture, title, told, manner)
+    return SchemeViewed(block, solution, kind, (reading.index,), scale)
+
+
+def loads_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return the scheme with all loads."""
+    reading = _reading(solution, indices, manner)
+    title = manner.entry.title or "Схема нагружения механизма"
+    return _scheme(reading, loads_picture(reading, manner.letter), title, manner, NOT_TO_SCALE)
+
+
+def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return a structural group, or the driver, cut free with all that acts on it."""
+    reading, number = _reading(solution, indices, manner), manner.entry.number
+    title = plan_title(reading, reading.plans[number])
+    return _scheme(reading, cut_picture(reading, number, manner.letter), title, manner)
+
+
+def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return a force plan."""
+    reading, number = _reading(solution, indices, manner), manner.entry.number
+    links = "–".join(reading.plans[number].links)
+    whose = "группы звеньев" if len(reading.plans[number].links) > 1 else "звена"
+    said = [scale_inscription(reading.scale, solution.problem.scales.convention)]
+    if any(apart(reading, number)):
+        said.append(APART)
+    picture = polygon_picture(reading, number, manner.letter)
+    block = _named(picture, f"План сил {whose} {links}", said, manner)
+    return PlanViewed(block, solution, PlanKind.POSITION, (reading.index,), reading, number)
+
+
+def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the Zhukovsky lever; of a driver that stands there is none."""
+    reading = _reading(solution, indices, manner)
+    title = manner.entry.title or "Рычаг Жуковского"
+    if reading.statics.hung is None:
+        return heading(f"{title}: {STANDS}", manner.text(manner.sizes.text))
+    scale = own_scale(solution, PlanKind.VELOCITY, reading.index)
+    said = [
+        "План скоростей повёрнут на 90°",
+        scale_inscription(scale, solution.problem.scales.convention),
+    ]
+    block = _named(lever_picture(reading, manner.letter), title, said, manner)
+    return SchemeViewed(block, solution, PlanKind.VELOCITY, (reading.index,), scale)
+
+
+# Texts -------------------------------------------------------------------------------------------
+
+
+def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return "Дано" with masses and loads, "Определить", and the computed loads."""
+    reading = _reading(solution, indices, manner)
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    facts = "; ".join(fact.replace(" ", NBSP) for fact in statement(reading))
+    lines: list[Block] = [
+        paragraph(f"Дано: {facts}.", height, width=width),
+        paragraph(f"Определить: {wanted(reading)}.", height, width=width),
+    ]
+    if manner.entry.title:
+        lines.insert(0, heading(manner.entry.title, height, width=width))
+    loads = load_lines(reading)
+    if loads:
+        text = "; ".join(line.replace(" ", NBSP) for line in loads)
+        lines.append(paragraph(f"Силы тяжести и инерции: {text}.", height, width=width))
+    return Column(lines, gap=3.0)
+
+
+def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the equations of a force plan: moments with arms, forces, what the plan gives."""
+    reading = _reading(solution, indices, manner)
+    plan = reading.plans[manner.entry.number]
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    blocks: list[Block] = []
+    drive = plan.links == (solution.problem.drive.link,)
+    moments = [formula_block(line, height, width=width) for line in plan_moments(reading, plan)]
+    balances: list[Block] = []
+    for balance in plan.balances:
+        terms = [
+            (edge.symbol, edge.known, edge.note)
+            for edge in balance.edges
+            if edge.known is not Known.BOTH or not reading.is_none(edge)
+        ]
+        head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
+        balances.append(balance_block(head, terms, height, width=width))
+    blocks = [*balances, *moments] if drive else [*moments, *balances]
+    closing = "; ".join(line.replace(" ", NBSP) for line in closing_lines(reading, plan))
+    blocks.append(paragraph(f"Из плана сил: {closing}.", height, width=width))
+    return Column(blocks, gap=3.0)
+
+
+def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the equation of the lever, and how far it is from the force plans."""
+    reading = _reading(solution, indices, manner)
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    lines = [formula_block(line, height, width=width) for line in lever_lines(reading)]
+    title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
+    return Column([*title, *lines], gap=3.0)
+
+
+# Table -------------------------------------------------------------------------------------------
+
+
+def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the table of reactions, and the balancing moment by both methods."""
+    reading = _reading(solution, indices, manner)
+    height = manner.text(manner.sizes.text)
+    room = manner.inside - 2 * EDGE
+    width = min(max(STAMP_WIDTH, manner.width(STAMP_WIDTH)), room)
+    reactions = reading.statics.reactions
+    index = reading.index
+    sizes = [abs(complex(one.force[index])) for one in reactions]
+    moments = [float(one.moment[index]) for one in reactions]
+    none = [size <= NOTHING * reading.peak for size in sizes]
+    still = [abs(moment) <= NOTHING * reading.peak_moment for moment in moments]
+    shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
+    turning = alike([0.0 if nil else abs(m) for m, nil in zip(moments, still, strict=True)])
+    angles = [russian(f"{_angle(complex(one.force[index])):.1f}") for one in reactions]
+    columns = [
+        TableColumn(
+            "Пара", tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
+        ),
+        TableColumn("F_{ij}", tuple(reaction_symbol(one.on, one.by) for one in reactions)),
+        TableColumn("F_{ij}, Н", tuple(map(russian, shown))),
+        TableColumn(
+            "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
+        ),
+    ]
+    if not all(still):
+        cells = tuple(
+            Cell(russian(text), 0 if nil else (1 if moment > 0 else -1))
+            for text, moment, nil in zip(turning, moments, still, strict=True)
+        )
+        columns.append(TableColumn("M_{ij}, Н·м", cells))
+    title = manner.entry.title or "Реакции в кинематических парах (точные значения)"
+    table = table_block(columns, height, width=width, units="none", title=title)
+    return Column([table, _balances(reading, height, width)], gap=4.0)
+
+
+def _angle(force: complex) -> float:
+    """Return the angle of a force from +x, degrees in [0, 360)."""
+    from planmethod.render.symbols import angle_of
+
+    turn = round(angle_of(force), 1) % 360.0
+    return turn + 0.0
+
+
+def _balances(reading: ForceReading, height: float, width: float) -> Block:
+    """Return the table of what balances the driver, by both methods."""
+    symbol = reading.balancing_symbol
+    unit = UNITS_RU["N·m" if reading.statics.driving.moment is not None else "N"]
+    exact = float(reading.statics.balance[reading.index])
+    plans, lever = both_balances(reading)
+    share = difference(reading)
+    sense = reading.statics.driving.moment is not None
+
+    def cell(value: float | None) -> Cell:
+        if value is None:
+            return Cell("—")
+        return Cell(found(abs(value)), (1 if value > 0 else -1) if sense and value else None)
+
+    columns = [
+        TableColumn(f"{symbol}, {unit}", (cell(exact),)),
+        TableColumn("по планам сил", (cell(plans),)),
+        TableColumn("по рычагу", (cell(lever),)),
+        TableColumn("расхождение, %", (Cell("—" if share is None else russian(f"{share:.1f}")),)),
+    ]
+    return table_block(columns, height, width=width, units="none")
+
+
+MAKERS: Mapping[str, Maker] = MappingProxyType(
+    {
+        "loads": loads_view,
+        "load-statement": statement_block,
+        "cut": cut_view,
+        "force-equations": equations_block,
+        "force-plan": plan_view,
+        "lever": lever_view,
+        "lever-equation": lever_block,
+        "reactions": reactions_block,
+    }
+)
+"""Makers of the blocks, by kind."""

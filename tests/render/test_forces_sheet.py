@@ -1,0 +1,440 @@
+"""The sheet of the force analysis: every load and reaction, plans to scale, equations, table."""
+
+from __future__ import annotations
+
+import re
+from cmath import phase
+from collections.abc import Iterator, Sequence
+from functools import cache
+from importlib.resources import files
+from itertools import combinations, pairwise
+from math import degrees
+
+import pytest
+from click.testing import CliRunner
+from worked import path_of, problem_of
+
+from planmethod import loads
+from planmethod.cli import cli
+from planmethod.errors import ExitCode, ProblemError
+from planmethod.note.force_formulas import load_lines, plan_moments, statement, wanted
+from planmethod.note.lever import STANDS, both_balances, difference, lever_lines
+from planmethod.note.numbers import alike, russian, significant
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.leverreading import LeverReading
+from planmethod.plans.model import Known
+from planmethod.plans.polygons import reaction_symbol
+from planmethod.plans.solution import Solution
+from planmethod.problem.model import Problem
+from planmethod.render.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
+from planmethod.render.equations import balance_block
+from planmethod.render.forces.arrows import Acting, distance, lay_forces
+from planmethod.render.forces.polygon import drawn_edges
+from planmethod.render.normcontrol import inspect
+from planmethod.render.remarks import Severity
+from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.forces import APART
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+LOADED = ("levers/six-link", "levers/task12", "press/press")
+
+EXTRA = """
+[dynamics]
+[dynamics.links.2]
+mass = 5
+centre = "{centre}"
+inertia = 0.1
+[[loads]]
+name = "F_{{c}}"
+link = "{link}"
+at = "{at}"
+force = 500
+angle = 200
+[[loads]]
+name = "M_{{c}}"
+link = "2"
+couple = 20
+"""
+
+
+def loaded_template(name: str, centre: str, link: str, at: str, **changes: str) -> Problem:
+    """Return a template of the program with loads."""
+    text = (files("planmethod.problem") / "templates" / f"{name}.toml").read_text("utf-8")
+    for old, new in changes.items():
+        text = re.sub(rf"(?m)^{old} = .*$", f"{old} = {new}", text)
+    return loads(
+        text.split("[stamp]")[0] + EXTRA.format(centre=centre, link=link, at=at), name=name
+    )
+
+
+@cache
+def sheet_of(name: str) -> Drawing:
+    (sheet,) = kinematics_sheets(problem_of(name), layout="forces")
+    return sheet
+
+
+@cache
+def reading_of(name: str) -> ForceReading:
+    """Return the forces at the scales of the sheet."""
+    per_mm = {view.scale: view.per_mm for view in sheet_of(name).views}
+    views_of = composition("forces").views_for("A1", 1)
+    reading = ForceReading(Solution(problem_of(name), views=views_of), 0)
+    assert reading.scale.per_mm == per_mm["μ_{F}"]
+    return reading
+
+
+def within(items: Sequence[Item], box: Bounds) -> Iterator[Item]:
+    for item in items:
+        if isinstance(item, (Stroke, Fill)):
+            ends = item.points
+            if all(_inside(p, box) for p in ends):
+                yield item
+
+
+def _inside(place: complex, box: Bounds) -> bool:
+    slack = 1e-6
+    across = box[0] - slack <= place.real <= box[2] + slack
+    return across and box[1] - slack <= place.imag <= box[3] + slack
+
+
+def arrows(sheet: Drawing, view: View) -> list[tuple[str, complex]]:
+    """Return the arrows of forces on a view: letters and vectors, mm."""
+    found = []
+    items = [item for item in within(sheet.items, view.box) if item.tag.startswith("force ")]
+    for shaft, head in zip(items[::2], items[1::2], strict=True):
+        assert isinstance(shaft, Stroke) and isinstance(head, Fill) and shaft.tag == head.tag
+        found.append((shaft.tag.removeprefix("force "), head.points[0] - shaft.points[0]))
+    return found
+
+
+def couples(sheet: Drawing, view: View) -> list[str]:
+    heads = [i.tag for i in within(sheet.items, view.box) if isinstance(i, Fill)]
+    return [tag.removeprefix("couple ") for tag in heads if tag.startswith("couple ")]
+
+
+def views(sheet: Drawing, kind: str) -> list[View]:
+    return [view for view in sheet.views if view.kind == kind]
+
+
+def shown(sheet: Drawing) -> str:
+    texts = " ".join(item.text for item in sheet.items if isinstance(item, Text))
+    return re.sub(r"\s+", " ", texts)
+
+
+def turned(one: complex, other: complex) -> float:
+    """Return the angle between two vectors, degrees."""
+    return abs(degrees(phase(one / other)))
+
+
+# The whole sheet ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_sheet_has_all_views_and_no_faults(name: str) -> None:
+    sheet = sheet_of(name)
+    # The loads, both groups and the driver; their force plans; the lever.
+    assert [view.kind for view in sheet.views].count("position") == 4
+    assert len(views(sheet, "forces")) == 3
+    assert len(views(sheet, "velocity")) == 1
+    assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
+    text = shown(sheet)
+    for part in (
+        "Силовой расчёт механизма",
+        "Дано:",
+        "Определить:",
+        "Схема нагружения механизма",
+        "Стрелки сил на схемах не в масштабе",
+        "Группа звеньев 4–5",
+        "Группа звеньев 2–3",
+        "Начальное звено 1",
+        "План сил группы звеньев 2–3",
+        "План сил звена 1",
+        "Рычаг Жуковского",
+        "Реакции в кинематических парах",
+        "Расхождение",
+    ):
+        assert part in text
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_largest_plan_fills_its_view_and_the_scale_is_of_the_series(name: str) -> None:
+    reading = reading_of(name)
+    inverse = name != "press/press"
+    value = 1.0 / reading.scale.per_mm if inverse else reading.scale.per_mm
+    assert f"{value:.6e}".partition("e")[0] in ("1.000000", "2.000000", "2.500000", "4.000000",
+                                                "5.000000")  # fmt: skip
+    sizes = []
+    for number in range(len(reading.plans)):
+        ends = [
+            reading.end(end)
+            for edge in drawn_edges(reading, number)
+            for end in (edge.tail, edge.head)
+        ]
+        sizes += [
+            max(p.real for p in ends) - min(p.real for p in ends),
+            max(p.imag for p in ends) - min(p.imag for p in ends),
+        ]
+    assert 40.0 <= max(sizes) <= 100.0
+
+
+# Arrows -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_scheme_has_every_load_in_its_direction(name: str) -> None:
+    sheet, reading = sheet_of(name), reading_of(name)
+    view = views(sheet, "position")[0]
+    drawn = dict(arrows(sheet, view))
+    given = [one.applied for one in reading.statics.board.given]
+    forces = {one.name: complex(one.force[0]) for one in given if one.point and one.force[0]}
+    assert set(drawn) == set(forces)
+    for letter, vector in drawn.items():
+        assert turned(vector, forces[letter]) < 0.01
+        assert abs(vector) == pytest.approx(22.0)
+    assert sorted(couples(sheet, view)) == sorted(
+        one.name for one in given if one.point is None and one.couple[0]
+    )
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_cut_links_have_loads_and_reactions_in_their_directions(name: str) -> None:
+    sheet, reading = sheet_of(name), reading_of(name)
+    for view, plan in zip(views(sheet, "position")[1:], reading.plans, strict=True):
+        expected = {e.symbol: reading.force(e) for e in reading.shown(plan)}
+        drawn = dict(arrows(sheet, view))
+        assert set(drawn) == set(expected)
+        assert all(turned(vector, expected[letter]) < 0.01 for letter, vector in drawn.items())
+        assert sorted(couples(sheet, view)) == sorted(c.symbol for c in reading.couples(plan))
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
+    sheet, reading = sheet_of(name), reading_of(name)
+    found = reading.statics.reactions
+    reactions = {reaction_symbol(r.on, r.by): complex(r.force[0]) for r in found}
+    reactions |= {reaction_symbol(r.by, r.on): -complex(r.force[0]) for r in found}
+    loads_of = {g.applied.name: complex(g.applied.force[0]) for g in reading.statics.board.given}
+    seen = set()
+    for number, view in enumerate(views(sheet, "forces")):
+        for letter, vector in arrows(sheet, view):
+            if letter in reactions or letter in loads_of:
+                force = {**loads_of, **reactions}[letter]
+                assert vector * view.per_mm == pytest.approx(force, rel=1e-6)
+                seen.add(letter)
+            else:  # a component
+                (edge,) = (e for e in reading.plans[number].polygon if e.symbol == letter)
+                assert vector * view.per_mm == pytest.approx(reading.force(edge), rel=1e-6)
+        for span in view.spans:
+            assert span.length > 0
+    # What is not there by its own letter is there by its components, or is the same line.
+    for one in found:
+        symbols = {reaction_symbol(one.on, one.by), reaction_symbol(one.by, one.on)}
+        lines = {
+            edge.symbol
+            for number in range(len(reading.plans))
+            for edge in drawn_edges(reading, number)
+        }
+        parts = {f"F{share}_{symbol[2:]}" for symbol in symbols for share in ("^{n}", "^{τ}")}
+        inner = {plan.inner.symbol for plan in reading.plans if plan.inner is not None}
+        assert abs(one.force[0]) < 1.0 or symbols & seen or parts & lines or symbols & inner
+
+
+def test_vectors_on_one_line_are_drawn_apart_and_it_is_said() -> None:
+    sheet = sheet_of("levers/task12")
+    assert APART in shown(sheet)
+    view = views(sheet, "forces")[0]  # all of its forces are vertical
+    shafts = [item for item in within(sheet.items, view.box) if item.tag.startswith("force ")]
+    lines = sorted({round(s.points[0].real, 2) for s in shafts if isinstance(s, Stroke)})
+    assert len(lines) == 4
+    assert min(b - a for a, b in pairwise(lines)) > 1.5
+
+
+def test_arrows_at_one_point_do_not_lie_on_one_another() -> None:
+    down = [Acting(name, 0j, -1j) for name in "ab"]
+    placed = lay_forces([*down, Acting("c", 0j, 1j), Acting("d", 0j, 1 + 0j)], [(0j, 50j)])
+    for (_, one), (_, other) in combinations(placed, 2):
+        middle = (one[0] + one[1]) / 2
+        assert distance(middle, other) > 5.0
+    for force, (tail, head) in placed:
+        assert turned(head - tail, force.direction) < 1e-6
+        # On the line of action.
+        assert abs((tail.conjugate() * force.direction).imag) < 1e-9
+
+
+# Equations ----------------------------------------------------------------------------------------
+
+
+def test_underlines_tell_what_is_known() -> None:
+    terms = [
+        ("F_{21}", Known.BOTH, ""),
+        ("F^{n}_{30}", Known.ONE, "∥ DC"),
+        ("F_{23}", Known.NOTHING, ""),
+    ]
+    items = balance_block("Σ_{2}\\bar{F}", terms).place(0j)
+    lines = [i for i in items if isinstance(i, Stroke) and not i.tag.startswith("part-of:")]
+    assert len(lines) == 3
+    texts = [i.text for i in items if isinstance(i, Text)]
+    assert texts.count("=") == 2
+    assert texts.count("+") == 2
+    assert "0" in texts
+    narrow = balance_block("Σ_{2}\\bar{F}", terms, width=40.0)
+    assert narrow.width <= 40.0
+    assert narrow.height > balance_block("Σ_{2}\\bar{F}", terms).height
+
+
+FORMULA = re.compile(r"^(?P<symbol>\S+) = (?P<numbers>.*\d.*) = (?P<value>[\d,]+) (?:Н|Н·м)$")
+
+
+def computed(text: str) -> float:
+    """Compute what a formula says."""
+    plain = text.replace(",", ".").replace("·", "*").replace("−", "-")
+    assert re.fullmatch(r"[\d.*/()+\- ]+", plain)
+    return float(eval(plain))  # digits and signs only: checked above
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_formulas_of_moments_compute_to_what_they_say(name: str) -> None:
+    reading = reading_of(name)
+    count = 0
+    for plan in reading.plans:
+        for line in plan_moments(reading, plan):
+            match = FORMULA.match(line)
+            if match:
+                count += 1
+                value = float(match["value"].replace(",", "."))
+                assert computed(match["numbers"]) == pytest.approx(value, rel=5e-3)
+    assert count >= 2
+
+
+def test_the_moments_of_the_textbook() -> None:
+    reading = reading_of("levers/six-link")
+    lines = plan_moments(reading, reading.plans[1])
+    assert lines[0] == (
+        "Σ_{2}M_{C} = Φ_{2}·h_{Φ2} + F_{24}·h_{F24} − G_{2}·h_{G2} − M_{Φ2} − F^{τ}_{21}·l_{BC} = 0"
+    )
+    assert lines[2].endswith("/0,3 = 3484 Н")
+    assert (
+        plan_moments(reading, reading.plans[2])[0]
+        == "Σ_{1}M_{A} = F_{12}·h_{F12} − M_{Φ1} − M_{ур} = 0"
+    )
+
+
+def test_what_is_given_and_the_computed_loads() -> None:
+    reading = reading_of("levers/six-link")
+    facts = statement(reading)
+    for fact in ("m_{2} = 40 кг", "J_{S1} = 5 кг·м^{2}", "g = 9,81 м/с^{2}", "F_{5C} = 6000 Н"):
+        assert fact in facts
+    assert "G_{2} = m_{2}·g = 40·9,81 = 392,4 Н" in load_lines(reading)
+    assert "M_{Φ1} = J_{S1}·ε_{1} = 5·80 = 400,0 Н·м" in load_lines(reading)
+    assert wanted(reading) == "F_{42}, F_{50}, F_{21}, F_{30}, F_{10}, F_{45}, F_{23}, M_{ур}"
+
+
+# Table --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_table_has_every_reaction(name: str) -> None:
+    sheet, reading = sheet_of(name), reading_of(name)
+    written = shown(sheet)
+    found = reading.statics.reactions
+    sizes = alike([abs(complex(one.force[0])) for one in found])
+    for one, size in zip(found, sizes, strict=True):
+        force = complex(one.force[0])
+        assert f"({one.on}–{one.by})" in written
+        if abs(force) > 1.0:
+            assert russian(size) in written
+            assert russian(f"{degrees(phase(force)) % 360.0:.1f}") in written
+    assert russian(significant(abs(float(reading.statics.balance[0])))) in written
+    for value in both_balances(reading):
+        assert value is not None and russian(significant(abs(value))) in written
+
+
+# Lever --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_lever_is_in_balance(name: str) -> None:
+    reading = ForceReading(Solution(problem_of(name), ruler=1e-7), 0)
+    lever = LeverReading(reading)
+    moments = [abs(one.force) * one.arm for one in lever.forces]
+    moments += [one.lever_moment for one in lever.couples]
+    assert sum(moments) == pytest.approx(0.0, abs=1e-6 * max(map(abs, moments)))
+    assert difference(reading) == pytest.approx(0.0, abs=1e-4)
+    for one in lever.couples:
+        if one.segment is not None:
+            start, end = one.segment
+            link = reading.place(one.joints[1]) - reading.place(one.joints[0])  # type: ignore
+            assert abs((link.conjugate() * (end - start)).imag) < 1e-6 * abs(link) * abs(
+                end - start
+            )
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
+    sheet, reading = sheet_of(name), reading_of(name)
+    (view,) = views(sheet, "velocity")
+    lever = LeverReading(reading)
+    assert sorted(letter for letter, _ in arrows(sheet, view)) == sorted(
+        one.symbol for one in lever.forces
+    )
+    assert sorted(couples(sheet, view)) == sorted(one.symbol for one in lever.couples)
+    assert lever.couples[-1].symbol == "M_{ур}"
+    assert 0.0 < (difference(reading) or 0.0) < 5.0
+
+
+def test_a_driving_slider_is_balanced_by_a_force() -> None:
+    problem = loaded_template("driving-slider", "B", "3", "O")
+    reading = ForceReading(Solution(problem), 0)
+    assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == ["F_{ур}", "F_{10}"]
+    plans, lever = both_balances(reading)
+    assert lever is not None and plans * lever > 0
+    assert lever_lines(reading)[-1].startswith("Расхождение")
+    (sheet,) = kinematics_sheets(problem, layout="forces")
+    assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
+    (view,) = views(sheet, "velocity")
+    assert "F_{ур}" in [letter for letter, _ in arrows(sheet, view)]
+
+
+def test_a_driver_that_stands_has_no_lever() -> None:
+    problem = loaded_template("four-bar", "B", "3", "C", omega="0")
+    (sheet,) = kinematics_sheets(problem, layout="forces")
+    assert views(sheet, "velocity") == []
+    assert STANDS.split(":")[0] in shown(sheet)
+
+
+@pytest.mark.parametrize(
+    ("name", "centre", "link", "at"),
+    [("sine", "A", "3", "B"), ("swinging-block", "D", "3", "C"), ("slider-crank", "S2", "3", "B")],
+)
+def test_other_dyads_are_drawn(name: str, centre: str, link: str, at: str) -> None:
+    problem = loaded_template(name, centre, link, at)
+    (sheet,) = kinematics_sheets(problem, layout="forces")
+    assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
+
+
+# Positions, errors, command line ------------------------------------------------------------------
+
+
+def test_every_position_has_a_sheet_of_its_own() -> None:
+    positions = [0.0, 120.0, 240.0]
+    sheets = kinematics_sheets(problem_of("press/press"), positions=positions, layout="forces")
+    assert len(sheets) == 3
+    for phi, sheet in zip(positions, sheets, strict=True):
+        assert f"= {phi:.0f}°" in shown(sheet)
+        spans = [span for view in views(sheet, "forces") for span in view.spans]
+        assert {span.position for span in spans} == {positions.index(phi)}
+
+
+def test_without_masses_and_loads_it_is_told() -> None:
+    with pytest.raises(ProblemError, match=r"dynamics: missing.*\[dynamics\]"):
+        kinematics_sheets(problem_of("linkages/ex1"), layout="forces")
+    result = CliRunner().invoke(cli, ["sheet", str(path_of("linkages/ex1")), "--layout", "forces"])
+    assert result.exit_code == ExitCode.PROBLEM
+    assert "Traceback" not in result.output
+    assert "Give the masses in [dynamics]" in result.output
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_norm_control_of_the_command_is_clean(name: str) -> None:
+    result = CliRunner().invoke(cli, ["lint", str(path_of(name)), "--layout", "forces"])
+    assert result.exit_code == ExitCode.DONE, result.output
