@@ -17,7 +17,7 @@ import numpy as np
 from newton import Motion
 
 from planmethod.mechanism.model import FRAME
-from planmethod.problem.loads import Against, Fixed, Load
+from planmethod.problem.load_records import Against, Fixed, Load
 from planmethod.problem.model import Problem, Slide
 
 Number = Any

@@ -6,9 +6,12 @@ import re
 import textwrap
 import unicodedata
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from planmethod.note.numbers import russian, significant, trimmed
-from planmethod.note.wording.model import Wording
+
+if TYPE_CHECKING:
+    from planmethod.note.wording.model import Wording
 
 WIDTH = 100
 """Columns of the terminal that every table and paragraph keeps to."""

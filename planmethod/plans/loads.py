@@ -12,7 +12,7 @@ import numpy.typing as npt
 from planmethod.errors import Fault, ProblemError
 from planmethod.plans.solution import Complexes, Reals, Solution
 from planmethod.problem.bodies import rotation
-from planmethod.problem.loads import (
+from planmethod.problem.load_records import (
     Against,
     Couple,
     Dynamics,

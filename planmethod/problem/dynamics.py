@@ -9,7 +9,7 @@ from planmethod.problem import keys
 from planmethod.problem.fields import Faults, Table, read_keys, read_number, read_table
 from planmethod.problem.forces import Scene, read_loads
 from planmethod.problem.links import LinkText
-from planmethod.problem.loads import GRAVITY, Dynamics, Mass
+from planmethod.problem.load_records import GRAVITY, Dynamics, Mass
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, segment
 

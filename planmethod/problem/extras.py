@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from planmethod.problem import keys
 from planmethod.problem.fields import (
@@ -14,10 +14,12 @@ from planmethod.problem.fields import (
     read_text,
     show,
 )
-from planmethod.problem.loads import Dynamics
 from planmethod.problem.model import Published
 from planmethod.problem.names import TITLE_LIMIT, listed, near, segment, short
 from planmethod.problem.selector import SelectorError, is_force, parse_selector, unknown_names
+
+if TYPE_CHECKING:
+    from planmethod.problem.load_records import Dynamics
 
 NOTE_LIMIT = 1000
 TABLE_KEYS = ("gears", "point")

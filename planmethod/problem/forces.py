@@ -20,7 +20,7 @@ from planmethod.problem.fields import (
     unmask,
 )
 from planmethod.problem.links import LinkText
-from planmethod.problem.loads import Against, Couple, Fixed, Load
+from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near
 from planmethod.problem.sizes import read_phase, read_size, read_word

@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from planmethod.mechanism.model import Mechanism
-from planmethod.problem.loads import Dynamics
+
+if TYPE_CHECKING:
+    from planmethod.problem.load_records import Dynamics
 
 
 @dataclass(frozen=True, slots=True)

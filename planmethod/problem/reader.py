@@ -11,7 +11,6 @@ from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.bodies import place_points
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.dynamics import read_dynamics
 from planmethod.problem.extras import read_heading, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys
 from planmethod.problem.joints import coincident_points, join
@@ -150,7 +149,11 @@ def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem 
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
     assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
-    dynamics = read_dynamics(faults, given, links, frame.points, drive)
+    dynamics = None
+    if "dynamics" in given or "loads" in given:
+        from planmethod.problem.dynamics import read_dynamics  # few files have any
+
+        dynamics = read_dynamics(faults, given, links, frame.points, drive)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     published = read_published(
         faults,

@@ -17,8 +17,8 @@ from planmethod.problem.fields import (
     show,
     unmask,
 )
-from planmethod.problem.loads import Interpolation, Moving, Over, Phase, Turning
-from planmethod.problem.loads import Table as SizeTable
+from planmethod.problem.load_records import Interpolation, Moving, Over, Phase, Turning
+from planmethod.problem.load_records import Table as SizeTable
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near
 

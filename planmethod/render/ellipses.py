@@ -11,7 +11,6 @@ import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
 from planmethod.plans.scaling import extent, own_scale, plan_extent
 from planmethod.plans.solution import Reals, Solution
@@ -165,6 +164,8 @@ def _alike(one: Stroke, two: Stroke) -> bool:
 def ellipse_inscription(solution: Solution, kind: PlanKind, indices: Sequence[int]) -> list[str]:
     """Return the lines that tell what the ellipses of a view are."""
     shown = [error_ellipses(solution, kind, i) for i in indices]
+    from planmethod.note.wording import wording
+
     words = wording("ru")
     name = solution.profile.name
     profile = words.profiles.get(name, name)

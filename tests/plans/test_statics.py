@@ -32,7 +32,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.loads import Applied, LoadKind, applied
 from planmethod.plans.solution import Solution
 from planmethod.plans.statics import Statics
-from planmethod.problem.loads import Couple, Dynamics, Fixed, Load
+from planmethod.problem.load_records import Couple, Dynamics, Fixed, Load
 from planmethod.problem.model import Problem
 
 SEEDS = range(200)

@@ -9,7 +9,7 @@ import pytest
 from mechanisms import CRANK, LOADED, SLIDER, messages, read
 from worked import problem_of
 
-from planmethod.problem.loads import (
+from planmethod.problem.load_records import (
     Against,
     Couple,
     Dynamics,

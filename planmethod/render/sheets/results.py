@@ -9,7 +9,6 @@ import numpy as np
 from planmethod.note.given import asked_links, asked_points, number, solution_peak
 from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
 from planmethod.note.sigmas import DRAWN, label_of, marked, rounded_to, sigma_text
-from planmethod.note.wording import wording
 from planmethod.plans.solution import Reals, Solution
 from planmethod.render.block import Block, Column, paragraph
 from planmethod.render.frame import STAMP_WIDTH
@@ -126,6 +125,8 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
     )
     if not sigma:
         return table
+    from planmethod.note.wording import wording
+
     words, name = wording("ru"), solution.profile.name
     said = f"±σ — погрешность построения (СКО), {words.profiles.get(name, name)}."
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):

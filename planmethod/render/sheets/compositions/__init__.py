@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces")
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
@@ -16,10 +18,7 @@ def shipped_text(name: str) -> str:
     """
     if name not in SHIPPED:
         raise KeyError(name)
-    from importlib.resources import files  # not for those who only read the names
-
-    source = files("planmethod.render.sheets.compositions") / f"{name}.toml"
-    return source.read_text(encoding="utf-8")
+    return (Path(__file__).parent / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def about(name: str) -> str:
