@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
-import numpy as np
-
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
-from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
 from planmethod.plans.forceplan import SCALE, Force
@@ -21,12 +19,7 @@ from planmethod.plans.polygons import (
     ForcePlan,
     Share,
 )
-from planmethod.plans.scaling import Box
 from planmethod.plans.solution import Solution
-from planmethod.problem.model import Convention
-
-PLAN_BOX: Box = (100.0, 100.0)
-"""What the largest of the force plans shall fill, mm: a usual size on training drawings."""
 
 NOTHING = 1e-7
 """Share of the largest force of a position below which a force is none."""
@@ -40,8 +33,6 @@ class ForceReading:
     solution : Solution
     index : int
         Which position.
-    box : (float, float), mm
-        What the largest plan shall fill; its scale, a member of the series, is that of all plans.
 
     Raises
     ------
@@ -49,12 +40,12 @@ class ForceReading:
         The problem file gives neither masses nor loads.
     """
 
-    def __init__(self, solution: Solution, index: int, box: Box = PLAN_BOX) -> None:
+    def __init__(self, solution: Solution, index: int) -> None:
         if solution.problem.dynamics is None:
             hint = "Give the masses in [dynamics] and the loads in [[loads]]."
             fault = Fault("dynamics", "missing, so there are no forces to analyse", hint)
             raise ProblemError(solution.problem.name, [fault])
-        self.solution, self.index, self.box = solution, index, box
+        self.solution, self.index = solution, index
         self.statics = solution.statics
         self.plans: tuple[ForcePlan, ...] = tuple(self.statics.board.plans)
 
@@ -63,16 +54,7 @@ class ForceReading:
     @cached_property
     def scale(self) -> Scale:
         """Scale of all force plans, N per mm."""
-        sizes = [self._extent(plan) for plan in self.plans]
-        inverse = self.solution.problem.scales.convention is Convention.MM_PER_UNIT
-        width = max(size[0] for size in sizes)
-        height = max(size[1] for size in sizes)
-        return Scale(SCALE, choose_scale((width, height), self.box, mm_per_unit=inverse), "N")
-
-    def _extent(self, plan: ForcePlan) -> Box:
-        ends = [end for edge in plan.polygon for end in (edge.tail, edge.head)]
-        places = np.asarray([self._column(self.statics.si, end) for end in ends])
-        return float(np.ptp(places.real)), float(np.ptp(places.imag))
+        return self.statics.scale
 
     @cached_property
     def paper(self) -> Trace:
@@ -197,6 +179,6 @@ class ForceReading:
 
 
 @lru_cache(maxsize=32)
-def force_reading(solution: Solution, index: int, box: Box = PLAN_BOX) -> ForceReading:
+def force_reading(solution: Solution, index: int) -> ForceReading:
     """Return the forces of a position; kept, since several views of a sheet show them."""
-    return ForceReading(solution, index, box)
+    return ForceReading(solution, index)

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
-from planmethod.construct.scale import Scale, series_near
+from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
 from planmethod.errors import AssemblyError
 from planmethod.plans.drawnforces import DrawnForces
@@ -25,10 +25,13 @@ from planmethod.plans.impossible import failing
 from planmethod.plans.kinetostatics import drive_forces, group_forces
 from planmethod.plans.lever import Lever, hang
 from planmethod.plans.loads import applied
+from planmethod.plans.polygons import ForcePlan
+from planmethod.plans.scaling import Box
 from planmethod.plans.solution import EVERY, UNIT_SCALES, Complexes, Reals, Solution
+from planmethod.problem.model import Convention
 
-LONGEST = 100.0
-"""Length that the largest force is drawn to, at most, mm."""
+PLAN_BOX: Box = (100.0, 100.0)
+"""What the largest of the force plans shall fill, mm: a usual size on training drawings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,12 +173,20 @@ class Statics:
 
     @cached_property
     def scale(self) -> Scale:
-        """Scale of the force plans (масштаб сил): one for all positions, from the series."""
-        forces = [np.abs(reaction.force).max() for reaction in self.reactions]
-        forces += [np.abs(given.applied.force).max() for given in self.board.given]
-        largest = max(forces, default=0.0)
-        per_mm = series_near(largest / LONGEST, up=True) if largest > 0.0 else 1.0
-        return Scale(SCALE, float(per_mm), "N")
+        """Scale of the force plans (масштаб сил): the file's, or one of the series for all."""
+        scales = self.solution.problem.scales
+        if scales.mu_F is not None:
+            return Scale(SCALE, scales.mu_F, "N")
+        extents = [self._extent(plan) for plan in self.board.plans]
+        whole = (max(e[0] for e in extents), max(e[1] for e in extents))
+        inverse = scales.convention is Convention.MM_PER_UNIT
+        return Scale(SCALE, choose_scale(whole, PLAN_BOX, mm_per_unit=inverse), "N")
+
+    def _extent(self, plan: ForcePlan) -> Box:
+        """Return width and height of a plan in the position where it is the widest, N."""
+        ends = {end for edge in plan.polygon for end in (edge.tail, edge.head)}
+        places = np.asarray([self.solution.complexes(self.si, end) for end in sorted(ends)])
+        return float(np.ptp(places.real, axis=0).max()), float(np.ptp(places.imag, axis=0).max())
 
     @property
     def per_mm(self) -> dict[str, float]:

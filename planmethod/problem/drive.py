@@ -322,7 +322,7 @@ def read_scales(faults: Faults, table: object) -> Scales:
         else:
             convention = Convention(value)
     values: dict[str, float | None] = {}
-    for key in ("mu_l", "mu_v", "mu_a"):
+    for key in ("mu_l", "mu_v", "mu_a", "mu_F"):
         scale = None
         if key in given:
             scale = read_number(

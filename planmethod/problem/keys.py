@@ -36,7 +36,7 @@ SLIDER = ("s", "v", "a")
 DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")
 NEAR = ("near",)
-SCALES = ("convention", "mu_l", "mu_v", "mu_a")
+SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP = (
     "organisation",
     "department",

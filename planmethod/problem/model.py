@@ -138,14 +138,15 @@ class Convention(Enum):
 class Scales:
     """Scales asked for in the file; None where the program chooses.
 
-    ``mu_l, mu_v, mu_a`` are always stored as unit per millimetre, whichever convention the file
-    and the sheet use.
+    ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
+    file and the sheet use.
     """
 
     convention: Convention = Convention.UNIT_PER_MM
     mu_l: float | None = None
     mu_v: float | None = None
     mu_a: float | None = None
+    mu_F: float | None = None  # noqa: N815 - the letter of the textbook
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,51 @@
+"""Scale of the force plans: one for all, of the series or the file's, the same everywhere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from worked import path_of, problem_of
+
+from planmethod.note.record import record
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.solution import Solution
+from planmethod.plans.statics import PLAN_BOX
+from planmethod.problem import loads
+
+LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_largest_plan_fills_its_box(name: str) -> None:
+    solution = Solution(problem_of(name))
+    reading, scale = ForceReading(solution, 0), solution.statics.scale
+    assert reading.scale == scale
+    assert record(solution)["positions"][0]["forces"]["mu"] == scale.per_mm
+    sizes = []
+    for plan in reading.plans:
+        ends = [reading.end(end) for edge in plan.polygon for end in (edge.tail, edge.head)]
+        sizes += [np.ptp(np.real(ends)), np.ptp(np.imag(ends))]
+    assert 0.35 * min(PLAN_BOX) < max(sizes) <= max(PLAN_BOX) + 1e-9
+
+
+def test_all_positions_have_one_scale() -> None:
+    solution = Solution(problem_of("press/press"), positions=[30.0 * k for k in range(12)])
+    scales = {ForceReading(solution, k).scale for k in range(12)}
+    assert scales == {solution.statics.scale}
+    single = Solution(problem_of("press/press")).statics.scale
+    assert solution.statics.scale.per_mm >= single.per_mm
+
+
+def test_the_scale_of_the_file() -> None:
+    problem = problem_of("press/press")
+    asked = replace(problem, scales=replace(problem.scales, mu_F=7.5))
+    assert Solution(asked).statics.scale.per_mm == 7.5
+
+
+def test_the_scale_is_read_in_the_convention_of_the_file() -> None:
+    text = path_of("levers/six-link").read_text(encoding="utf-8")
+    told = text.replace("mu_a = 2\n", "mu_a = 2\nmu_F = 0.005\n")
+    assert told != text
+    assert loads(told, name="six-link").scales.mu_F == pytest.approx(200.0)
