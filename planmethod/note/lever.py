@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from planmethod.note.force_formulas import (
     NEWTON,
     NEWTON_METRE,
@@ -12,6 +14,7 @@ from planmethod.note.force_formulas import (
 )
 from planmethod.note.letters import shown_letters
 from planmethod.note.numbers import russian
+from planmethod.note.sigmas import sigma_text
 from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.leverreading import HungCouple, LeverReading
 from planmethod.plans.model import PlanKind
@@ -55,6 +58,10 @@ def lever_lines(reading: ForceReading) -> list[str]:
     share = difference(reading)
     if share is not None:
         lines.append(f"Расхождение {russian(f'{share:.1f}')} %")
+        sigma = reading.statics.drawn.discrepancy_sigma
+        if sigma is not None and np.isfinite(sigma[reading.index]):
+            off = sigma_text(float(sigma[reading.index]))
+            lines.append(f"Построение позволяет ожидать σ = {russian(off)} {unit}")
     return lines
 
 

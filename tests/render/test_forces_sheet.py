@@ -388,7 +388,10 @@ def test_a_driving_slider_is_balanced_by_a_force() -> None:
     assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == ["F_{ур}", "F_{10}"]
     plans, lever = both_balances(reading)
     assert lever is not None and plans * lever > 0
-    assert lever_lines(reading)[-1].startswith("Расхождение")
+    apart, expected = lever_lines(reading)[-2:]
+    assert apart.startswith("Расхождение")
+    assert expected.startswith("Построение позволяет ожидать σ = ")
+    assert expected.endswith(" Н")
     (sheet,) = kinematics_sheets(problem, layout="forces")
     assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
     (view,) = views(sheet, "velocity")
