@@ -93,6 +93,9 @@ class ForceQuantities:
 
     @cached_property
     def _drawn(self) -> Trace:
+        """Force plans of the hand at the source's scale of forces."""
+        if self.mu_f == self.statics.scale.per_mm:
+            return self.statics.by_hand
         return self.statics.read(self.at.solution.hand, {**self.statics.per_mm, SCALE: self.mu_f})
 
     def value(self, selector: Selector, reading: Reading) -> float:
@@ -143,10 +146,7 @@ class ForceQuantities:
     @cached_property
     def _largest(self) -> float:
         """Size of the largest force of the position, N: beside it, rounding is nothing."""
-        index = self.at.position
-        forces = [abs(joint.force[index]) for joint in self.statics.reactions]
-        forces += [abs(given.applied.force[index]) for given in self.statics.board.given]
-        return float(max(forces, default=0.0))
+        return self.statics.largest(self.at.position)
 
     @cached_property
     def _laid_off(self) -> list[LayOff]:

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.note.numbers import finite_or_none, plain
 from planmethod.note.plaintext import fixed, found, spoken, table, wrap
 from planmethod.note.sigmas import sigma_text
 from planmethod.note.wording import Wording
 from planmethod.plans.solution import Solution
-from planmethod.plans.statics import JointForce, Statics
+from planmethod.plans.statics import JointForce
 
 NOTHING = 1e-12
 """Share of the largest force of a position below which a reaction is nothing, and has no angle."""
@@ -20,20 +21,7 @@ NOTHING = 1e-12
 def _angle(force: complex, largest: float) -> float | None:
     if abs(force) <= NOTHING * largest:
         return None
-    angle = float(np.degrees(np.angle(force))) % 360.0
-    return angle + 0.0
-
-
-def _finite(value: float) -> float | None:
-    """Return a plain float, None (null) for what a drawing cannot tell."""
-    return float(value) if np.isfinite(value) else None
-
-
-def _largest(statics: Statics, index: int) -> float:
-    """Return the size of the largest force of a position, N."""
-    forces = [abs(joint.force[index]) for joint in statics.reactions]
-    forces += [abs(given.applied.force[index]) for given in statics.board.given]
-    return float(max(forces, default=0.0))
+    return plain(np.degrees(np.angle(force)) % 360.0)
 
 
 def forces_record(solution: Solution, index: int) -> dict[str, Any]:
@@ -44,7 +32,7 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     drawing of the profile lets expect, ``hand`` what the ruler gives.
     """
     statics = solution.statics
-    drawn, largest = statics.drawn, _largest(statics, index)
+    drawn, largest = statics.drawn, statics.largest(index)
 
     def told(number: int, joint: JointForce) -> dict[str, Any]:
         force, at = complex(joint.force[index]), complex(joint.at[index])
@@ -52,21 +40,21 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             "joint": joint.joint,
             "on": joint.on,
             "from": joint.by,
-            "fx": force.real + 0.0,
-            "fy": force.imag + 0.0,
+            "fx": plain(force.real),
+            "fy": plain(force.imag),
             "f": abs(force),
             "angle_deg": _angle(force, largest),
-            "at": [at.real + 0.0, at.imag + 0.0],
-            "moment": float(joint.moment[index]) + 0.0,
-            "read": float(drawn.read(number)[index]) + 0.0,
-            "sigma": _finite(drawn.sigma(number)[index]),
+            "at": [plain(at.real), plain(at.imag)],
+            "moment": plain(joint.moment[index]),
+            "read": plain(drawn.read(number)[index]),
+            "sigma": finite_or_none(drawn.sigma(number)[index]),
         }
 
     quantity = "moment" if solution.problem.drive.is_crank else "force"
     balance = float(statics.balance[index])
     record: dict[str, Any] = {
         "reactions": [told(k, joint) for k, joint in enumerate(statics.reactions)],
-        "driving": {quantity: balance + 0.0},
+        "driving": {quantity: plain(balance)},
         "mu": statics.scale.per_mm,
     }
     if statics.lever is not None:
@@ -74,9 +62,9 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
         lever = float(statics.lever[index])
         plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
         record["lever"] = {
-            quantity: lever + 0.0,
+            quantity: plain(lever),
             "difference": lever - balance,
-            "sigma": _finite(drawn.discrepancy_sigma[index]),
+            "sigma": finite_or_none(drawn.discrepancy_sigma[index]),
             "hand": {"plans": plans, "lever": hung, "difference": hung - plans},
         }
     return record
@@ -106,7 +94,7 @@ def forces_tables(
     ``sigma`` is the header with the column of the drafting errors, where they are asked for.
     """
     statics = solution.statics
-    largest = _largest(statics, index)
+    largest = statics.largest(index)
     rows = []
     for number, joint in enumerate(statics.reactions):
         force = complex(joint.force[index])
@@ -134,13 +122,13 @@ def forces_tables(
         drawn = statics.drawn
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
         plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
-        expected = float(drawn.discrepancy_sigma[index])
+        share, expected = drawn.balances.share(index), float(drawn.discrepancy_sigma[index])
         lines += wrap(
             words.lever_note.format(
                 lever=found(hung, words),
                 plans=found(plans, words),
                 difference=found(hung - plans, words),
-                share=fixed(100.0 * abs(hung - plans) / abs(plans), words) if plans else "—",
+                share="—" if share is None else fixed(share, words),
                 sigma=found(expected, words),
                 unit=unit,
             )

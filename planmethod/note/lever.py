@@ -24,17 +24,15 @@ STANDS = "Начальное звено неподвижно: рычаг не с
 
 def both_balances(reading: ForceReading) -> tuple[float, float | None]:
     """Return the balancing moment or force as the hand finds it: by the plans, by the lever."""
-    plans = float(reading.statics.balance_of(reading.by_hand)[reading.index])
+    plans = float(reading.statics.balance_of(reading.statics.by_hand)[reading.index])
     hung = reading.statics.hung
     return plans, None if hung is None else reading.read_number(hung.balance)
 
 
 def difference(reading: ForceReading) -> float | None:
     """Return how far the lever is from the force plans, per cent; None where there is neither."""
-    plans, lever = both_balances(reading)
-    if lever is None or not plans:
-        return None
-    return 100.0 * abs(lever - plans) / abs(plans)
+    balances = reading.statics.drawn.balances
+    return None if balances is None else balances.share(reading.index)
 
 
 def lever_lines(reading: ForceReading) -> list[str]:

@@ -1,9 +1,10 @@
-"""Numbers as they are written on a sheet or a terminal: digits, decimal sign, units."""
+"""Numbers as they are written on a sheet, a terminal, in a record: digits, decimal sign, units."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import SupportsFloat
 
 MINUS = "−"
 
@@ -56,6 +57,16 @@ def russian(text: str) -> str:
         return mantissa
     exponent = str(int(power)).replace("-", MINUS)
     return f"{mantissa}·10^{{{exponent}}}"
+
+
+def plain(value: SupportsFloat) -> float:
+    """Return a float for a record, without a negative zero."""
+    return float(value) + 0.0
+
+
+def finite_or_none(value: SupportsFloat) -> float | None:
+    """Return a float for a record; None (null) for what a drawing cannot tell."""
+    return plain(value) if math.isfinite(value) else None
 
 
 def is_nothing(value: float, peak: float) -> bool:

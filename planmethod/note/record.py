@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from planmethod.mechanism.structure import Structure
+from planmethod.note.numbers import finite_or_none, plain
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Segment, Solution
 
@@ -17,11 +18,6 @@ LONG = {"ak": "a_coriolis", "ar": "a_rel"}
 """Names in the record of what is called shorter in the labels of drafting errors."""
 
 POLE = {PlanKind.VELOCITY: "p", PlanKind.ACCELERATION: "π"}
-
-
-def _number(value: Any) -> float:
-    """Return a plain float without a negative zero."""
-    return float(value) + 0.0
 
 
 def structure_record(structure: Structure) -> dict[str, Any]:
@@ -49,15 +45,10 @@ def structure_record(structure: Structure) -> dict[str, Any]:
 
 def _vector(prefix: str, value: complex) -> dict[str, float]:
     return {
-        f"{prefix}x": _number(value.real),
-        f"{prefix}y": _number(value.imag),
-        prefix: _number(abs(value)),
+        f"{prefix}x": plain(value.real),
+        f"{prefix}y": plain(value.imag),
+        prefix: plain(abs(value)),
     }
-
-
-def _finite(value: Any) -> float | None:
-    """Return a plain float, None (null) for what a drawing cannot tell."""
-    return _number(value) if np.isfinite(value) else None
 
 
 def _segments(
@@ -66,9 +57,9 @@ def _segments(
     spreads = solution.drafting.spreads
     return {
         segment.name: {
-            "exact": _number(segment.exact[index]),
-            "read": _number(segment.read[index]),
-            "sigma": _finite(spreads[f"{kind.value}.{segment.name}"].sigma[index]),
+            "exact": plain(segment.exact[index]),
+            "read": plain(segment.read[index]),
+            "sigma": finite_or_none(spreads[f"{kind.value}.{segment.name}"].sigma[index]),
         }
         for segment in segments
     }
@@ -82,12 +73,13 @@ def _hand(solution: Solution, index: int) -> dict[str, Any]:
         """Return a quantity and its sigma; the name is the first part of the label."""
         name = LONG.get(label.split("_")[0], label.split("_")[0])
         spread = spreads.get(label)
-        sigma = 0.0 if spread is None else _finite(spread.sigma[index])
-        return {name: _finite(value), f"sigma_{name}": sigma}
+        sigma = 0.0 if spread is None else finite_or_none(spread.sigma[index])
+        return {name: finite_or_none(value), f"sigma_{name}": sigma}
 
     def place(name: str) -> dict[str, float | None]:
         return {
-            f"sigma_{axis}": _finite(spreads[f"{axis}_{name}"].sigma[index]) for axis in ("x", "y")
+            f"sigma_{axis}": finite_or_none(spreads[f"{axis}_{name}"].sigma[index])
+            for axis in ("x", "y")
         }
 
     sliding = solution.construction.kinematics.relatives.values()
@@ -134,14 +126,14 @@ def record(solution: Solution) -> dict[str, Any]:
     for i, asked in enumerate(solution.positions):
         entry: dict[str, Any] = {}
         if solution.problem.drive.is_crank:
-            entry["phi_deg"] = _number(asked)
+            entry["phi_deg"] = plain(asked)
         else:
-            entry["s"] = _number(asked)
-        entry["margin"] = _number(solution.margin[i])
+            entry["s"] = plain(asked)
+        entry["margin"] = plain(solution.margin[i])
         entry["points"] = {
             name: {
-                "x": _number(point.place[i].real),
-                "y": _number(point.place[i].imag),
+                "x": plain(point.place[i].real),
+                "y": plain(point.place[i].imag),
                 **_vector("v", complex(point.velocity[i])),
                 **_vector("a", complex(point.acceleration[i])),
             }
@@ -149,9 +141,9 @@ def record(solution: Solution) -> dict[str, Any]:
         }
         entry["links"] = {
             name: {
-                "phi_deg": _number(link.phi_deg[i]),
-                "omega": _number(link.omega[i]),
-                "epsilon": _number(link.epsilon[i]),
+                "phi_deg": plain(link.phi_deg[i]),
+                "omega": plain(link.omega[i]),
+                "epsilon": plain(link.epsilon[i]),
             }
             for name, link in solution.links.items()
         }
@@ -160,15 +152,15 @@ def record(solution: Solution) -> dict[str, Any]:
                 "point": r.point,
                 "of": r.of,
                 "to": r.to,
-                "v": _number(abs(r.velocity[i])),
-                "a_coriolis": _number(abs(r.coriolis[i])),
-                "a_rel": _number(abs(r.acceleration[i])),
-                "vx": _number(r.velocity[i].real),
-                "vy": _number(r.velocity[i].imag),
-                "a_coriolis_x": _number(r.coriolis[i].real),
-                "a_coriolis_y": _number(r.coriolis[i].imag),
-                "a_rel_x": _number(r.acceleration[i].real),
-                "a_rel_y": _number(r.acceleration[i].imag),
+                "v": plain(abs(r.velocity[i])),
+                "a_coriolis": plain(abs(r.coriolis[i])),
+                "a_rel": plain(abs(r.acceleration[i])),
+                "vx": plain(r.velocity[i].real),
+                "vy": plain(r.velocity[i].imag),
+                "a_coriolis_x": plain(r.coriolis[i].real),
+                "a_coriolis_y": plain(r.coriolis[i].imag),
+                "a_rel_x": plain(r.acceleration[i].real),
+                "a_rel_y": plain(r.acceleration[i].imag),
             }
             for r in solution.relatives
         ]

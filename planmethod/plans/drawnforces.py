@@ -17,7 +17,7 @@ from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import Counted, Propagated, Sampled
 from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.plans.solution import EVERY, Reals
+from planmethod.plans.solution import Reals
 
 if TYPE_CHECKING:
     from planmethod.plans.statics import Statics
@@ -32,6 +32,11 @@ class Balances:
 
     plans: Reals
     lever: Reals
+
+    def share(self, index: int) -> float | None:
+        """Return how far the lever is from the force plans, per cent; None where those give 0."""
+        plans, lever = float(self.plans[index]), float(self.lever[index])
+        return 100.0 * abs(lever - plans) / abs(plans) if plans else None
 
 
 class DrawnForces:
@@ -63,7 +68,7 @@ class DrawnForces:
                 taken["difference"] = taken["lever"] - taken["plans"]
         return taken
 
-    def _draw(self, pencil: Any, chosen: npt.NDArray[np.intp] | slice) -> dict[str, Number]:
+    def _draw(self, pencil: Any, chosen: npt.NDArray[np.intp]) -> dict[str, Number]:
         data = self.statics.data(self.statics.per_mm, chosen)
         return self._taken(evaluate(self.statics.program, data, pencil), pencil)
 
@@ -85,7 +90,7 @@ class DrawnForces:
         shape = self.solution.positions.shape
         return {
             label: np.broadcast_to(np.asarray(value, dtype=float), shape)
-            for label, value in self._draw(self.solution.hand, EVERY).items()
+            for label, value in self._taken(self.statics.by_hand, self.solution.hand).items()
         }
 
     def read(self, number: int) -> Reals:

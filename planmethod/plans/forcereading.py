@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
-from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
-from planmethod.plans.forceplan import SCALE, Force
+from planmethod.plans.forceplan import Force
 from planmethod.plans.polygons import (
     BALANCING_FORCE,
     BALANCING_MOMENT,
@@ -49,24 +48,10 @@ class ForceReading:
         self.statics = solution.statics
         self.plans: tuple[ForcePlan, ...] = tuple(self.statics.board.plans)
 
-    # Scale and traces ------------------------------------------------------------------------
-
-    @cached_property
+    @property
     def scale(self) -> Scale:
         """Scale of all force plans, N per mm."""
         return self.statics.scale
-
-    @cached_property
-    def paper(self) -> Trace:
-        """Exact reading at the scales of the drawings: millimetres of the plans."""
-        scales = {**self.solution.per_mm, SCALE: self.scale.per_mm}
-        return self.statics.read(Float64(), scales)
-
-    @cached_property
-    def by_hand(self) -> Trace:
-        """Reading of a draughtsman who measures the arms with a ruler."""
-        scales = {**self.solution.per_mm, SCALE: self.scale.per_mm}
-        return self.statics.read(self.solution.hand, scales)
 
     def _column(self, trace: Trace, name: PointName) -> complex:
         return complex(self.solution.complexes(trace, name)[self.index])
@@ -79,7 +64,7 @@ class ForceReading:
 
     def end(self, point: PointName) -> complex:
         """Return an end of a force plan, or a point of the lever, mm."""
-        return self._column(self.paper, point)
+        return self._column(self.statics.paper, point)
 
     def vector(self, edge: Edge) -> complex:
         """Return a force as its segment on the plan, mm."""
@@ -104,13 +89,14 @@ class ForceReading:
 
     def read_number(self, name: NumberName) -> float:
         """Return a moment as the hand has it, N·m."""
-        return float(self.solution.reals(self.by_hand, name)[self.index])
+        return float(self.solution.reals(self.statics.by_hand, name)[self.index])
 
     def read_force(self, force: Force | None) -> float:
         """Return the size of a force as the hand has it on its plan, N; zero of none."""
         if force is None:
             return 0.0
-        tail, head = self._column(self.by_hand, force.tail), self._column(self.by_hand, force.head)
+        hand = self.statics.by_hand
+        tail, head = self._column(hand, force.tail), self._column(hand, force.head)
         return abs(head - tail) * self.scale.per_mm
 
     def arm(self, edge: Edge, about: PointName) -> float:

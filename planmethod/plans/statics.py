@@ -169,6 +169,12 @@ class Statics:
         """The same by the Zhukovsky lever; None where the driver stands."""
         return None if self.hung is None else self._number(self.hung.balance)
 
+    def largest(self, index: int) -> float:
+        """Return the size of the largest force of a position, load or reaction, N."""
+        forces = [abs(joint.force[index]) for joint in self.reactions]
+        forces += [abs(given.applied.force[index]) for given in self.board.given]
+        return float(max(forces, default=0.0))
+
     # Drawn -----------------------------------------------------------------------------------
 
     @cached_property
@@ -192,6 +198,16 @@ class Statics:
     def per_mm(self) -> dict[str, float]:
         """Unit per millimetre of all plans, by the name that the program has for it."""
         return {**self.solution.per_mm, SCALE: self.scale.per_mm}
+
+    @cached_property
+    def paper(self) -> Trace:
+        """Exact reading at the scales of the drawings: millimetres of the plans."""
+        return self.read(Float64(), self.per_mm)
+
+    @cached_property
+    def by_hand(self) -> Trace:
+        """Reading of a draughtsman who measures with a ruler, along his own chain."""
+        return self.read(self.solution.hand, self.per_mm)
 
     @cached_property
     def drawn(self) -> DrawnForces:
