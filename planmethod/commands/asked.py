@@ -92,17 +92,22 @@ def laid_over(config: Config, problem: Problem, options: SheetSettings) -> Probl
 # Options -----------------------------------------------------------------------------------------
 
 
-def read_lettering(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    """Return the type of the lettering; its letter may be Cyrillic."""
-    if value is None:
-        return None
-    from planmethod.problem.keys import LETTERINGS
-    from planmethod.problem.sheet import chosen
+def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], str | None]:
+    """Return a callback that takes one of the names of a key; letters may be Cyrillic."""
 
-    name = chosen(value, LETTERINGS)
-    if name is None:
-        raise click.BadParameter(f"{value!r} is not one of {', '.join(LETTERINGS)}")
-    return name
+    def read(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+        if value is None:
+            return None
+        from planmethod.problem.keys import SHEET_CHOICES
+        from planmethod.problem.sheet import chosen
+
+        names = SHEET_CHOICES[key]
+        name = chosen(value, names)
+        if name is None:
+            raise click.BadParameter(f"{value!r} is not one of {', '.join(names)}")
+        return name
+
+    return read
 
 
 def read_fields(
@@ -131,19 +136,6 @@ def read_paper(ctx: click.Context, param: click.Parameter, value: str | None) ->
         raise click.BadParameter(str(error)) from None
 
 
-def read_form(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    """Return the form of the title block; the letter may be Cyrillic."""
-    if value is None:
-        return None
-    from planmethod.problem.keys import FORMS
-    from planmethod.problem.sheet import chosen
-
-    form = chosen(value, FORMS)
-    if form is None:
-        raise click.BadParameter(f"{value!r} is not one of {', '.join(FORMS)}")
-    return form
-
-
 stamp_option = click.option(
     "--stamp",
     callback=read_fields,
@@ -153,7 +145,7 @@ stamp_option = click.option(
 )
 lettering_option = click.option(
     "--lettering",
-    callback=read_lettering,
+    callback=_reader("lettering"),
     metavar="TYPE",
     help="GOST 2.304: B (type Б, slanted), B-upright, A, A-upright.",
 )
@@ -169,7 +161,7 @@ _SHEET_OPTIONS = (
     lettering_option,
     click.option(
         "--form",
-        callback=read_form,
+        callback=_reader("form"),
         metavar="FORM",
         help="Title block: 1, 1+2a (later sheets 2a), 2 (later sheets 2a), 2a.",
     ),

@@ -75,6 +75,8 @@ FORMS = ("1", "1+2a", "2", "2a")
 """Forms of the title block: of every sheet, or of the first and of the later ones."""
 LETTERINGS = ("A", "A-upright", "B", "B-upright")
 """Types of the lettering of GOST 2.304, slanted where nothing else is said."""
+SHEET_CHOICES = {"form": FORMS, "lettering": LETTERINGS}
+"""Keys of ``[sheet]`` that take one of some names."""
 CONFIG = ("stamp", "sheet")
 DYNAMICS = ("gravity", "links")
 MASS = ("mass", "centre", "inertia")

@@ -38,9 +38,8 @@ def read_sheet(faults: Faults, table: object) -> SheetSettings:
         path = f"sheet.{key}"
         if key == "paper":
             told[key] = _read_paper(faults, path, value)
-        elif key in ("form", "lettering"):
-            known = keys.FORMS if key == "form" else keys.LETTERINGS
-            told[key] = _read_choice(faults, path, value, known)
+        elif key in keys.SHEET_CHOICES:
+            told[key] = _read_choice(faults, path, value, keys.SHEET_CHOICES[key])
         elif isinstance(value, bool):
             told[key] = value
         else:
