@@ -20,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from planmethod.render.clearance import overlap
 from planmethod.render.cuttings import (
     GAP,
     Group,
@@ -100,7 +101,7 @@ def _packed(
         units = list(units_of(node, box, anchored=True))
         if taken:
             moved = [_clear(unit, taken) for unit in units[:-1]]
-            if None in moved or any(_meet(place, other) for other in taken):
+            if None in moved or any(overlap(place, other, CLEAR) for other in taken):
                 continue
             units = [*(unit for unit in moved if unit is not None), units[-1]]
         found.append((_unevenness(units, room) + BACK * _way_back(units, turns, room), units))
@@ -202,29 +203,19 @@ def _clear(unit: Unit, taken: Sequence[Bounds]) -> Unit | None:
     """
     start = _middle(unit)
     for other in taken:
-        if not _meet(box_of(unit), other):
+        if not overlap(box_of(unit), other, CLEAR):
             continue
         node, box = unit
         others = [(node, part) for part in _beside(box, other) if _holds(part, node)]
         if not others:
             return None
         unit = min(others, key=lambda moved: abs(_middle(moved) - start))
-    return None if any(_meet(box_of(unit), other) for other in taken) else unit
+    return None if any(overlap(box_of(unit), other, CLEAR) for other in taken) else unit
 
 
 def _middle(unit: Unit) -> complex:
     left, low, right, high = unit[1]
     return complex(left + right, low + high) / 2
-
-
-def _meet(one: Bounds, two: Bounds) -> bool:
-    """Tell whether two boxes are nearer than a block may be to a box that must stay free."""
-    return (
-        one[0] < two[2] + CLEAR - 1e-9
-        and two[0] - CLEAR < one[2] - 1e-9
-        and one[1] < two[3] + CLEAR - 1e-9
-        and two[1] - CLEAR < one[3] - 1e-9
-    )
 
 
 def _beside(box: Bounds, taken: Bounds) -> tuple[Bounds, ...]:
