@@ -25,8 +25,8 @@ from planmethod.render.lettering import OutlineLettering
 from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
 
 _LARGEST = 16_384  # pixels a side: an A0 sheet at 350 dots to the inch, about a gigabyte at work
-_CODES: dict[str, Any] = {"M": Path.MOVETO, "L": Path.LINETO, "Q": Path.CURVE3, "Z": Path.CLOSEPOLY}
-_VERBS = re.compile("([MLQZ])([^MLQZ]*)")
+_CODES: dict[str, Any] = {"M": Path.MOVETO, "L": Path.LINETO, "Z": Path.CLOSEPOLY}
+_VERBS = re.compile("([MLZ])([^MLZ]*)")
 
 
 class PngCanvas:

@@ -89,7 +89,7 @@ class Lettering(Protocol):
 class Glyph(NamedTuple):
     """One letter in font units, y up, origin on the base line.
 
-    ``outline`` is an SVG path of M, L, Q and Z with absolute coordinates, filled by the non-zero
+    ``outline`` is an SVG path of M, L and Z with absolute coordinates, filled by the non-zero
     rule; it is empty for a blank, and the bounds are then all zero.
     """
 
