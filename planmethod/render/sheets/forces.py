@@ -1,4 +1,4 @@
-"""Blocks of the force analysis: loads, links cut free, force plans, lever, reactions."""
+"""Blocks of the force analysis: loads, links cut free, force plans, lever."""
 
 from __future__ import annotations
 
@@ -10,20 +10,16 @@ from typing import TypeAlias
 from planmethod.construct.scale import Scale
 from planmethod.note.force_formulas import (
     closing_lines,
-    found,
     load_lines,
     plan_moments,
     plan_title,
     statement,
     wanted,
 )
-from planmethod.note.given import point_name
-from planmethod.note.lever import STANDS, both_balances, difference, lever_lines
-from planmethod.note.numbers import UNITS_RU, alike, russian
+from planmethod.note.lever import STANDS, lever_lines
 from planmethod.note.plaintext import plain_text
-from planmethod.plans.forcereading import NOTHING, ForceReading, force_reading
+from planmethod.plans.forcereading import ForceReading, force_reading
 from planmethod.plans.model import Known, PlanKind
-from planmethod.plans.polygons import reaction_symbol
 from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Block, Column, Line, Picture, heading, paragraph
@@ -32,11 +28,9 @@ from planmethod.render.equations import balance_block, formula_block
 from planmethod.render.forces.cut import cut_picture, loads_picture
 from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.render.forces.polygon import START, apart, drawn_edges, polygon_picture
-from planmethod.render.frame import STAMP_WIDTH
-from planmethod.render.pack import EDGE
 from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.reactions import reactions_block
 from planmethod.render.sheets.views import Viewed, scale_inscription, shown_position
-from planmethod.render.tables import Cell, TableColumn, table_block
 from planmethod.render.typeset import typeset
 
 NOT_TO_SCALE = "Стрелки сил на схемах не в масштабе"
@@ -210,76 +204,6 @@ def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     lines = [formula_block(line, height, width=width) for line in lever_lines(reading)]
     title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
     return Column([*title, *lines], gap=3.0)
-
-
-# Table -------------------------------------------------------------------------------------------
-
-
-def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the table of reactions, and the balancing moment by both methods."""
-    reading = _reading(solution, indices, manner)
-    height = manner.text(manner.sizes.text)
-    room = manner.inside - 2 * EDGE
-    width = min(max(STAMP_WIDTH, manner.width(STAMP_WIDTH)), room)
-    reactions = reading.statics.reactions
-    index = reading.index
-    sizes = [abs(complex(one.force[index])) for one in reactions]
-    moments = [float(one.moment[index]) for one in reactions]
-    none = [size <= NOTHING * reading.peak for size in sizes]
-    still = [abs(moment) <= NOTHING * reading.peak_moment for moment in moments]
-    shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
-    turning = alike([0.0 if nil else abs(m) for m, nil in zip(moments, still, strict=True)])
-    angles = [russian(f"{_angle(complex(one.force[index])):.1f}") for one in reactions]
-    columns = [
-        TableColumn(
-            "Пара", tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
-        ),
-        TableColumn("F_{ij}", tuple(reaction_symbol(one.on, one.by) for one in reactions)),
-        TableColumn("F_{ij}, Н", tuple(map(russian, shown))),
-        TableColumn(
-            "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
-        ),
-    ]
-    if not all(still):
-        cells = tuple(
-            Cell(russian(text), 0 if nil else (1 if moment > 0 else -1))
-            for text, moment, nil in zip(turning, moments, still, strict=True)
-        )
-        columns.append(TableColumn("M_{ij}, Н·м", cells))
-    title = manner.entry.title or "Реакции в кинематических парах (точные значения)"
-    table = table_block(columns, height, width=width, units="none", title=title)
-    return Column([table, _balances(reading, height, width)], gap=4.0)
-
-
-def _angle(force: complex) -> float:
-    """Return the angle of a force from +x, degrees in [0, 360)."""
-    from planmethod.render.symbols import angle_of
-
-    turn = round(angle_of(force), 1) % 360.0
-    return turn + 0.0
-
-
-def _balances(reading: ForceReading, height: float, width: float) -> Block:
-    """Return the table of what balances the driver, by both methods."""
-    symbol = reading.balancing_symbol
-    unit = UNITS_RU["N·m" if reading.statics.driving.moment is not None else "N"]
-    exact = float(reading.statics.balance[reading.index])
-    plans, lever = both_balances(reading)
-    share = difference(reading)
-    sense = reading.statics.driving.moment is not None
-
-    def cell(value: float | None) -> Cell:
-        if value is None:
-            return Cell("—")
-        return Cell(found(abs(value)), (1 if value > 0 else -1) if sense and value else None)
-
-    columns = [
-        TableColumn(f"{symbol}, {unit}", (cell(exact),)),
-        TableColumn("по планам сил", (cell(plans),)),
-        TableColumn("по рычагу", (cell(lever),)),
-        TableColumn("расхождение, %", (Cell("—" if share is None else russian(f"{share:.1f}")),)),
-    ]
-    return table_block(columns, height, width=width, units="none")
 
 
 MAKERS: Mapping[str, Maker] = MappingProxyType(
