@@ -15,6 +15,7 @@ from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.loads import Applied, LoadKind
 from planmethod.plans.model import PlanKind
 from planmethod.plans.polygons import BALANCING_MOMENT, CoupleOn, Edge, ForcePlan, Moments
+from planmethod.problem.load_records import Dynamics
 from planmethod.problem.model import Convention
 
 NEWTON, NEWTON_METRE = UNITS_RU["N"], UNITS_RU["N·m"]
@@ -56,19 +57,23 @@ def statement(reading: ForceReading) -> list[str]:
     dynamics = problem.dynamics
     assert dynamics is not None
     lines = given(problem, [float(reading.solution.positions[index])])
-    for link, mass in dynamics.masses.items():
-        if mass.mass:
-            lines.append(f"m_{{{link}}} = {number(mass.mass)} кг")
-    for link, mass in dynamics.masses.items():
-        if mass.inertia:
-            lines.append(f"J_{{S{link}}} = {short(mass.inertia)} кг·м^{{2}}")
-    lines.append(f"g = {number(dynamics.gravity)} {UNITS_RU['m/s²']}")
+    lines += mass_lines(dynamics)
     for one in _external(reading):
         size = abs(complex(one.force[index])) if one.point else abs(float(one.couple[index]))
         if size:
             unit = NEWTON if one.point else NEWTON_METRE
             lines.append(f"{one.name} = {short(size)} {unit}")
     return lines
+
+
+def mass_lines(dynamics: Dynamics) -> list[str]:
+    """Return the masses, the moments of inertia and the acceleration of free fall."""
+    masses = dynamics.masses.items()
+    lines = [f"m_{{{link}}} = {number(mass.mass)} кг" for link, mass in masses if mass.mass]
+    for link, mass in masses:
+        if mass.inertia:
+            lines.append(f"J_{{S{link}}} = {short(mass.inertia)} кг·м^{{2}}")
+    return [*lines, f"g = {number(dynamics.gravity)} {UNITS_RU['m/s²']}"]
 
 
 def short(value: float) -> str:

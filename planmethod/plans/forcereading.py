@@ -19,6 +19,7 @@ from planmethod.plans.polygons import (
     Share,
 )
 from planmethod.plans.solution import Solution
+from planmethod.problem.model import Problem
 
 NOTHING = 1e-7
 """Share of the largest force of a position below which a force is none."""
@@ -40,10 +41,7 @@ class ForceReading:
     """
 
     def __init__(self, solution: Solution, index: int) -> None:
-        if solution.problem.dynamics is None:
-            hint = "Give the masses in [dynamics] and the loads in [[loads]]."
-            fault = Fault("dynamics", "missing, so there are no forces to analyse", hint)
-            raise ProblemError(solution.problem.name, [fault])
+        require_dynamics(solution.problem)
         self.solution, self.index = solution, index
         self.statics = solution.statics
         self.plans: tuple[ForcePlan, ...] = tuple(self.statics.board.plans)
@@ -162,6 +160,19 @@ class ForceReading:
     def couples(self, plan: ForcePlan) -> list[CoupleOn]:
         """Return the couples that are something."""
         return [couple for couple in plan.couples if not self.is_no_couple(couple)]
+
+
+def require_dynamics(problem: Problem) -> None:
+    """Refuse a problem without masses and loads.
+
+    Raises
+    ------
+    ProblemError
+    """
+    if problem.dynamics is None:
+        hint = "Give the masses in [dynamics] and the loads in [[loads]]."
+        fault = Fault("dynamics", "missing, so there are no forces to analyse", hint)
+        raise ProblemError(problem.name, [fault])
 
 
 @lru_cache(maxsize=32)

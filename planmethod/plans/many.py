@@ -175,7 +175,7 @@ def examine(problem: Problem, positions: Reals, *, numbers: Places | None = None
     for part in blocks(count):
         left = np.arange(part.start, part.stop)
         solution = Solution(problem, positions=_listed(positions[left]))
-        codes[left] = _impossible(solution)
+        codes[left] = impossible_steps(solution)
         if (codes[left] >= 0).any():
             left = left[codes[left] < 0]
             solution = Solution(problem, positions=_listed(positions[left]))
@@ -209,7 +209,7 @@ def _listed(positions: Reals) -> list[float]:
     return listed
 
 
-def _impossible(solution: Solution) -> Codes:
+def impossible_steps(solution: Solution) -> Codes:
     """Return for each position the number of the first step that fails, or -1."""
     try:
         _ = solution.si

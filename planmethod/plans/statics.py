@@ -98,6 +98,17 @@ class Statics:
         return {**self.solution.data(scales, chosen), **loads}
 
     @cached_property
+    def _in_newtons(self) -> Trace:
+        self.solution.si  # noqa: B018 - an impossible position must be told first
+        return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
+
+    @cached_property
+    def closes(self) -> npt.NDArray[np.bool_]:
+        """Whether the force plans close, ndarray of bool of shape (n,)."""
+        count = len(self.solution.positions)
+        return np.asarray(failing(self.program, self._in_newtons, count) < 0)
+
+    @cached_property
     def si(self) -> Trace:
         """Exact reading: what is a millimetre of a force plan is here a newton.
 
@@ -106,10 +117,7 @@ class Statics:
         AssemblyError
             Where a force plan does not close.
         """
-        self.solution.si  # noqa: B018 - an impossible position must be told first
-        trace = self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
-        first = failing(self.program, trace, len(self.solution.positions))
-        bad = np.flatnonzero(first >= 0)
+        bad = np.flatnonzero(~self.closes)
         if bad.size:
             index = int(bad[0])
             unit = "phi" if self.solution.problem.drive.is_crank else "s"
@@ -118,7 +126,7 @@ class Statics:
                 f"Cannot close the force plan at {where}: the mechanism stands in a dead position, "
                 "where no forces balance the loads. Ask another position."
             )
-        return trace
+        return self._in_newtons
 
     def _vector(self, force: Force) -> Complexes:
         return self.solution.complexes(self.si, force.head) - self.solution.complexes(

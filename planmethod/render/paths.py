@@ -6,13 +6,14 @@ import cmath
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil, tau
+from math import tau
 
 import numpy as np
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.course import TURN, Course
 from planmethod.plans.draft import cis
 from planmethod.plans.solution import Complexes, Reals, Solution
 from planmethod.render.drawing import Arc, Item, Pen, Stroke
@@ -20,56 +21,25 @@ from planmethod.render.drawing import Arc, Item, Pen, Stroke
 TRAJECTORY = "trajectory"
 """Tag of the line that a point moves along: ``trajectory B``."""
 
-_STEP = 3.0  # degrees of the crank between points of a smooth line
-_PARTS = 12  # parts of a step of a driving slider
-_MOST = 720  # points of a line
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _THIN = 0.05  # area of a closed line over that of a circle as long: it has no inside below that
 
 
 @dataclass(frozen=True)
 class Paths:
-    """Where the points of a mechanism go between the positions of a solution.
-
-    A full turn asked in even steps is closed; other positions are joined from the first to the
-    last.
-    """
+    """Where the points of a mechanism go between the positions of a solution."""
 
     solution: Solution
 
     @cached_property
-    def positions(self) -> Reals:
-        """Driver positions, the drawn ones among them, in order, ndarray of shape (n,)."""
-        drawn = np.unique(self.solution.positions)
-        if self.closed:
-            drawn = np.append(drawn, drawn[0] + 360.0)
-        if len(drawn) < 2:
-            return drawn
-        gaps = np.diff(drawn)
-        if self.solution.problem.drive.is_crank:
-            step = max(_STEP, float(gaps.sum()) / _MOST)
-            counts = [max(1, ceil(gap / step - 1e-9)) for gap in gaps]
-        else:
-            counts = [max(1, min(_PARTS, _MOST // len(gaps)))] * len(gaps)
-        parts = [
-            start + gap * np.arange(count) / count
-            for start, gap, count in zip(drawn[:-1], gaps, counts, strict=True)
-        ]
-        return np.concatenate([*parts, drawn[-1:]])
-
-    @cached_property
-    def closed(self) -> bool:
-        """Whether the drawn positions go all round."""
-        drawn = np.unique(self.solution.positions)
-        if not self.solution.problem.drive.is_crank or len(drawn) < 3:
-            return False
-        gaps = np.diff(np.append(drawn, drawn[0] + 360.0))
-        return bool(np.ptp(gaps) < 1e-6)
+    def course(self) -> Course:
+        """The driver positions that the lines go through."""
+        return Course(self.solution)
 
     @cached_property
     def _between(self) -> Solution:
         s = self.solution
-        return Solution(s.problem, positions=self.positions.tolist(), scales=s.scales)
+        return Solution(s.problem, positions=self.course.positions.tolist(), scales=s.scales)
 
     @cached_property
     def _trace(self) -> dict[str, Complexes]:
@@ -128,7 +98,7 @@ class Paths:
         ring = np.append(way, way[0])
         area = float(np.sum((np.conj(ring[:-1]) * ring[1:]).imag)) / 2
         length = float(np.sum(np.abs(np.diff(ring))))
-        if self.closed and abs(area) > _THIN * length**2 / (2 * tau):
+        if self.course.closed and abs(area) > _THIN * length**2 / (2 * tau):
             side = -1j if area > 0 else 1j
         else:
             bend = float(np.sum((np.conj(np.diff(way)[:-1]) * np.diff(way)[1:]).imag))
@@ -187,7 +157,7 @@ class Paths:
     def _turn(self, reach: Reals, k: int) -> float | None:
         """Return the driver position of an extreme near the one numbered ``k``."""
         last = len(reach) - 1
-        if self.closed:
+        if self.course.closed:
             before, after = (k - 1 if k else last - 1), (k + 1 if k < last else 1)
         elif k in (0, last):
             return None
@@ -197,10 +167,10 @@ class Paths:
         bend = a - 2 * b + c
         if abs(bend) < 1e-12:
             return None
-        step = float(self.positions[1] - self.positions[0])
+        step = float(self.course.positions[1] - self.course.positions[0])
         # The vertex of the parabola through three places.
-        at = float(self.positions[k]) + step * (a - c) / (2 * bend)
-        return at % 360.0 if self.closed else at
+        at = float(self.course.positions[k]) + step * (a - c) / (2 * bend)
+        return at % TURN if self.course.closed else at
 
 
 def _unbroken(places: Complexes) -> list[Complexes]:

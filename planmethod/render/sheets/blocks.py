@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -38,19 +39,20 @@ class Kind:
     each: bool = False
 
 
-def _late(name: str) -> Maker:
-    """Return a maker of `planmethod.render.sheets.forces`, imported when it is first needed."""
+def _late(home: str, name: str) -> Maker:
+    """Return a maker of a module of `planmethod.render.sheets`, imported when first needed."""
 
     def make(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-        from planmethod.render.sheets.forces import MAKERS
-
-        return MAKERS[name](solution, indices, manner)
+        makers = import_module(f"planmethod.render.sheets.{home}").MAKERS
+        block: Block = makers[name](solution, indices, manner)
+        return block
 
     return make
 
 
 _VIEW = ("title", "title_height", "letter", "height", "position")
 _TEXT = ("title", "height", "width")
+_DIAGRAM = ("title", "title_height", "letter", "height", "width")
 _FORCES = ("title_height", "letter", "height", "position")
 _FORCE_TEXT = ("height", "width", "position")
 
@@ -63,13 +65,18 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "calculation": Kind(calculation_block, ("of", "title", "height", "position")),
         "results": Kind(results_block, (*_TEXT, "columns")),
         "text": Kind(text_block, ("text", *_TEXT)),
-        "loads": Kind(_late("loads"), _VIEW),
-        "load-statement": Kind(_late("load-statement"), (*_TEXT, "position")),
-        "cut": Kind(_late("cut"), _FORCES, each=True),
-        "force-equations": Kind(_late("force-equations"), _FORCE_TEXT, each=True),
-        "force-plan": Kind(_late("force-plan"), _FORCES, each=True),
-        "lever": Kind(_late("lever"), _VIEW),
-        "lever-equation": Kind(_late("lever-equation"), (*_TEXT, "position")),
-        "reactions": Kind(_late("reactions"), (*_TEXT, "position")),
+        "loads": Kind(_late("forces", "loads"), _VIEW),
+        "load-statement": Kind(_late("forces", "load-statement"), (*_TEXT, "position")),
+        "cut": Kind(_late("forces", "cut"), _FORCES, each=True),
+        "force-equations": Kind(_late("forces", "force-equations"), _FORCE_TEXT, each=True),
+        "force-plan": Kind(_late("forces", "force-plan"), _FORCES, each=True),
+        "lever": Kind(_late("forces", "lever"), _VIEW),
+        "lever-equation": Kind(_late("forces", "lever-equation"), (*_TEXT, "position")),
+        "reactions": Kind(_late("forces", "reactions"), (*_TEXT, "position")),
+        "cycle-statement": Kind(_late("cycle", "cycle-statement"), _TEXT),
+        "balance-diagram": Kind(_late("cycle", "balance-diagram"), _DIAGRAM),
+        "reaction-diagram": Kind(_late("cycle", "reaction-diagram"), _DIAGRAM[1:], each=True),
+        "hodographs": Kind(_late("cycle", "hodographs"), (*_DIAGRAM, "per_row")),
+        "cycle-reactions": Kind(_late("cycle", "cycle-reactions"), _TEXT),
     }
 )

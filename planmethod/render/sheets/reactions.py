@@ -34,7 +34,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     still = [abs(moment) <= NOTHING * reading.peak_moment for moment in moments]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
     turning = alike([0.0 if nil else abs(m) for m, nil in zip(moments, still, strict=True)])
-    angles = [russian(f"{_angle(complex(one.force[index])):.1f}") for one in reactions]
+    angles = [russian(f"{direction(complex(one.force[index])):.1f}") for one in reactions]
     columns = [
         TableColumn(
             "Пара", tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
@@ -56,7 +56,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     return Column([table, _balances(reading, height, width)], gap=4.0)
 
 
-def _angle(force: complex) -> float:
+def direction(force: complex) -> float:
     """Return the angle of a force from +x, degrees in [0, 360)."""
     turn = round(angle_of(force), 1) % 360.0
     return turn + 0.0

@@ -41,7 +41,7 @@ def scale_inscription(scale: Scale, convention: Convention) -> str:
     """Return the inscription under a view: ``μ_v = 0,05 (м/с)/мм`` or ``μ_v = 20 мм/(м/с)``."""
     letter = scale.symbol.removeprefix("mu_")
     unit = UNITS_RU[scale.unit]
-    grouped = f"({unit})" if "/" in unit else unit
+    grouped = f"({unit})" if "/" in unit or "·" in unit else unit
     if convention is Convention.MM_PER_UNIT:
         return f"μ_{{{letter}}} = {number(1.0 / scale.per_mm)} мм/{grouped}"
     return f"μ_{{{letter}}} = {number(scale.per_mm)} {grouped}/мм"

@@ -35,7 +35,7 @@ TOP = ("about", "formats", "per_sheet", "grow", "arrange", "sizes", "groups", "s
 SIZES = ("letter", "title", "text", "column", "scheme", "velocity", "acceleration")
 SHEET = ("title",)
 
-MOST_PER_SHEET = 12
+MOST_PER_SHEET = 36
 
 VIEWS = {"scheme": PlanKind.POSITION, **OF}
 ARRANGES: tuple[Arrange, ...] = ("free", "row", "column")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces")
+SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces", "forces-cycle")
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
 

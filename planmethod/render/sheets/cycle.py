@@ -1,0 +1,432 @@
+"""Blocks of the forces over the cycle: diagrams, polar diagrams, table by positions (за цикл)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TypeAlias
+
+import numpy as np
+
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.errors import LayoutError
+from planmethod.note.cycle import cycle_statement, cycle_wanted
+from planmethod.note.force_formulas import found, link_names
+from planmethod.note.given import point_name
+from planmethod.note.numbers import MINUS, UNITS_RU, alike, russian
+from planmethod.plans.cycle import Cycle, Piece, cycle
+from planmethod.plans.forcereading import NOTHING, require_dynamics
+from planmethod.plans.model import PlanKind
+from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
+from planmethod.plans.solution import Reals, Solution
+from planmethod.problem.model import Convention
+from planmethod.render.block import Block, Column, Line, Picture, Row, heading, paragraph
+from planmethod.render.diagram import (
+    Abscissae,
+    Curve,
+    Mark,
+    Ordinates,
+    diagram_picture,
+    mark_items,
+)
+from planmethod.render.drawing import Item, Pen, View
+from planmethod.render.extent import ink_bounds
+from planmethod.render.forces.hodograph import (
+    hodograph_picture,
+    hodograph_scale,
+    opposite,
+    polar_groups,
+)
+from planmethod.render.frame import STAMP_WIDTH
+from planmethod.render.pack import EDGE
+from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.reactions import direction
+from planmethod.render.sheets.results import position_text
+from planmethod.render.sheets.views import Viewed, scale_inscription
+from planmethod.render.tables import Cell, TableColumn, table_block
+from planmethod.render.typeset import typeset
+
+Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
+
+NBSP = "\u00a0"
+CHORDS = "Нагрузка известна только в положениях: между ними хорды"
+BY_PLANS, BY_LEVER = "по планам сил", "по рычагу Жуковского"
+
+WIDE, HIGH, SIDE = 0.8, 0.3, 0.45
+"""Length and height of a diagram, and side of a polar diagram, as parts of the width of a text."""
+
+PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
+"""Lines of the curves of one diagram, in turn."""
+
+
+@dataclass(frozen=True)
+class CycleViewed(Viewed):
+    """A diagram among the blocks of a sheet: no segment of it is measured."""
+
+    name: str
+    scale: Scale
+
+    def view(self, items: Sequence[Item], corner: complex) -> View:
+        """Return what is told of the view."""
+        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
+        letter = self.scale.symbol.removeprefix("mu_")
+        return View(self.name, box, f"μ_{{{letter}}}", self.scale.per_mm)
+
+
+def _cycle(solution: Solution) -> Cycle:
+    require_dynamics(solution.problem)
+    if len(solution.positions) < 2:
+        raise LayoutError(
+            f"{solution.problem.name}: a layout with forces over the cycle needs several positions,"
+            " 1 is asked. Ask more: --phi 0:360:30, or phi = { from = 0, count = 12 } in [driver]."
+        )
+    return cycle(solution)
+
+
+def _named(picture: Block, title: str, said: Iterable[Block], manner: Manner) -> Column:
+    lines: list[Block] = [Line(typeset(title, manner.title), underline=True), *said]
+    return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
+
+
+def _line(manner: Manner, text: str) -> Line:
+    return Line(typeset(text, manner.text(manner.sizes.text)))
+
+
+# Diagrams ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """Where the positions stand on the axis of abscissae: its scale and its first position."""
+
+    solution: Solution
+    scale: Scale
+    first: float
+    sense: int
+
+    @classmethod
+    def of(cls, solution: Solution, forces: Cycle, width: float) -> _Frame:
+        drive, ends = solution.problem.drive, forces.course.drawn
+        inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
+        per_mm = choose_scale((float(np.ptp(ends)), 0.0), (width, 1.0), mm_per_unit=inverse)
+        scale = Scale("mu_φ", per_mm, "deg") if drive.is_crank else Scale("mu_s", per_mm, "m")
+        falling = bool(solution.positions[1] < solution.positions[0])
+        return cls(solution, scale, float(ends[-1 if falling else 0]), -1 if falling else 1)
+
+    def x(self, position: float) -> float:
+        """Return where a driver position is, mm."""
+        return self.sense * (position - self.first) / self.scale.per_mm
+
+    def axis(self, forces: Cycle) -> Abscissae:
+        """Return the axis with the numbers of the asked positions."""
+        drive = self.solution.problem.drive
+        marks = [(self.x(float(p)), str(k)) for k, p in enumerate(self.solution.positions)]
+        if forces.course.closed:
+            least = int(np.argmin(self.solution.positions))
+            marks.append((self.x(float(forces.course.drawn[-1])), str(least)))
+        name = f"φ_{{{drive.link}}}" if drive.is_crank else "s"
+        return Abscissae(name, tuple(x for x, _ in marks), tuple(text for _, text in marks))
+
+    def parts(
+        self, pieces: Sequence[Piece], per_mm: float, value: Callable[[complex], float]
+    ) -> tuple[tuple[complex, ...], ...]:
+        """Return a curve's parts on the diagram, mm."""
+        parts = (
+            tuple(
+                complex(self.x(float(p)), value(complex(v)) / per_mm)
+                for p, v in zip(piece.positions, piece.values, strict=True)
+            )
+            for piece in pieces[:: self.sense]
+        )
+        return tuple(part[:: self.sense] for part in parts)
+
+
+def _range(pieces: Iterable[Sequence[Piece]], value: Callable[[complex], float]) -> float:
+    values = [value(complex(v)) for one in pieces for piece in one for v in piece.values]
+    return max([0.0, *values]) - min([0.0, *values])
+
+
+def _diagram_sizes(manner: Manner) -> tuple[float, float]:
+    column = manner.width(manner.sizes.column)
+    return WIDE * column, HIGH * column
+
+
+def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return what balances the driver over the cycle, and what both methods find on paper."""
+    forces = _cycle(solution)
+    width, height = _diagram_sizes(manner)
+    frame = _Frame.of(solution, forces, width)
+    statics, crank = solution.statics, solution.problem.drive.is_crank
+    symbol, unit = (BALANCING_MOMENT, "N·m") if crank else (BALANCING_FORCE, "N")
+    inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
+    reach = _range([forces.balance], _real)
+    per_mm = choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
+    scale = Scale("mu_M" if crank else "mu_F", per_mm, unit)
+    curve = Curve("", frame.parts(forces.balance, per_mm, _real))
+    marks, said = [], []
+    convention = solution.problem.scales.convention
+    balances = statics.drawn.balances
+    if balances is not None:
+        for mark, values in ((Mark.RING, balances.plans), (Mark.CROSS, balances.lever)):
+            marks += [
+                (mark, complex(frame.x(float(p)), float(v) / per_mm))
+                for p, v in zip(solution.positions, values, strict=True)
+                if np.isfinite(v)
+            ]
+        said = [_legend(manner)]
+    picture = diagram_picture(
+        frame.axis(forces),
+        Ordinates(f"{symbol}, {UNITS_RU[unit]}", per_mm),
+        [curve],
+        marks,
+        letter_height=manner.letter,
+        name="balance",
+    )
+    what = "Уравновешивающий момент" if crank else "Уравновешивающая сила"
+    lines = [_scales(manner, convention, scale, frame.scale), *said, *_chords(forces, manner)]
+    block = _named(picture, manner.entry.title or f"{what} {symbol}", lines, manner)
+    return CycleViewed(
+        block, solution, PlanKind.POSITION, tuple(indices), name="balance", scale=scale
+    )
+
+
+def _real(value: complex) -> float:
+    return value.real
+
+
+def _legend(manner: Manner) -> Block:
+    """Return what the marks of the balance are."""
+    height = manner.text(manner.sizes.text)
+    parts: list[Block] = [Line(typeset("линия — точно;", height))]
+    for mark, text in ((Mark.RING, f"— {BY_PLANS};"), (Mark.CROSS, f"— {BY_LEVER}")):
+        items = tuple(mark_items(mark, 0j))
+        parts.append(
+            Row(
+                [Picture(items, ink_bounds(items)), Line(typeset(text, height))],
+                gap=1.5,
+                align="centre",
+            )
+        )
+    return Row(parts, gap=3.0, align="centre")
+
+
+def _scales(manner: Manner, convention: Convention, *scales: Scale) -> Line:
+    return _line(manner, "; ".join(scale_inscription(scale, convention) for scale in scales))
+
+
+def _chords(forces: Cycle, manner: Manner) -> list[Block]:
+    return [] if forces.smooth else [_line(manner, CHORDS)]
+
+
+def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return the sizes of the reactions of one force plan over the cycle."""
+    forces = _cycle(solution)
+    width, height = _diagram_sizes(manner)
+    frame = _Frame.of(solution, forces, width)
+    links = solution.statics.board.plans[manner.entry.number].links
+    own = [k for k, joint in enumerate(forces.joints) if joint.on in links]
+    numbers = [k for k in own if not forces.is_nothing(k)]
+    inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
+    reach = _range([forces.force(k) for k in numbers], abs)
+    per_mm = choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
+    scale = Scale("mu_F", per_mm, "N")
+    curves: list[Curve] = []
+    for k in numbers:
+        symbol = _symbol(forces, k)
+        parts = frame.parts(forces.force(k), per_mm, abs)
+        same = next((c for c, other in enumerate(curves) if _alike(other.parts, parts)), None)
+        if same is None:
+            curves.append(Curve(symbol, parts, PENS[len(curves) % len(PENS)]))
+        else:
+            both = f"{curves[same].symbol} = {symbol}"
+            curves[same] = Curve(both, curves[same].parts, curves[same].pen)
+    picture = diagram_picture(
+        frame.axis(forces),
+        Ordinates(f"F, {UNITS_RU['N']}", per_mm),
+        curves,
+        letter_height=manner.letter,
+        name=f"reactions {manner.entry.number}",
+    )
+    whose = "группы звеньев" if len(links) > 1 else "начального звена"
+    title = f"Реакции {whose} {link_names(links)}"
+    lines = [_scales(manner, solution.problem.scales.convention, scale, frame.scale)]
+    none = [f"{_symbol(forces, k)} = 0" for k in own if k not in numbers]
+    lines += [_line(manner, "; ".join(none))] if none else []
+    block = _named(picture, title, [*lines, *_chords(forces, manner)], manner)
+    return CycleViewed(
+        block, solution, PlanKind.POSITION, tuple(indices), name="reactions", scale=scale
+    )
+
+
+def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -> bool:
+    """Tell whether two curves would be drawn over each other."""
+    if [len(part) for part in one] != [len(part) for part in two]:
+        return False
+    pairs = (pair for a, b in zip(one, two, strict=True) for pair in zip(a, b, strict=True))
+    return all(abs(p - q) < 0.2 for p, q in pairs)
+
+
+# Polar diagrams ----------------------------------------------------------------------------------
+
+
+def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return the polar diagrams of the reactions in the revolute joints, in rows."""
+    forces = _cycle(solution)
+    side = SIDE * manner.width(manner.sizes.column)
+    convention = solution.problem.scales.convention
+    cells: list[Block] = []
+    scale = solution.statics.scale
+    for group in polar_groups(forces):
+        k = group[0]
+        scale = hodograph_scale(forces, k, side)
+        size, at = forces.peak(k)
+        symbol = _symbol(forces, k)
+        lines = [
+            _line(manner, _whose(forces, group)),
+            _line(manner, scale_inscription(scale, convention)),
+            _line(manner, _largest(solution, symbol, size, at)),
+        ]
+        picture = hodograph_picture(forces, k, scale.per_mm, manner.letter)
+        cells.append(Column([picture, Column(lines, gap=2.5, align="centre")], gap=4.0,
+                            align="centre"))  # fmt: skip
+    step = manner.entry.per_row or 3
+    rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in range(0, len(cells), step)]
+    title = Line(typeset(manner.entry.title or "Годографы реакций", manner.title), underline=True)
+    block = Column([title, *rows, *_chords(forces, manner)], gap=7.0, align="centre")
+    return CycleViewed(
+        block, solution, PlanKind.POSITION, tuple(indices), name="hodograph", scale=scale
+    )
+
+
+def _symbol(forces: Cycle, number: int) -> str:
+    joint = forces.joints[number]
+    return reaction_symbol(joint.on, joint.by)
+
+
+def _whose(forces: Cycle, group: Sequence[int]) -> str:
+    """Return the reactions that a polar diagram shows, and their joints."""
+    first = group[0]
+    signs = ["" if k == first or not opposite(forces, first, k) else MINUS for k in group]
+    symbols = [sign + _symbol(forces, k) for sign, k in zip(signs, group, strict=True)]
+    joints = dict.fromkeys(point_name(forces.joints[k].joint) for k in group)
+    word = "шарнир" if len(joints) == 1 else "шарниры"
+    return f"{' = '.join(symbols)} ({word} {', '.join(joints)})"
+
+
+def _largest(solution: Solution, symbol: str, size: float, at: float) -> str:
+    """Return the largest size of a reaction and the position where it is."""
+    drive = solution.problem.drive
+    letter, _, index = symbol.partition("_")
+    head = f"{letter}_{{{index.strip('{}')} max}} = {found(size)} {UNITS_RU['N']}"
+    if drive.is_crank:
+        return f"{head} при φ_{{{drive.link}}} = {russian(f'{at % 360.0:.0f}')}°"
+    return f"{head} при s = {found(at)} м"
+
+
+# Texts -------------------------------------------------------------------------------------------
+
+
+def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return "Дано" with masses and loads of all positions, and "Определить"."""
+    _cycle(solution)
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    said = "; ".join(fact.replace(" ", NBSP) for fact in cycle_statement(solution))
+    lines: list[Block] = [
+        paragraph(f"Дано: {said}.", height, width=width),
+        paragraph(f"Определить за цикл: {cycle_wanted(solution)}.", height, width=width),
+    ]
+    if manner.entry.title:
+        lines.insert(0, heading(manner.entry.title, height, width=width))
+    return Column(lines, gap=3.0)
+
+
+# Table -------------------------------------------------------------------------------------------
+
+
+def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the table of reactions and of the balance by positions."""
+    forces = _cycle(solution)
+    size = manner.sizes.text
+    height = manner.text(min(size, 3.5))
+    room = manner.inside - 2 * EDGE
+    width = min(max(STAMP_WIDTH, manner.width(room)), room)
+    drive = solution.problem.drive
+    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
+    columns = [
+        TableColumn("№", tuple(str(i) for i in indices), least=8.0),
+        TableColumn(symbol, tuple(position_text(solution, i) for i in indices), unit=unit),
+    ]
+    for k in range(len(forces.joints)):
+        columns += _reaction_columns(forces, k, indices)
+    columns += _balance_columns(solution, indices)
+    title = manner.entry.title or "Реакции и уравновешивание по положениям"
+    return table_block(columns, height, max_width=width, leading=2, title=title)
+
+
+def _reaction_columns(forces: Cycle, number: int, indices: Sequence[int]) -> list[TableColumn]:
+    """Return size and direction of a reaction, and of a guide its moment about the pin."""
+    joint, statics = forces.joints[number], forces.solution.statics
+    values = [complex(joint.force[i]) for i in indices]
+    nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
+    sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
+    angles = [
+        "—" if nil else russian(f"{direction(v):.1f}")
+        for v, nil in zip(values, nothing, strict=True)
+    ]
+    index = reaction_symbol(joint.on, joint.by, letter="")
+    columns = [
+        TableColumn(reaction_symbol(joint.on, joint.by), tuple(map(russian, sizes)), unit="Н"),
+        TableColumn(f"φ{index}", tuple(angles), unit="°"),
+    ]
+    moments = [float(joint.moment[i]) for i in indices]
+    lengths = [length for _, _, length in forces.solution.problem.lengths]
+    least = [NOTHING * statics.largest(i) * max(lengths, default=1.0) for i in indices]
+    none = [abs(m) <= small for m, small in zip(moments, least, strict=True)]
+    if not all(none):
+        texts = alike([0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)])
+        cells = tuple(
+            Cell(russian(text), 0 if nil else (1 if m > 0 else -1))
+            for text, m, nil in zip(texts, moments, none, strict=True)
+        )
+        columns.append(TableColumn(f"M{index}", cells, unit=UNITS_RU["N·m"]))
+    return columns
+
+
+def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableColumn]:
+    """Return the balance: exact, by both methods, their difference and its expected size."""
+    statics, crank = solution.statics, solution.problem.drive.is_crank
+    symbol, unit = (
+        (BALANCING_MOMENT, UNITS_RU["N·m"]) if crank else (BALANCING_FORCE, UNITS_RU["N"])
+    )
+
+    def column(head: str, values: Reals, *, sense: bool, digits: int = 4) -> TableColumn:
+        chosen = [float(values[i]) for i in indices]
+        texts = alike([abs(v) if sense else v for v in chosen], digits)
+        cells = [
+            Cell(russian(text), (1 if v > 0 else -1 if v < 0 else 0) if sense else None)
+            for text, v in zip(texts, chosen, strict=True)
+        ]
+        return TableColumn(head, tuple(cells), unit=unit)
+
+    columns = [column(symbol, statics.balance, sense=crank)]
+    balances, sigma = statics.drawn.balances, statics.drawn.discrepancy_sigma
+    if balances is None or sigma is None:
+        return columns
+    columns.append(column("планы сил", balances.plans, sense=crank))
+    columns.append(column("рычаг", balances.lever, sense=crank))
+    columns.append(column("Δ", balances.lever - balances.plans, sense=False, digits=2))
+    columns.append(column("σ_{Δ}", sigma, sense=False, digits=2))
+    return columns
+
+
+MAKERS: Mapping[str, Maker] = MappingProxyType(
+    {
+        "cycle-statement": statement_block,
+        "balance-diagram": balance_diagram,
+        "reaction-diagram": reaction_diagram,
+        "hodographs": hodographs,
+        "cycle-reactions": reactions_table,
+    }
+)
+"""Makers of the blocks, by kind."""

@@ -1,0 +1,145 @@
+"""Forces over the course of the driver: asked positions, curves between them, jumps, gaps."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from loaded import loaded_problem
+from worked import path_of, problem_of
+
+from planmethod import loads
+from planmethod.errors import PlanMethodError
+from planmethod.plans.course import Course
+from planmethod.plans.cycle import Cycle
+from planmethod.plans.solution import Solution
+
+TURN = [30.0 * k for k in range(12)]
+RESISTANCE = "force = 2000 # Н\nangle = -90"
+
+
+def task12(extra: str) -> Solution:
+    """Return a whole turn of task 12 whose resistance has something more."""
+    text = path_of("levers/task12").read_text("utf-8")
+    assert text.count(RESISTANCE) == 1
+    return Solution(loads(text.replace(RESISTANCE, extra), name="task12"), positions=TURN)
+
+
+def exactly(solution: Solution, position: float) -> Solution:
+    return Solution(solution.problem, positions=[position])
+
+
+def sampled(cycle: Cycle) -> list[tuple[float, complex]]:
+    return [
+        (float(p), complex(v))
+        for piece in cycle.balance
+        for p, v in zip(piece.positions, piece.values, strict=True)
+    ]
+
+
+@pytest.mark.parametrize("name", ["levers/task12", "press/press", "press/press-stone"])
+def test_curves_go_through_the_asked_positions_and_are_exact_between(name: str) -> None:
+    solution = Solution(problem_of(name), positions=[12.0 + phi for phi in TURN])
+    cycle = Cycle(solution)
+    assert cycle.smooth and cycle.course.closed
+    for number, joint in enumerate(cycle.joints):
+        (piece,) = cycle.force(number)
+        assert piece.positions[0] == 12.0 and piece.positions[-1] == 372.0
+        assert np.diff(piece.positions).max() <= 1.0 + 1e-9
+        at = {float(p): complex(v) for p, v in zip(piece.positions, piece.values, strict=True)}
+        largest = max(abs(one.force).max() for one in cycle.joints)
+        for position, force in zip(solution.positions, joint.force, strict=True):
+            assert at[float(position)] == pytest.approx(complex(force), abs=1e-12 * largest)
+        assert at[372.0] == pytest.approx(at[12.0], abs=1e-9 * largest)
+        k = len(piece.positions) // 3
+        alone = exactly(solution, float(piece.positions[k])).statics.reactions[number]
+        assert piece.values[k] == pytest.approx(complex(alone.force[0]), abs=1e-9 * largest)
+
+
+def test_a_load_with_a_phase_leaves_gaps_where_it_begins_and_ends() -> None:
+    cycle = Cycle(task12(f"{RESISTANCE}\nphases = {{ phi = [100.5, 203.25] }}"))
+    pieces = cycle.balance
+    assert len(pieces) == 3
+    for (before, after), jump in zip(
+        [(pieces[0], pieces[1]), (pieces[1], pieces[2])], (100.5, 203.25), strict=True
+    ):
+        assert before.positions[-1] <= jump <= after.positions[0]
+        assert after.positions[0] - before.positions[-1] < 1e-3
+        # As far as the load does: nothing else changes in so small a step.
+        with_load, without = (
+            exactly(task12(text), jump).statics.balance[0]
+            for text in (RESISTANCE, RESISTANCE.replace("2000", "0"))
+        )
+        change = abs(after.values[0] - before.values[-1])
+        assert change == pytest.approx(abs(with_load - without), rel=1e-3)
+
+
+def test_a_step_of_a_table_jumps_and_its_slopes_do_not() -> None:
+    step = (
+        'angle = -90\nforce = { over = "phi", interpolation = "KIND", '
+        "values = [[0, 0], [45, 2000], [46, 1000], [300, 0]] }"
+    )
+    jumps = [piece.positions[0] for piece in Cycle(task12(step.replace("KIND", "step"))).balance]
+    assert jumps == pytest.approx([0.0, 45.0, 46.0, 300.0], abs=1e-3)
+    assert len(Cycle(task12(step.replace("KIND", "linear"))).balance) == 1
+
+
+def test_a_steep_force_is_no_jump() -> None:
+    """Task 12 goes near a dead position: its forces rise ten times within thirty degrees."""
+    solution = Solution(problem_of("levers/task12"), positions=TURN)
+    balance = [value.real for _, value in sampled(Cycle(solution))]
+    assert np.abs(np.diff(balance)).max() > 0.02 * np.abs(balance).max()
+    assert len(Cycle(solution).balance) == 1
+
+
+def test_a_load_known_in_its_positions_only_has_chords() -> None:
+    values = [100.0 * k for k in range(12)]
+    text = f'angle = -90\nforce = {{ over = "position", values = {values} }}'
+    whole = path_of("levers/task12").read_text("utf-8").replace(RESISTANCE, text)
+    problem = loads(whole.replace("phi = 245 ", "phi = { from = 0, count = 12 } "), name="task12")
+    solution = Solution(problem)
+    cycle = Cycle(solution)
+    assert not cycle.smooth
+    (piece,) = cycle.balance
+    assert piece.positions.tolist() == [*TURN, 360.0]
+    assert piece.values.real.tolist() == [*solution.statics.balance, solution.statics.balance[0]]
+
+
+def test_positions_between_that_do_not_exist_are_gaps() -> None:
+    """The six-link mechanism closes from 130° to 305° only: between 305° and 490° it does not."""
+    solution = Solution(problem_of("levers/six-link"), positions=[280.0, 300.0, 500.0, 520.0])
+    before, after = Cycle(solution).balance
+    assert 300.0 <= before.positions[-1] < after.positions[0] <= 500.0
+    for position in (before.positions[-1] + 2.0, after.positions[0] - 2.0):
+        with pytest.raises(PlanMethodError):
+            _ = exactly(solution, float(position)).statics.balance
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_mechanisms(seed: int) -> None:
+    """Ranges around the pose, falling as well: a slider drives some of them."""
+    problem, _ = loaded_problem(seed)
+    drive = problem.drive
+    step = (
+        2.0
+        if drive.is_crank
+        else 0.01 * max((length for _, _, length in problem.lengths), default=0.1)
+    )
+    asked = [float(drive.positions[0]) - k * step for k in range(4)]
+    try:
+        solution = Solution(problem, positions=asked)
+        balance = solution.statics.balance
+    except PlanMethodError:
+        pytest.skip("the mechanism does not reach so far from its pose")
+    cycle = Cycle(solution)
+    assert not cycle.course.closed
+    found = dict(sampled(cycle))
+    for position, value in zip(asked, balance, strict=True):
+        assert found[position] == pytest.approx(value, rel=1e-9, abs=1e-9 * np.abs(balance).max())
+
+
+def test_the_course_keeps_what_is_asked() -> None:
+    solution = Solution(problem_of("levers/task12"), positions=[10.0, 10.0, 40.0, 25.0])
+    course = Course(solution, step=1.0, least=120)
+    assert course.drawn.tolist() == [10.0, 25.0, 40.0] and not course.closed
+    assert set(course.drawn) <= set(course.positions)
+    assert len(course.positions) == 121

@@ -1,0 +1,242 @@
+"""The sheet of the forces over the cycle: diagrams and polar diagrams to scale, marks, table."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import cache
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from loaded import loaded_problem
+from worked import path_of, problem_of
+
+from planmethod.cli import cli
+from planmethod.errors import LayoutError, PlanMethodError, ProblemError
+from planmethod.plans.cycle import Cycle
+from planmethod.plans.solution import Solution
+from planmethod.problem.model import Problem
+from planmethod.render.diagram import AXIS, CURVE
+from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Stroke, Text, View
+from planmethod.render.forces.hodograph import HODOGRAPH, POLE, polar_groups
+from planmethod.render.normcontrol import inspect
+from planmethod.render.remarks import Severity
+from planmethod.render.sheets.cycle import CHORDS
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+TURN = tuple(30.0 * k for k in range(12))
+PRESS = tuple(98.918918918919 + phi for phi in TURN)
+SHEETS = (
+    ("levers/task12", TURN),
+    ("levers/six-link", tuple(140.0 + 5.0 * k for k in range(9))),
+    ("press/press", PRESS),
+    ("press/press-stone", PRESS),
+)
+
+
+def draw(problem: Problem, positions: Sequence[float]) -> Drawing:
+    (sheet,) = kinematics_sheets(problem, positions=positions, layout="forces-cycle")
+    return sheet
+
+
+@cache
+def drawn(name: str, positions: tuple[float, ...]) -> Drawing:
+    return draw(problem_of(name), positions)
+
+
+def errors(sheet: Drawing) -> list[str]:
+    return [f.code for f in inspect(sheet) if f.severity is Severity.ERROR]
+
+
+def within(place: complex, view: View) -> bool:
+    x0, y0, x1, y1 = view.box
+    return x0 <= place.real <= x1 and y0 <= place.imag <= y1
+
+
+def curves(sheet: Drawing, view: View) -> list[list[complex]]:
+    """Return the curves of a diagram as one list of points each."""
+    found: dict[str, list[complex]] = {}
+    for item in sheet.items:
+        if isinstance(item, Stroke) and item.tag.startswith(CURVE) and within(item.points[0], view):
+            found.setdefault(item.tag, []).extend(item.points)
+    return list(found.values())
+
+
+def origin(sheet: Drawing, view: View) -> complex:
+    """Return where the axes of a diagram cross: one begins there, the other goes through."""
+    axes = [
+        item.points
+        for item in sheet.items
+        if isinstance(item, Stroke) and item.tag == AXIS and within(item.points[0], view)
+    ]
+    return max(axes, key=lambda points: abs(points[1].real - points[0].real))[0]
+
+
+def per_mm(sheet: Drawing, view: View, letter: str) -> float:
+    """Return a scale as it is written under a diagram."""
+    texts = [t for t in sheet.items if isinstance(t, Text) and within(t.at, view)]
+    rows = {round(t.at.imag, 1) for t in texts if t.text.startswith("μ")}
+    written = [
+        "".join(t.text for t in sorted(texts, key=lambda t: t.at.real) if abs(t.at.imag - y) < 3.5)
+        for y in sorted(rows)
+    ]
+    found = re.search(rf"μ{letter}=([\d,]+)(мм)?", "".join(written).replace(" ", ""))
+    assert found is not None, written
+    value = float(found[1].replace(",", "."))
+    return 1.0 / value if found[2] else value
+
+
+@pytest.mark.parametrize(("name", "positions"), SHEETS)
+def test_the_sheet_passes_the_norm_control(name: str, positions: tuple[float, ...]) -> None:
+    sheet = drawn(name, positions)
+    assert errors(sheet) == []
+    kinds = [view.kind for view in sheet.views]
+    plans = len(Solution(problem_of(name), positions=positions).statics.board.plans)
+    assert kinds == ["position", "balance", *["reactions"] * plans, "hodograph"]
+
+
+@pytest.mark.parametrize(("name", "positions"), SHEETS)
+def test_the_diagrams_are_to_scale(name: str, positions: tuple[float, ...]) -> None:
+    sheet, solution = drawn(name, positions), Solution(problem_of(name), positions=positions)
+    statics = solution.statics
+    for number, view in enumerate(v for v in sheet.views if v.kind in ("balance", "reactions")):
+        zero, lines = origin(sheet, view), curves(sheet, view)
+        scale, turn = view.per_mm, per_mm(sheet, view, "φ")
+        if view.kind == "balance":
+            wanted = [statics.balance.tolist()]
+        else:
+            links = statics.board.plans[number - 1].links
+            sizes = [np.abs(joint.force) for joint in statics.reactions if joint.on in links]
+            wanted = [size.tolist() for size in sizes if size.max() > 1e-6]
+        places = _across(positions, turn)
+        for values in wanted:
+            best = min(
+                max(
+                    abs(value / scale - _height(line, zero, x))
+                    for x, value in zip(places, values, strict=True)
+                )
+                for line in lines
+            )
+            assert best < (0.2 if view.kind == "reactions" else 1e-6)
+
+
+def _height(line: list[complex], zero: complex, x: float) -> float:
+    """Return the height of a curve at an abscissa where it has a point, mm."""
+    gaps = [abs(place.real - zero.real - x) for place in line]
+    return line[gaps.index(min(gaps))].imag - zero.imag
+
+
+def _across(positions: Sequence[float], per: float) -> list[float]:
+    return [(phi - positions[0]) / per for phi in positions]
+
+
+@pytest.mark.parametrize(("name", "positions"), SHEETS)
+def test_the_marks_are_what_both_methods_give_on_paper(
+    name: str, positions: tuple[float, ...]
+) -> None:
+    sheet, solution = drawn(name, positions), Solution(problem_of(name), positions=positions)
+    balances = solution.statics.drawn.balances
+    assert balances is not None
+    (view,) = (v for v in sheet.views if v.kind == "balance")
+    zero = origin(sheet, view)
+    rings = [i.centre for i in sheet.items if isinstance(i, Arc) and i.tag == "mark ring"]
+    crosses = [
+        (i.points[0] + i.points[1]) / 2
+        for i in sheet.items
+        if isinstance(i, Stroke) and i.tag == "mark cross"
+    ][::2]
+    turn = per_mm(sheet, view, "φ")
+    for found, values in ((rings, balances.plans), (crosses, balances.lever)):
+        assert len(found) == len(positions) + 1  # the last one is in the legend
+        for place, x, value in zip(found, _across(positions, turn), values, strict=False):
+            assert place - zero == pytest.approx(complex(x, value / view.per_mm), abs=1e-6)
+
+
+@pytest.mark.parametrize(("name", "positions"), SHEETS)
+def test_the_polar_diagrams_are_the_reactions(name: str, positions: tuple[float, ...]) -> None:
+    """Every ray is a vector of its reaction, at a scale that is written under the diagram."""
+    sheet, solution = drawn(name, positions), Solution(problem_of(name), positions=positions)
+    cycle = Cycle(solution)
+    poles = [i.centre for i in sheet.items if isinstance(i, Disc) and i.tag == POLE]
+    groups = polar_groups(cycle)
+    assert len(poles) == len(groups)
+    rays = [i.points for i in sheet.items if isinstance(i, Stroke) and i.tag == "hodograph vector"]
+    (view,) = (v for v in sheet.views if v.kind == "hodograph")
+    for pole, (first, *_) in zip(poles, groups, strict=True):
+        own = [head - tail for tail, head in rays if abs(tail - pole) < 1e-9]
+        forces = [complex(f) for f in cycle.joints[first].force]
+        per = max(map(abs, forces)) / max(map(abs, own))
+        drawn_forces = [force for force in forces if abs(force) / per > 0.6]
+        assert [ray * per for ray in own] == pytest.approx(drawn_forces, rel=1e-9)
+        lines = [
+            i.points
+            for i in sheet.items
+            if isinstance(i, Stroke) and i.tag == f"{HODOGRAPH} {first}"
+        ]
+        for force in forces:
+            places = [place for line in lines for place in line]
+            assert min(abs(p - pole - force / per) for p in places) < 1e-6
+        assert within(pole, view)
+
+
+def test_equal_and_opposite_reactions_share_a_diagram() -> None:
+    """Link 4 of the press has no mass: what acts at its ends is equal and opposite."""
+    cycle = Cycle(Solution(problem_of("press/press"), positions=PRESS))
+    names = [[f"{cycle.joints[k].on}{cycle.joints[k].by}" for k in g] for g in polar_groups(cycle)]
+    assert ["43", "45"] in names
+    texts = " ".join(i.text for i in drawn("press/press", PRESS).items if isinstance(i, Text))
+    assert "шарниры N, B" in texts.replace("\u00a0", " ")
+
+
+def test_the_table_has_every_position() -> None:
+    sheet = drawn("levers/task12", TURN)
+    texts = [i.text for i in sheet.items if isinstance(i, Text)]
+    statics = Solution(problem_of("levers/task12"), positions=TURN).statics
+    for value in np.abs(statics.balance):
+        assert f"{value:.1f}".replace(".", ",") in texts
+    assert "планы сил" in texts and "рычаг" in texts
+
+
+def test_what_cannot_be_drawn_is_said() -> None:
+    with pytest.raises(LayoutError, match="needs several positions"):
+        draw(problem_of("press/press"), [98.9])
+    with pytest.raises(ProblemError, match="no forces to analyse"):
+        draw(problem_of("linkages/ex3"), TURN)
+    run = CliRunner().invoke(
+        cli, ["sheet", str(path_of("press/press")), "--layout", "forces-cycle"]
+    )
+    assert run.exit_code == 2 and "--phi 0:360:30" in run.output
+
+
+def test_chords_are_told() -> None:
+    from planmethod import loads
+
+    text = path_of("press/press").read_text("utf-8")
+    start = text.index("[loads.force]")
+    end = text.index('interpolation = "linear"') + len('interpolation = "linear"')
+    values = [0, 0, 0, 730, 350.4] + [0] * 7
+    table = f'[loads.force]\nover = "position"\nvalues = {values}'
+    text = (text[:start] + table + text[end:]).replace(
+        "phi = 218.918918918919", "phi = { from = 98.918918918919, count = 12 }"
+    )
+    sheet = draw(loads(text, name="press"), PRESS)
+    texts = " ".join(i.text for i in sheet.items if isinstance(i, Text)).replace("\u00a0", " ")
+    assert CHORDS in texts and errors(sheet) == []
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_mechanisms(seed: int) -> None:
+    """All dyads and driving sliders, every link loaded: a sheet without errors."""
+    problem, _ = loaded_problem(seed)
+    drive = problem.drive
+    size = max((length for _, _, length in problem.lengths), default=0.1)
+    step = 2.0 if drive.is_crank else 0.01 * size
+    asked = [float(drive.positions[0]) + k * step for k in range(4)]
+    try:
+        _ = Solution(problem, positions=asked).statics.balance
+    except PlanMethodError:
+        pytest.skip("the mechanism does not reach so far from its pose")
+    sheet = draw(problem, asked)
+    assert errors(sheet) == []
+    assert any(isinstance(item, Fill) for item in sheet.items)
