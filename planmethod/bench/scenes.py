@@ -64,3 +64,31 @@ def chain(dyads: int) -> Problem:
         rules.append(f'C{k} = "above D{k}"')
     lines += ["[driver]", 'link = "1"', "phi = 40", "omega = 10", "[assembly]", *rules]
     return loads("\n".join(lines) + "\n", name=f"chain-{dyads}")
+
+
+LOADS = """
+[dynamics.links.1]
+mass = 2
+centre = "A"
+inertia = 0.01
+[dynamics.links.3]
+mass = 5
+centre = "S3"
+inertia = 0.1
+[dynamics.links.5]
+mass = 3
+[[loads]]
+link = "5"
+at = "E"
+force = 200
+angle = 0
+[[loads]]
+link = "3"
+couple = 15
+"""
+"""Masses and loads of the six-link mechanism whose forces are timed."""
+
+
+def loaded() -> Problem:
+    """Return a six-link mechanism with masses and loads: slotted link, rod and slider."""
+    return loads(template("six-link") + LOADS, name="six-link with loads")

@@ -8,7 +8,7 @@ from planmethod.bench import report
 from planmethod.bench.report import Table
 from planmethod.problem.model import Problem
 
-SECTIONS = ("speed", "hard", "random", "drafting")
+SECTIONS = ("speed", "forces", "hard", "random", "drafting")
 
 
 def make(
@@ -24,7 +24,7 @@ def make(
     Parameters
     ----------
     problems : sequence of Problem
-        Whose drafting errors are compared.
+        Whose drafting errors are compared; those with loads over a turn, too.
     wanted : sequence of str
         Of `SECTIONS`.
     say : callable
@@ -39,6 +39,11 @@ def make(
     if "speed" in wanted:
         measured, figure = report.measure(say, quick=quick)
         sections += measured
+    if "forces" in wanted:
+        from planmethod.bench.forces_report import forces_section
+
+        say("forces")
+        sections.append(forces_section(problems, quick=quick))
     if "hard" in wanted:
         from planmethod.bench.hard_report import hard_section
 

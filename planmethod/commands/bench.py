@@ -29,7 +29,7 @@ from planmethod.commands.problems import guarded
 )
 @click.option(
     "--only",
-    type=click.Choice(["speed", "hard", "random", "drafting"]),
+    type=click.Choice(["speed", "forces", "hard", "random", "drafting"]),
     multiple=True,
     help="Print these sections instead of writing the document.",
 )

@@ -28,6 +28,7 @@ _BEYOND = 8.0  # mm: an axis goes on beyond what is drawn
 _TICK = 1.2  # mm: half of a tick
 _APART = 11.0  # mm: between the numbers of the axis of ordinates
 _HEAD = 4.0  # mm: arrowhead of an axis
+_BESIDE_AXIS = 25.0  # mm: so near the axis of ordinates no curve has its letter if it can
 _MARK = 1.3  # mm: half of a mark
 
 
@@ -186,7 +187,8 @@ def _letters(curves: Sequence[Curve], height: float, name: str) -> list[Label]:
         def alone(place: complex, others: Sequence[complex] = others) -> float:
             gaps = [abs(other.imag - place.imag) for other in others
                     if abs(other.real - place.real) < 6.0]  # fmt: skip
-            return min(gaps, default=99.0) + 0.2 * abs(place.imag)
+            near_axis = max(0.0, _BESIDE_AXIS - place.real)  # the axis has a name of its own there
+            return min(gaps, default=99.0) + 0.2 * abs(place.imag) - near_axis
 
         at = max(places, key=alone)
         above = sum(o.imag < at.imag for o in others if abs(o.real - at.real) < 6.0)

@@ -1,0 +1,250 @@
+"""Force plans: their time and error beside those of one linear system of all links."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.bench.clock import clock
+from planmethod.bench.scenes import loaded
+from planmethod.bench.speed import RIGHT, Reading, turn
+from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.condition import plain
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.referee import Precise
+from planmethod.errors import AssemblyError
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.forceplan import SCALE
+from planmethod.plans.solution import EVERY, UNIT_SCALES, Solution
+from planmethod.plans.statics import Statics
+from planmethod.problem.model import Problem
+
+Array = npt.NDArray[Any]
+
+JUDGED = 12
+"""Positions of a batch that the referee judges, evenly spread."""
+
+DRAWS = 4000
+SEED = 11
+
+SI = {**UNIT_SCALES, SCALE: 1.0}
+
+
+def forces_of(statics: Statics, value: Any) -> list[Number]:
+    """Return the reactions and the balance of a trace."""
+    found = [value[r.force.head] - value[r.force.tail] for r in statics.board.reactions]
+    assert statics.driving.moment is not None
+    return [*found, value[statics.driving.moment]]
+
+
+def _error(statics: Statics, found: Sequence[Array]) -> float:
+    """Return the largest error of a position in units of its largest force (and moment)."""
+    count = len(statics.solution.positions)
+    referee, worst = Precise(RIGHT), 0.0
+    data = statics.data(SI, EVERY)
+    for i in np.unique(np.linspace(0, count - 1, min(count, JUDGED)).astype(int)):
+        lifted = {n: referee.lift(_at(v, int(i))) for n, v in data.items()}
+        right = forces_of(statics, evaluate(statics.program, lifted, referee).value)
+        exact = [complex(plain(value)) for value in right]
+        size = max(abs(force) for force in exact[:-1])
+        gaps = [abs(complex(row[i]) - v) for row, v in zip(found, exact, strict=True)]
+        worst = max(worst, max(gaps[:-1]) / size, gaps[-1] / max(abs(exact[-1]), 1e-9 * size))
+    return worst
+
+
+def _at(value: Number, index: int) -> Any:
+    return value[index] if np.ndim(value) else value
+
+
+def _batch(statics: Statics, trace: Any) -> list[Array]:
+    shape = statics.solution.positions.shape
+    return [np.broadcast_to(row, shape) for row in forces_of(statics, trace.value)]
+
+
+def readings(counts: Sequence[int]) -> list[Reading]:
+    """Time the force plans, the motion alone, the hand, and all links at once."""
+    problem = loaded()
+    found: list[Reading] = []
+    for count in counts:
+        solution = Solution(problem, positions=turn(count).tolist())
+        statics = solution.statics
+
+        def read(s: Statics = statics) -> Any:
+            return s.read(Float64(), SI)
+
+        def alone(s: Solution = solution) -> Any:
+            return s.read(Float64(), UNIT_SCALES)
+
+        def at_once(s: Statics = statics) -> list[Array]:
+            return all_at_once(s)
+
+        name = problem.name
+        found += [
+            Reading("motion alone, step by step", name, count, clock(alone).median, float("nan")),
+            Reading(
+                "motion and force plans, step by step",
+                name, count, clock(read).median, _error(statics, _batch(statics, read())),
+            ),
+            Reading(
+                "3n equations at once, NumPy, after the motion",
+                name, count, clock(at_once).median, _error(statics, at_once()),
+            ),
+        ]  # fmt: skip
+    return [*found, *_of_one(problem)]
+
+
+def _of_one(problem: Problem) -> list[Reading]:
+    """Time what is read in one position: planning, referee, hand."""
+    solution = Solution(problem, positions=[20.0])
+    statics, name = solution.statics, problem.name
+
+    def precisely() -> Any:
+        referee = Precise(50)
+        data = {n: referee.lift(np.ravel(v)[0]) for n, v in statics.data(SI, EVERY).items()}
+        return evaluate(statics.program, data, referee).value
+
+    found = [
+        Reading(
+            "force plans planned, from the solution",
+            name, 1, clock(lambda: Statics(solution)).median, float("nan"),
+        ),
+        Reading(
+            "referee, 50 digits",
+            name, 1, clock(precisely).median, _precise_error(statics, precisely()),
+        ),
+    ]  # fmt: skip
+    for ruler in (0.1, 0.5, 1.0):
+        drawn = Solution(problem, positions=[20.0], ruler=ruler).statics
+        reading = clock(lambda s=drawn: s.read(s.solution.hand, s.per_mm))  # type: ignore[misc]
+        found.append(
+            Reading(f"the hand, ruler {ruler:g} mm", name, 1, reading.median, _hand_error(drawn))
+        )
+    return found
+
+
+def _precise_error(statics: Statics, value: Any) -> float:
+    referee = Precise(RIGHT)
+    data = {n: referee.lift(np.ravel(v)[0]) for n, v in statics.data(SI, EVERY).items()}
+    right = forces_of(statics, evaluate(statics.program, data, referee).value)
+    found = forces_of(statics, value)
+    size = max(abs(plain(force)) for force in right[:-1])
+    return float(max(abs(plain(a) - plain(b)) for a, b in zip(found, right, strict=True)) / size)
+
+
+def _hand_error(statics: Statics) -> float:
+    """Return the largest error of a reaction's size as the hand has it, of the largest one."""
+    sizes = [abs(joint.force[0]) for joint in statics.reactions]
+    gaps = [abs(statics.drawn.read(k)[0] - size) for k, size in enumerate(sizes)]
+    return float(max(gaps) / max(sizes))
+
+
+def _over_a_turn(problem: Problem) -> Solution:
+    drive = problem.drive
+    if drive.is_crank:
+        try:
+            solution = Solution(problem, positions=(turn(12) + drive.positions[0]).tolist())
+            _ = solution.statics.si
+        except AssemblyError:
+            pass
+        else:
+            return solution
+    return Solution(problem)
+
+
+# All links at once -------------------------------------------------------------------------------
+
+
+def all_at_once(statics: Statics) -> list[Array]:
+    """Return reactions and balance from the 3n equations of all links, position by position.
+
+    The unknowns are those of the force plans, in their order; places, directions of the guides and
+    loads are those of the solution.
+    """
+    solution = statics.solution
+    links = {link: 3 * k for k, link in enumerate(solution.problem.mechanism.links)}
+    count, size = len(solution.positions), 3 * len(links)
+    matrix, right = np.zeros((count, size, size)), np.zeros((count, size))
+    columns: list[tuple[int, Array | None]] = []  # first column of a reaction; its line, of a guide
+
+    def put(column: int, on: str, by: str, force: Any, moment: Any) -> None:
+        for link, sign in ((on, 1.0), (by, -1.0)):
+            if link != FRAME:
+                for k, part in enumerate((force.real, force.imag, moment)):
+                    matrix[:, links[link] + k, column] += sign * part
+
+    column = 0
+    for reaction in statics.board.reactions:
+        at = solution.place(reaction.force.at)
+        line = _across(solution, reaction.on, reaction.by) if reaction.couple is not None else None
+        columns.append((column, line))
+        for force in (1.0 + 0j, 1j) if line is None else (line, 0j):
+            moment = (at.conjugate() * force).imag if np.any(force) else 1.0
+            put(column, reaction.on, reaction.by, np.asarray(force), moment)
+            column += 1
+    put(column, solution.problem.drive.link, FRAME, np.asarray(0j), 1.0)
+    for given in statics.board.given:
+        one = given.applied
+        place = np.zeros(1) if one.point is None else solution.points[one.point].place
+        moment = one.couple + (np.conj(place) * one.force).imag
+        for k, part in enumerate((one.force.real, one.force.imag, moment)):
+            right[:, links[one.link] + k] -= part
+    values = np.linalg.solve(matrix, right[:, :, np.newaxis])[:, :, 0]
+    found = [
+        values[:, k] + 1j * values[:, k + 1] if line is None else values[:, k] * line
+        for k, line in columns
+    ]
+    return [*found, values[:, -1]]
+
+
+def _across(solution: Solution, one: str, two: str) -> Array:
+    """Return the unit vector across the guide between two links."""
+    slides = solution.problem.slides
+    slide = slides[one] if one in slides and slides[one].host == two else slides[two]
+    host = np.zeros(1) if slide.host == FRAME else solution.links[slide.host].phi_deg
+    return np.exp(1j * np.radians(host + slide.angle)) * 1j
+
+
+# Lever and force plans ---------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Discrepancy:
+    """Lever minus force plans of one problem over a turn, as a board draughtsman has it.
+
+    Attributes
+    ----------
+    positions : int
+    least, most : float
+        First-order sigma over that of random sheets (half of the middle 68 %).
+    usual : (float, float)
+        Smallest and largest sigma as a part of the largest balance of the turn.
+    """
+
+    problem: str
+    positions: int
+    least: float
+    most: float
+    usual: tuple[float, float]
+
+
+def discrepancy(problem: Problem) -> Discrepancy:
+    """Compare the expected discrepancy with random sheets.
+
+    In twelve positions of a turn; in those of the file where the driver cannot turn all round.
+    """
+    statics = _over_a_turn(problem).statics
+    positions = statics.solution.positions
+    sigma = statics.drawn.discrepancy_sigma
+    assert sigma is not None
+    ratios = []
+    for i in range(len(positions)):
+        sheets = statics.drawn.sample(i, draws=DRAWS, seed=SEED)["difference"]
+        low, high = np.quantile(sheets, (0.16, 0.84))
+        ratios.append(float(sigma[i]) / float((high - low) / 2))
+    largest = float(np.abs(statics.balance).max())
+    usual = float(sigma.min()) / largest, float(sigma.max()) / largest
+    return Discrepancy(problem.name, len(positions), min(ratios), max(ratios), usual)

@@ -1,0 +1,50 @@
+"""The benchmark of the forces, each measurement taken once: that it runs, and its errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from worked import problem_of
+
+from planmethod.bench import forces
+from planmethod.bench.clock import Timing
+from planmethod.bench.forces_report import forces_section
+from planmethod.bench.speed import turn
+from planmethod.plans.solution import Solution
+
+
+def once(act: Callable[[], object], **_: float) -> Timing:
+    act()
+    return Timing(1e-3, 1e-3, 1e-3, 1)
+
+
+@pytest.fixture(autouse=True)
+def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(forces, "clock", once)
+    monkeypatch.setattr(forces, "DRAWS", 400)
+
+
+def test_readings_are_as_good_as_their_digits() -> None:
+    for reading in forces.readings((1, 24)):
+        if reading.positions == 24 and not reading.name.startswith("motion alone"):
+            assert reading.error < 2e-14, reading
+    errors = {reading.name: reading.error for reading in forces.readings((1,))}
+    assert errors["referee, 50 digits"] < 1e-48
+    assert 1e-5 < errors["the hand, ruler 0.1 mm"] < errors["the hand, ruler 1 mm"] < 0.1
+
+
+@pytest.mark.parametrize("name", ["press/press", "press/press-stone", "levers/task12"])
+def test_all_links_at_once_agree_with_the_force_plans(name: str) -> None:
+    statics = Solution(problem_of(name), positions=(turn(12) + 5.0).tolist()).statics
+    wanted = [*(joint.force for joint in statics.reactions), statics.balance]
+    largest = max(np.abs(row).max() for row in wanted)
+    for row, right in zip(forces.all_at_once(statics), wanted, strict=True):
+        assert np.abs(row - right).max() < 1e-12 * largest
+
+
+def test_the_section_leaves_out_problems_without_loads() -> None:
+    lines = forces_section([problem_of("linkages/ex3"), problem_of("levers/six-link")], quick=True)
+    text = "\n".join(lines)
+    assert "| six-link | 1 |" in text and "ex3" not in text
