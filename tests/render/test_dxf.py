@@ -22,13 +22,16 @@ from worked import PROBLEMS, ROOT, SIX, every_file, path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.mechanism.structure import analyse
+from planmethod.plans.forcereading import force_reading
 from planmethod.plans.model import PlanKind, VectorKind
 from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
 from planmethod.problem import load
 from planmethod.render.backends import Options, render
-from planmethod.render.backends.dxf import LAYERS, LINE_TYPES, layer_of
+from planmethod.render.backends.dxf import LINE_TYPES
+from planmethod.render.backends.layers import LAYERS, layer_of
 from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.lettering import in_use
 from planmethod.render.sheets import kinematics
 from planmethod.render.sheets.kinematics import kinematics_sheets
@@ -193,6 +196,25 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
     ]
     drawn = sorted(length for length in exact if length >= 0.3)
     assert sorted(abs(b - a) for a, b in lines) == pytest.approx(drawn, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["levers/six-link", "levers/task12", "press/press"])
+def test_a_force_of_a_plan_is_one_line_as_long_as_the_force_over_its_scale(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def draw() -> list[Drawing]:
+        return kinematics_sheets(problem_of(name), layout="forces")
+
+    (sheet,), solution = solved_while(draw, monkeypatch)
+    lines = read(render(sheet, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
+    found = sorted(abs(point(line.dxf.end) - point(line.dxf.start)) for line in lines)
+    reading = force_reading(solution, 0)
+    wanted = sorted(
+        abs(reading.vector(edge))
+        for number in range(len(reading.plans))
+        for edge in drawn_edges(reading, number)
+    )
+    assert found == pytest.approx(wanted, abs=1e-6)
 
 
 def test_pb_of_the_third_example_is_64_mm() -> None:

@@ -100,10 +100,11 @@ def _inside(place: complex, box: Bounds) -> bool:
 def arrows(sheet: Drawing, view: View) -> list[tuple[str, complex]]:
     """Return the arrows of forces on a view: letters and vectors, mm."""
     found = []
-    items = [item for item in within(sheet.items, view.box) if item.tag.startswith("force ")]
+    tags = ("force ", "plan-force ")
+    items = [item for item in within(sheet.items, view.box) if item.tag.startswith(tags)]
     for shaft, head in zip(items[::2], items[1::2], strict=True):
         assert isinstance(shaft, Stroke) and isinstance(head, Fill) and shaft.tag == head.tag
-        found.append((shaft.tag.removeprefix("force "), head.points[0] - shaft.points[0]))
+        found.append((shaft.tag.partition("force ")[2], head.points[0] - shaft.points[0]))
     return found
 
 
@@ -243,7 +244,7 @@ def test_vectors_on_one_line_are_drawn_apart_and_it_is_said() -> None:
     sheet = sheet_of("levers/task12")
     assert APART in shown(sheet)
     view = views(sheet, "forces")[0]  # all of its forces are vertical
-    shafts = [item for item in within(sheet.items, view.box) if item.tag.startswith("force ")]
+    shafts = [item for item in within(sheet.items, view.box) if item.tag.startswith("plan-force ")]
     lines = sorted({round(s.points[0].real, 2) for s in shafts if isinstance(s, Stroke)})
     assert len(lines) == 4
     assert min(b - a for a, b in pairwise(lines)) > 1.5

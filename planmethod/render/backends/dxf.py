@@ -22,6 +22,14 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 
 from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.layers import (
+    ARROWS,
+    LAYERS,
+    VECTORS,
+    layer_of,
+    layer_of_area,
+    layer_of_text,
+)
 from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.lettering import OutlineLettering
 from planmethod.render.style import ARROW, PENS, PenStyle, sweep
@@ -39,61 +47,10 @@ LINE_TYPES: Mapping[Pen, str] = MappingProxyType(
     }
 )
 
-LAYERS: Mapping[str, Pen] = MappingProxyType(
-    {
-        "MAIN": Pen.MAIN,
-        "THIN": Pen.THIN,
-        "FRAME": Pen.FRAME,
-        "AXIS": Pen.AXIS,
-        "THICK_AXIS": Pen.THICK_AXIS,
-        "PHANTOM": Pen.PHANTOM,
-        "HIDDEN": Pen.HIDDEN,
-        "HATCHING": Pen.HATCH,
-        "BREAKS": Pen.BREAK,
-        "PALE": Pen.PALE,
-        "LINKS": Pen.MAIN,
-        "SYMBOLS": Pen.MAIN,
-        "MASKS": Pen.THIN,
-        "PLAN_VECTORS": Pen.THIN,
-        "PLAN_ARROWS": Pen.THIN,
-        "PLAN_FIGURES": Pen.THIN,
-        "ERRORS": Pen.THIN,
-        "TABLES": Pen.THIN,
-        "TITLE_BLOCK": Pen.FRAME,
-        "TEXT": Pen.THIN,
-    }
-)
-"""Layers, and the pen whose width, dashes and grey they have."""
-
-_OF_PEN = {pen: name for name, pen in reversed(tuple(LAYERS.items()))}
-_OF_TAG = {
-    "stamp": "TITLE_BLOCK",
-    "margin": "TITLE_BLOCK",
-    "table": "TABLES",
-    "ellipse": "ERRORS",
-    "similar": "PLAN_FIGURES",
-    "pole": "PLAN_FIGURES",
-    "absolute": "PLAN_VECTORS",
-    "relative": "PLAN_VECTORS",
-    "normal": "PLAN_VECTORS",
-    "tangential": "PLAN_VECTORS",
-    "coriolis": "PLAN_VECTORS",
-    "sliding": "PLAN_VECTORS",
-}
-
 _WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it stands for
 _BY_BLOCK = -2  # line weight of what takes that of its block
 _SMOOTH = radians(20.0)
 _NOT_TEXT = re.compile("[\x00-\x1f\x7f-\x9f]")
-
-
-def layer_of(tag: str, pen: Pen) -> str:
-    """Return the layer of a line with this tag and pen."""
-    if tag.startswith("part-of:"):
-        return "TEXT"  # the bar over a letter
-    if tag.startswith("link ") and pen is Pen.MAIN:
-        return "LINKS"
-    return _OF_TAG.get(tag, _OF_PEN[pen])
 
 
 def line_weight(pen: Pen) -> int:
@@ -229,7 +186,7 @@ class DxfCanvas:
             assert isinstance(item, Fill)
             self._mask(item.points)
         else:
-            layer = _OF_TAG.get(item.tag, "SYMBOLS")
+            layer = layer_of_area(item.tag)
             hatch = self._space.add_hatch(color=256, dxfattribs={"layer": layer})
             if isinstance(item, Disc):
                 x, y = item.centre.real, item.centre.imag
@@ -243,7 +200,7 @@ class DxfCanvas:
     def text(self, item: Text) -> None:
         """Draw a run of letters: as text fitted to its width, or as outlines."""
         self._let_go()
-        layer = _OF_TAG.get(item.tag, "TEXT")
+        layer = layer_of_text(item.tag)
         along = exp(1j * radians(item.angle))
         if self._stroked:
             unit = item.height / self._lettering.cap_height
@@ -314,20 +271,19 @@ class DxfCanvas:
     def _arrow(self, item: Fill, tip: complex, along: complex, length: float, wide: float) -> None:
         """Draw an arrowhead, and the shaft that was held for it up to the very tip."""
         held = self._held
-        layer = _OF_TAG.get(item.tag, "SYMBOLS")
-        layer = "PLAN_ARROWS" if layer == "PLAN_VECTORS" else layer
+        layer = layer_of_area(item.tag)
         if isinstance(held, Stroke) and held.tag == item.tag and _leads(held, tip, along, length):
             self._held = None
             start, stop = held.points
             line = layer_of(held.tag, held.pen)
             pen = held.pen
-            if line == "PLAN_VECTORS" and PENS[pen].width > PENS[Pen.THIN].width:
+            if line == VECTORS and PENS[pen].width > PENS[Pen.THIN].width:
                 # A thick line would blunt the tip that it must reach: its thickness is a body.
                 side = along * 1j * PENS[pen].width / 2.0
                 corners = (start + side, start - side, stop + side, stop - side)
-                self._space.add_solid(_pairs(corners), dxfattribs={"layer": "PLAN_ARROWS"})
+                self._space.add_solid(_pairs(corners), dxfattribs={"layer": ARROWS})
                 pen = Pen.THIN
-            end = tip if line == "PLAN_VECTORS" else stop
+            end = tip if line == VECTORS else stop
             (a, b) = _pairs((start, end))
             self._space.add_line(a, b, dxfattribs=self._by_layer(line, pen))
         self._let_go()
@@ -350,7 +306,7 @@ class DxfCanvas:
 
     def _joint(self, radius: float, pen: Pen) -> str:
         """Return the block of a revolute pair: a circle, nothing to be seen through it."""
-        name = f"JOINT_{radius:.6g}_{_OF_PEN[pen]}"
+        name = f"JOINT_{radius:.6g}_{layer_of('', pen)}"
         if name not in self._document.blocks:
             block = self._document.blocks.new(name)
             block.add_wipeout(_pairs(_circle(0j, radius)))

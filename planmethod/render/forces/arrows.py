@@ -24,7 +24,8 @@ HEAD = 4.0
 
 FORCE = "force"
 COUPLE = "couple"
-"""First words of the tags of arrows; the second is the letter."""
+PLAN_FORCE = "plan-force"
+"""First words of the tags of arrows; the second is the letter. Those of plans are to scale."""
 
 MANNER = replace(BUSY, leader_from=4.5, stranger=25.0)
 """How the letter of a force looks for its place: nearest to its own arrow, or with a leader."""

@@ -23,7 +23,7 @@ from planmethod.render.typeset import typeset
 HODOGRAPH = "hodograph"
 """Tag of the curve; of the pole it is `POLE`."""
 
-POLE = "pole of a hodograph"
+POLE = "hodograph pole"
 
 _BEYOND = 7.0  # mm: the axes go on beyond the curve
 _HEAD = 3.5
@@ -96,8 +96,8 @@ def _axes(places: Complexes) -> list[Item]:
     items: list[Item] = []
     for start, end in ((complex(left, 0), complex(right, 0)), (complex(0, low), complex(0, high))):
         along = (end - start) / abs(end - start)
-        items.append(Stroke((start, end - along * _HEAD / 2), Pen.THIN, tag="axis of a hodograph"))
-        items += arrowhead(end, along, length=_HEAD, tag="axis of a hodograph")
+        items.append(Stroke((start, end - along * _HEAD / 2), Pen.THIN, tag="hodograph axis"))
+        items += arrowhead(end, along, length=_HEAD, tag="hodograph axis")
     return items
 
 

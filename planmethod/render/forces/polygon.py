@@ -9,7 +9,7 @@ from planmethod.plans.polygons import Edge, Share
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen
 from planmethod.render.extent import lettered
-from planmethod.render.forces.arrows import FORCE, MANNER, Segment, distance
+from planmethod.render.forces.arrows import MANNER, PLAN_FORCE, Segment, distance
 from planmethod.render.labels import Label
 from planmethod.render.symbols import unit, vector_arrow
 from planmethod.render.typeset import typeset, vector_markup
@@ -104,7 +104,7 @@ def polygon_picture(reading: ForceReading, number: int, letter_height: float) ->
         tail, head = reading.end(edge.tail) + shift, reading.end(edge.head) + shift
         thin = edge.share is not Share.WHOLE
         pen = Pen.THIN if thin else Pen.MAIN
-        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=f"{FORCE} {edge.symbol}")
+        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=f"{PLAN_FORCE} {edge.symbol}")
         labels.append(
             Label(
                 typeset(_written(reading, number, edge), letter_height),
