@@ -13,8 +13,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.errors import LayoutError
 from planmethod.plans.course import Course
-from planmethod.plans.forcereading import NOTHING
+from planmethod.plans.forcereading import NOTHING, require_dynamics
 from planmethod.plans.many import impossible_steps
 from planmethod.plans.solution import Complexes, Reals, Solution
 from planmethod.plans.statics import JointForce
@@ -196,5 +197,19 @@ def _only_in_positions(dynamics: Dynamics) -> bool:
 
 @lru_cache(maxsize=4)
 def cycle(solution: Solution) -> Cycle:
-    """Return the forces over the course of a solution; kept, since several views show them."""
+    """Return the forces over the course of a solution; kept, since several views show them.
+
+    Raises
+    ------
+    ProblemError
+        The problem file gives neither masses nor loads.
+    LayoutError
+        There is only one position.
+    """
+    require_dynamics(solution.problem)
+    if len(solution.positions) < 2:
+        raise LayoutError(
+            f"{solution.problem.name}: a layout with forces over the cycle needs several positions,"
+            " 1 is asked. Ask more: --phi 0:360:30, or phi = { from = 0, count = 12 } in [driver]."
+        )
     return Cycle(solution)

@@ -10,16 +10,14 @@ from typing import TypeAlias
 import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
-from planmethod.errors import LayoutError
 from planmethod.note.cycle import cycle_statement, cycle_wanted
 from planmethod.note.force_formulas import found, link_names
 from planmethod.note.given import point_name
-from planmethod.note.numbers import MINUS, UNITS_RU, alike, russian
+from planmethod.note.numbers import MINUS, UNITS_RU, russian
 from planmethod.plans.cycle import Cycle, Piece, cycle
-from planmethod.plans.forcereading import NOTHING, require_dynamics
 from planmethod.plans.model import PlanKind
 from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
-from planmethod.plans.solution import Reals, Solution
+from planmethod.plans.solution import Solution
 from planmethod.problem.model import Convention
 from planmethod.render.block import Block, Column, Line, Picture, Row, heading, paragraph
 from planmethod.render.diagram import (
@@ -38,13 +36,9 @@ from planmethod.render.forces.hodograph import (
     opposite,
     polar_groups,
 )
-from planmethod.render.frame import STAMP_WIDTH
-from planmethod.render.pack import EDGE
 from planmethod.render.sheets.composition.model import Manner
-from planmethod.render.sheets.reactions import direction
-from planmethod.render.sheets.results import position_text
+from planmethod.render.sheets.cycletable import reactions_table
 from planmethod.render.sheets.views import Viewed, scale_inscription
-from planmethod.render.tables import Cell, TableColumn, table_block
 from planmethod.render.typeset import typeset
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
@@ -72,16 +66,6 @@ class CycleViewed(Viewed):
         box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
         letter = self.scale.symbol.removeprefix("mu_")
         return View(self.name, box, f"μ_{{{letter}}}", self.scale.per_mm)
-
-
-def _cycle(solution: Solution) -> Cycle:
-    require_dynamics(solution.problem)
-    if len(solution.positions) < 2:
-        raise LayoutError(
-            f"{solution.problem.name}: a layout with forces over the cycle needs several positions,"
-            " 1 is asked. Ask more: --phi 0:360:30, or phi = { from = 0, count = 12 } in [driver]."
-        )
-    return cycle(solution)
 
 
 def _named(picture: Block, title: str, said: Iterable[Block], manner: Manner) -> Column:
@@ -154,7 +138,7 @@ def _diagram_sizes(manner: Manner) -> tuple[float, float]:
 
 def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
     """Return what balances the driver over the cycle, and what both methods find on paper."""
-    forces = _cycle(solution)
+    forces = cycle(solution)
     width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
     statics, crank = solution.statics, solution.problem.drive.is_crank
@@ -221,7 +205,7 @@ def _chords(forces: Cycle, manner: Manner) -> list[Block]:
 
 def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
     """Return the sizes of the reactions of one force plan over the cycle."""
-    forces = _cycle(solution)
+    forces = cycle(solution)
     width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
     links = solution.statics.board.plans[manner.entry.number].links
@@ -272,7 +256,7 @@ def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -
 
 def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
     """Return the polar diagrams of the reactions in the revolute joints, in rows."""
-    forces = _cycle(solution)
+    forces = cycle(solution)
     side = SIDE * manner.width(manner.sizes.column)
     convention = solution.problem.scales.convention
     cells: list[Block] = []
@@ -329,7 +313,7 @@ def _largest(solution: Solution, symbol: str, size: float, at: float) -> str:
 
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" with masses and loads of all positions, and "Определить"."""
-    _cycle(solution)
+    cycle(solution)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     said = "; ".join(fact.replace(" ", NBSP) for fact in cycle_statement(solution))
     lines: list[Block] = [
@@ -339,85 +323,6 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     if manner.entry.title:
         lines.insert(0, heading(manner.entry.title, height, width=width))
     return Column(lines, gap=3.0)
-
-
-# Table -------------------------------------------------------------------------------------------
-
-
-def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the table of reactions and of the balance by positions."""
-    forces = _cycle(solution)
-    size = manner.sizes.text
-    height = manner.text(min(size, 3.5))
-    room = manner.inside - 2 * EDGE
-    width = min(max(STAMP_WIDTH, manner.width(room)), room)
-    drive = solution.problem.drive
-    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
-    columns = [
-        TableColumn("№", tuple(str(i) for i in indices), least=8.0),
-        TableColumn(symbol, tuple(position_text(solution, i) for i in indices), unit=unit),
-    ]
-    for k in range(len(forces.joints)):
-        columns += _reaction_columns(forces, k, indices)
-    columns += _balance_columns(solution, indices)
-    title = manner.entry.title or "Реакции и уравновешивание по положениям"
-    return table_block(columns, height, max_width=width, leading=2, title=title)
-
-
-def _reaction_columns(forces: Cycle, number: int, indices: Sequence[int]) -> list[TableColumn]:
-    """Return size and direction of a reaction, and of a guide its moment about the pin."""
-    joint, statics = forces.joints[number], forces.solution.statics
-    values = [complex(joint.force[i]) for i in indices]
-    nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
-    sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
-    angles = [
-        "—" if nil else russian(f"{direction(v):.1f}")
-        for v, nil in zip(values, nothing, strict=True)
-    ]
-    index = reaction_symbol(joint.on, joint.by, letter="")
-    columns = [
-        TableColumn(reaction_symbol(joint.on, joint.by), tuple(map(russian, sizes)), unit="Н"),
-        TableColumn(f"φ{index}", tuple(angles), unit="°"),
-    ]
-    moments = [float(joint.moment[i]) for i in indices]
-    lengths = [length for _, _, length in forces.solution.problem.lengths]
-    least = [NOTHING * statics.largest(i) * max(lengths, default=1.0) for i in indices]
-    none = [abs(m) <= small for m, small in zip(moments, least, strict=True)]
-    if not all(none):
-        texts = alike([0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)])
-        cells = tuple(
-            Cell(russian(text), 0 if nil else (1 if m > 0 else -1))
-            for text, m, nil in zip(texts, moments, none, strict=True)
-        )
-        columns.append(TableColumn(f"M{index}", cells, unit=UNITS_RU["N·m"]))
-    return columns
-
-
-def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableColumn]:
-    """Return the balance: exact, by both methods, their difference and its expected size."""
-    statics, crank = solution.statics, solution.problem.drive.is_crank
-    symbol, unit = (
-        (BALANCING_MOMENT, UNITS_RU["N·m"]) if crank else (BALANCING_FORCE, UNITS_RU["N"])
-    )
-
-    def column(head: str, values: Reals, *, sense: bool, digits: int = 4) -> TableColumn:
-        chosen = [float(values[i]) for i in indices]
-        texts = alike([abs(v) if sense else v for v in chosen], digits)
-        cells = [
-            Cell(russian(text), (1 if v > 0 else -1 if v < 0 else 0) if sense else None)
-            for text, v in zip(texts, chosen, strict=True)
-        ]
-        return TableColumn(head, tuple(cells), unit=unit)
-
-    columns = [column(symbol, statics.balance, sense=crank)]
-    balances, sigma = statics.drawn.balances, statics.drawn.discrepancy_sigma
-    if balances is None or sigma is None:
-        return columns
-    columns.append(column("планы сил", balances.plans, sense=crank))
-    columns.append(column("рычаг", balances.lever, sense=crank))
-    columns.append(column("Δ", balances.lever - balances.plans, sense=False, digits=2))
-    columns.append(column("σ_{Δ}", sigma, sense=False, digits=2))
-    return columns
 
 
 MAKERS: Mapping[str, Maker] = MappingProxyType(

@@ -1,0 +1,94 @@
+"""Table of the forces over the cycle: reactions and balances by positions (таблица за цикл)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planmethod.note.numbers import UNITS_RU, alike, russian
+from planmethod.plans.cycle import Cycle, cycle
+from planmethod.plans.forcereading import NOTHING
+from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
+from planmethod.plans.solution import Reals, Solution
+from planmethod.render.block import Block
+from planmethod.render.frame import STAMP_WIDTH
+from planmethod.render.pack import EDGE
+from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.reactions import direction
+from planmethod.render.sheets.results import position_text
+from planmethod.render.tables import Cell, TableColumn, table_block
+
+
+def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the table of reactions and of the balance by positions."""
+    forces = cycle(solution)
+    size = manner.sizes.text
+    height = manner.text(min(size, 3.5))
+    room = manner.inside - 2 * EDGE
+    width = min(max(STAMP_WIDTH, manner.width(room)), room)
+    drive = solution.problem.drive
+    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
+    columns = [
+        TableColumn("№", tuple(str(i) for i in indices), least=8.0),
+        TableColumn(symbol, tuple(position_text(solution, i) for i in indices), unit=unit),
+    ]
+    for k in range(len(forces.joints)):
+        columns += _reaction_columns(forces, k, indices)
+    columns += _balance_columns(solution, indices)
+    title = manner.entry.title or "Реакции и уравновешивание по положениям"
+    return table_block(columns, height, max_width=width, leading=2, title=title)
+
+
+def _reaction_columns(forces: Cycle, number: int, indices: Sequence[int]) -> list[TableColumn]:
+    """Return size and direction of a reaction, and of a guide its moment about the pin."""
+    joint, statics = forces.joints[number], forces.solution.statics
+    values = [complex(joint.force[i]) for i in indices]
+    nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
+    sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
+    angles = [
+        "—" if nil else russian(f"{direction(v):.1f}")
+        for v, nil in zip(values, nothing, strict=True)
+    ]
+    index = reaction_symbol(joint.on, joint.by, letter="")
+    columns = [
+        TableColumn(reaction_symbol(joint.on, joint.by), tuple(map(russian, sizes)), unit="Н"),
+        TableColumn(f"φ{index}", tuple(angles), unit="°"),
+    ]
+    moments = [float(joint.moment[i]) for i in indices]
+    lengths = [length for _, _, length in forces.solution.problem.lengths]
+    least = [NOTHING * statics.largest(i) * max(lengths, default=1.0) for i in indices]
+    none = [abs(m) <= small for m, small in zip(moments, least, strict=True)]
+    if not all(none):
+        texts = alike([0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)])
+        cells = tuple(
+            Cell(russian(text), 0 if nil else (1 if m > 0 else -1))
+            for text, m, nil in zip(texts, moments, none, strict=True)
+        )
+        columns.append(TableColumn(f"M{index}", cells, unit=UNITS_RU["N·m"]))
+    return columns
+
+
+def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableColumn]:
+    """Return the balance: exact, by both methods, their difference and its expected size."""
+    statics, crank = solution.statics, solution.problem.drive.is_crank
+    symbol, unit = (
+        (BALANCING_MOMENT, UNITS_RU["N·m"]) if crank else (BALANCING_FORCE, UNITS_RU["N"])
+    )
+
+    def column(head: str, values: Reals, *, sense: bool, digits: int = 4) -> TableColumn:
+        chosen = [float(values[i]) for i in indices]
+        texts = alike([abs(v) if sense else v for v in chosen], digits)
+        cells = [
+            Cell(russian(text), (1 if v > 0 else -1 if v < 0 else 0) if sense else None)
+            for text, v in zip(texts, chosen, strict=True)
+        ]
+        return TableColumn(head, tuple(cells), unit=unit)
+
+    columns = [column(symbol, statics.balance, sense=crank)]
+    balances, sigma = statics.drawn.balances, statics.drawn.discrepancy_sigma
+    if balances is None or sigma is None:
+        return columns
+    columns.append(column("планы сил", balances.plans, sense=crank))
+    columns.append(column("рычаг", balances.lever, sense=crank))
+    columns.append(column("Δ", balances.lever - balances.plans, sense=False, digits=2))
+    columns.append(column("σ_{Δ}", sigma, sense=False, digits=2))
+    return columns
