@@ -5,10 +5,17 @@ from __future__ import annotations
 import random
 import re
 import tomllib
+from dataclasses import replace
 
 from planmethod.bench.generator import Pose, random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+
+
+def with_resultant(problem: Problem) -> Problem:
+    """Return a problem that asks for the single resultant of the inertia forces."""
+    assert problem.dynamics is not None
+    return replace(problem, dynamics=replace(problem.dynamics, resultant=True))
 
 
 def loaded_problem(seed: int) -> tuple[Problem, Pose]:

@@ -11,10 +11,12 @@ import re
 from planmethod.construct.steps import PointName
 from planmethod.note.given import given, number, point_name
 from planmethod.note.numbers import MINUS, UNITS_RU, russian, significant, trimmed
+from planmethod.note.resultants import shift_symbol
 from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.loads import Applied, LoadKind
 from planmethod.plans.model import PlanKind
 from planmethod.plans.polygons import BALANCING_MOMENT, CoupleOn, Edge, ForcePlan, Moments
+from planmethod.plans.resultant import Shift
 from planmethod.problem.load_records import Dynamics
 from planmethod.problem.model import Convention
 
@@ -99,34 +101,54 @@ def wanted(reading: ForceReading) -> str:
 
 
 def load_lines(reading: ForceReading) -> list[str]:
-    """Return the weights and the inertia forces and couples with their formulas."""
+    """Return the weights and the inertia forces and couples with their formulas.
+
+    A force of inertia that stands for its couple as well has the couple and its shift beside it.
+    """
+    board = reading.statics.board
+    lines = []
+    for load in board.given:
+        one = load.applied
+        lines += _load_line(reading, one)
+        shift = board.shifts.get(one.link) if one.kind is LoadKind.INERTIA else None
+        if shift is not None:
+            lines += [*_load_line(reading, shift.moment), *_shift_line(reading, one, shift)]
+    return lines
+
+
+def _load_line(reading: ForceReading, one: Applied) -> list[str]:
     solution, index = reading.solution, reading.index
     dynamics = solution.problem.dynamics
     assert dynamics is not None
-    lines = []
-    for given_load in reading.statics.board.given:
-        one = given_load.applied
-        mass = dynamics.masses.get(one.link)
-        force, couple = abs(complex(one.force[index])), abs(float(one.couple[index]))
-        if mass is None or not (force or couple):
-            continue
-        m, kg = f"m_{{{one.link}}}", short(mass.mass)
-        match one.kind:
-            case LoadKind.WEIGHT:
-                formula = f"{m}·g = {kg}·{number(dynamics.gravity)}"
-            case LoadKind.INERTIA:
-                assert mass.centre is not None
-                a = abs(complex(solution.points[mass.centre].acceleration[index]))
-                formula = f"{m}·a_{{{mass.centre}}} = {kg}·{found(a)}"
-            case LoadKind.INERTIA_COUPLE:
-                epsilon = abs(float(solution.links[one.link].epsilon[index]))
-                letter = f"J_{{S{one.link}}}"
-                formula = f"{letter}·ε_{{{one.link}}} = {short(mass.inertia)}·{short(epsilon)}"
-            case _:
-                continue
-        size, unit = (force, NEWTON) if one.point else (couple, NEWTON_METRE)
-        lines.append(f"{one.name} = {formula} = {found(size)} {unit}")
-    return lines
+    mass = dynamics.masses.get(one.link)
+    force, couple = abs(complex(one.force[index])), abs(float(one.couple[index]))
+    if mass is None or not (force or couple):
+        return []
+    m, kg = f"m_{{{one.link}}}", short(mass.mass)
+    match one.kind:
+        case LoadKind.WEIGHT:
+            formula = f"{m}·g = {kg}·{number(dynamics.gravity)}"
+        case LoadKind.INERTIA:
+            assert mass.centre is not None
+            a = abs(complex(solution.points[mass.centre].acceleration[index]))
+            formula = f"{m}·a_{{{mass.centre}}} = {kg}·{found(a)}"
+        case LoadKind.INERTIA_COUPLE:
+            epsilon = abs(float(solution.links[one.link].epsilon[index]))
+            letter = f"J_{{S{one.link}}}"
+            formula = f"{letter}·ε_{{{one.link}}} = {short(mass.inertia)}·{short(epsilon)}"
+        case _:
+            return []
+    size, unit = (force, NEWTON) if one.point else (couple, NEWTON_METRE)
+    return [f"{one.name} = {formula} = {found(size)} {unit}"]
+
+
+def _shift_line(reading: ForceReading, force: Applied, shift: Shift) -> list[str]:
+    moment = abs(float(shift.moment.couple[reading.index]))
+    if not moment:
+        return []
+    size, length = abs(complex(force.force[reading.index])), UNITS_RU["m"]
+    head = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.name}"
+    return [f"{head} = {found(moment)}/{found(size)} = {found(moment / size)} {length}"]
 
 
 # Moments -----------------------------------------------------------------------------------------

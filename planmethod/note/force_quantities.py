@@ -57,6 +57,12 @@ class Sheet:
             return 0.0
         return float(self.motion.solution.reals(self.trace, name)[self.motion.index])
 
+    def place(self, name: PointName) -> complex:
+        """Return where a force acts on the position plan, in units of the motion's trace."""
+        if name in self.motion.trace.value:
+            return self.motion.point(name)
+        return complex(self.motion.solution.complexes(self.trace, name)[self.motion.index])
+
     def newtons(self, length: float, *, laid_off: bool = False) -> float:
         """Return the force that a length stands for; nobody reads again what was laid off."""
         return (length if laid_off else float(self.motion.ruled(length))) * self.per_mm
@@ -227,7 +233,7 @@ class ForceQuantities:
     def _arm(self, line: Line, about: str, sheet: Sheet) -> float:
         vector = self._directed(line, sheet) * line.sense
         motion, size = sheet.motion, abs(vector)
-        ends = motion.point(line.force.at) - motion.point(self._place(about))
+        ends = sheet.place(line.force.at) - motion.point(self._place(about))
         arm = (ends.conjugate() * vector).imag / size
         arm += sheet.number(line.couple) / size / motion.per_mm[PlanKind.POSITION]
         return motion.measure(PlanKind.POSITION, abs(arm)) / self._mu_l
@@ -267,4 +273,5 @@ class ForceQuantities:
                     return given
             elif of.kind is LOADS[kind] and of.link == name:
                 return given
-        return None
+        shift = self.statics.board.shifts.get(name) if kind == "inertia couple" else None
+        return None if shift is None else Given(shift.moment, None, shift.couple)

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from planmethod.note.numbers import finite_or_none, plain
-from planmethod.note.plaintext import fixed, found, spoken, table, wrap
+from planmethod.note.plaintext import fixed, found, plain_text, spoken, table, wrap
+from planmethod.note.resultants import kept_lines, shift_lines
 from planmethod.note.sigmas import sigma_text
 from planmethod.note.wording import Wording
 from planmethod.plans.solution import Solution
@@ -114,6 +115,8 @@ def forces_tables(
             ]
         )
     lines = [words.table_forces, *table(sigma or words.columns_forces, rows, left=2)]
+    for line in (*shift_lines(statics, words, index), *kept_lines(statics, words)):
+        lines += wrap(plain_text(line))
     crank = solution.problem.drive.is_crank
     unit = words.units["N·m"] if crank else words.units["N"]
     balance = words.balance_moment if crank else words.balance_force

@@ -16,7 +16,7 @@ from planmethod.note.letters import shown_letters
 from planmethod.note.numbers import russian
 from planmethod.note.sigmas import sigma_text
 from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.leverreading import HungCouple, LeverReading
+from planmethod.plans.leverreading import HungShift, LeverReading, OnLink
 from planmethod.plans.model import PlanKind
 
 STANDS = "Начальное звено неподвижно: рычаг не строится."
@@ -49,8 +49,9 @@ def lever_lines(reading: ForceReading) -> list[str]:
     arms = [f"{arm_symbol(one.symbol)} = {russian(f'{abs(one.arm):.1f}')}" for one in loaded]
     if arms:
         lines.append(f"{'; '.join(arms)} мм")
-    segments = dict.fromkeys(_segment(lever, one) for one in lever.couples)
+    segments = dict.fromkeys(_segment(lever, one) for one in (*lever.couples, *lever.shifts))
     lines += [segment for segment in segments if segment]
+    lines += [_shift(lever, one) for one in lever.shifts]
     plans, _ = both_balances(reading)
     lines.append(f"{symbol} = {found(abs(value))} {unit}; по планам сил {found(abs(plans))} {unit}")
     share = difference(reading)
@@ -63,7 +64,13 @@ def lever_lines(reading: ForceReading) -> list[str]:
     return lines
 
 
-def _couple(lever: LeverReading, one: HungCouple) -> str:
+def _shift(lever: LeverReading, one: HungShift) -> str:
+    """Return how far the point of a shifted force is from the centre of mass on the lever."""
+    length = russian(f"{abs(one.ends[1] - one.ends[0]):.1f}")
+    return f"({''.join(one.letters)}) = {_couple(lever, one)} = {length} мм"
+
+
+def _couple(lever: LeverReading, one: OnLink) -> str:
     """Return a couple with the arm that it has on the lever: ``M_{Φ2}·(bc)/l_{BC}``."""
     letters = _letters(lever, one)
     if letters is None:
@@ -71,7 +78,7 @@ def _couple(lever: LeverReading, one: HungCouple) -> str:
     return f"{one.symbol}·{letters[0]}/{letters[1]}"
 
 
-def _segment(lever: LeverReading, one: HungCouple) -> str:
+def _segment(lever: LeverReading, one: OnLink) -> str:
     letters = _letters(lever, one)
     if letters is None:
         return ""
@@ -83,7 +90,7 @@ def _segment(lever: LeverReading, one: HungCouple) -> str:
     )
 
 
-def _letters(lever: LeverReading, one: HungCouple) -> tuple[str, str] | None:
+def _letters(lever: LeverReading, one: OnLink) -> tuple[str, str] | None:
     """Return the letters of a couple's segment on the lever and of the length of its link."""
     if one.segment is None or one.joints is None:
         return None

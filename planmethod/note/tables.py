@@ -320,6 +320,13 @@ def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:
     return forces_columns(solution, words)
 
 
+def _resultants(solution: Solution, words: Wording) -> list[str]:
+    from planmethod.note.resultants import kept_lines, shift_lines
+
+    said = [*shift_lines(solution.statics, words), *kept_lines(solution.statics, words)]
+    return [line for text in said for line in wrap(plain_text(text))]
+
+
 # Many positions --------------------------------------------------------------------------------
 
 
@@ -368,4 +375,6 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
     ):
         if columns:
             lines += [*([""] if lines else []), title, *columns_text([*lead, *columns], len(lead))]
+        if columns and title == words.many_forces:
+            lines += _resultants(solution, words)
     return lines

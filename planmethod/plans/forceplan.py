@@ -6,7 +6,7 @@ number, N·m. Places are those of the position plan, so arms are measured where 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from planmethod.plans.draft import Draft
 from planmethod.plans.leads import Kinematics
 from planmethod.plans.loads import Applied, LoadKind
 from planmethod.plans.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
+from planmethod.plans.resultant import Shift, free_letter
 from planmethod.plans.solution import Solution
 
 PREFIX = "f:"
@@ -77,7 +78,8 @@ class Board:
     """State of the force plans while they are being planned (планы сил в работе).
 
     ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
-    groups that hang on it do to it. ``symbols`` are the letters of the couples.
+    groups that hang on it do to it. ``symbols`` are the letters of the couples; ``shifts`` are the
+    forces of inertia, by link, that stand for their couples as well.
     """
 
     draft: Draft
@@ -89,6 +91,7 @@ class Board:
     reactions: list[Reaction] = field(default_factory=list)
     plans: list[ForcePlan] = field(default_factory=list)
     symbols: dict[NumberName, str] = field(default_factory=dict)
+    shifts: dict[str, Shift] = field(default_factory=dict)
     starts: list[PointName] = field(default_factory=list)
     scale: NumberName = field(init=False)
     pole: PointName = field(init=False)
@@ -123,9 +126,16 @@ class Board:
 
     # Loads -----------------------------------------------------------------------------------
 
-    def load(self, solution: Solution, applied: Iterable[Applied]) -> None:
-        """Lay off what acts on the links beside the reactions."""
+    def load(
+        self, solution: Solution, applied: Iterable[Applied], single: Mapping[str, Applied]
+    ) -> None:
+        """Lay off what acts on the links beside the reactions.
+
+        ``single`` are the couples of inertia, by link, that the shifted force stands for.
+        """
         for one in applied:
+            if one is single.get(one.link):
+                continue
             if one.point is None:
                 couple = self._couple(solution, one)
                 self.couples.setdefault(one.link, []).append(couple)
@@ -133,11 +143,15 @@ class Board:
                 self.given.append(Given(one, None, couple))
                 continue
             link, place = self.kin.velocity.named[one.point]
+            at = PointName(place)
             if one.kind is LoadKind.INERTIA:
-                tail, head = self._inertia(solution, one, link, place)
+                mass = self._mass(solution, one)
+                tail, head = self._inertia(mass, link, place)
+                if one.link in single:
+                    at = self._shifted(solution, single[one.link], mass, link, place)
             else:
                 tail, head = self._laid_off(one)
-            force = Force(PointName(place), tail, head, one.name)
+            force = Force(at, tail, head, one.name)
             self.forces.setdefault(one.link, []).append(force)
             self.given.append(Given(one, force, None))
 
@@ -150,19 +164,36 @@ class Board:
             return self.draft.b.compute(self.name("M"), (inertia, 1), (turning, 1), factor=-1.0)
         return self.known("M", one.couple)
 
-    def _inertia(
-        self, solution: Solution, one: Applied, link: str, place: str
-    ) -> tuple[PointName, PointName]:
-        """Carry the acceleration of the centre of mass over, turned back: Φ = -m·a."""
+    def _mass(self, solution: Solution, one: Applied) -> NumberName:
         dynamics = solution.problem.dynamics
         assert dynamics is not None
-        mass = self.known("m", dynamics.masses[one.link].mass)
+        return self.known("m", dynamics.masses[one.link].mass)
+
+    def _inertia(self, mass: NumberName, link: str, place: str) -> tuple[PointName, PointName]:
+        """Carry the acceleration of the centre of mass over, turned back: Φ = -m·a."""
         motion, b = self.kin.acceleration, self.draft.b
         times = b.compute(
             self.name("k"), (mass, 1), (motion.scale, 1), (self.scale, -1), factor=-1.0
         )
         head = motion.point[link, place]
         return self.pole, b.carry(self.name("F"), self.pole, motion.pole, head, times)
+
+    def _shifted(
+        self, solution: Solution, couple: Applied, mass: NumberName, link: str, place: str
+    ) -> PointName:
+        """Lay h = M_Φ/Φ off from the centre of mass, across its acceleration, and note the end."""
+        motion, b, centre = self.kin.acceleration, self.draft.b, PointName(place)
+        head = motion.point[link, place]
+        moment = self._couple(solution, couple)
+        read = b.measure(self.name("a"), motion.pole, head)
+        force = ((mass, -1), (read, -1), (motion.scale, -1))
+        length = b.compute(self.name("h"), (moment, 1), *force, (self.draft.mu_l, -1))
+        # Φ is against the acceleration: to the left of that it turns as a positive M_Φ does.
+        across = b.perpendicular(centre, b.join(motion.pole, head))
+        at = b.lay_off(self.name("T"), centre, across, length)
+        letter = free_letter("T", couple.link, solution.problem)
+        self.shifts[couple.link] = Shift(letter, couple, moment, centre, at, length)
+        return at
 
     def _laid_off(self, one: Applied) -> tuple[PointName, PointName]:
         size = np.abs(one.force)

@@ -57,8 +57,12 @@ class ForceReading:
     # Places, forces, couples -----------------------------------------------------------------
 
     def place(self, point: PointName) -> complex:
-        """Return a place of the position plan, mm."""
-        return self._column(self.solution.paper, point)
+        """Return a place of the position plan, mm; those of shifted forces are among them."""
+        return self._column(self._of_plan(point) or self.statics.paper, point)
+
+    def _of_plan(self, point: PointName) -> Trace | None:
+        """Return the position plan if it has a point."""
+        return self.solution.paper if point in self.solution.paper.value else None
 
     def end(self, point: PointName) -> complex:
         """Return an end of a force plan, or a point of the lever, mm."""
@@ -100,12 +104,14 @@ class ForceReading:
     def arm(self, edge: Edge, about: PointName) -> float:
         """Return the arm of a force about a point as the hand measures it, mm.
 
-        Positive where the force turns counter-clockwise.
+        Positive where the force turns counter-clockwise. A shifted force acts where the hand has
+        laid off the h that follows from its own readings.
         """
         force = self.vector(edge)
         if not abs(force):
             return 0.0
-        across = ((self.place(edge.at) - self.place(about)).conjugate() * force).imag / abs(force)
+        at = self._column(self._of_plan(edge.at) or self.statics.by_hand, edge.at)
+        across = ((at - self.place(about)).conjugate() * force).imag / abs(force)
         return float(self.solution.hand.ruled(across))
 
     @property

@@ -3,7 +3,8 @@
 A force at a point of the mechanism, carried to the like-named point of the turned velocity plan,
 has there a moment about the pole that is its power; all of them and that of the balancing moment
 give none. A couple M on a link stands there as its pair of forces in the like-named points,
-M·(bc)/l_BC each, which comes to M times the link's angular velocity.
+M·(bc)/l_BC each, which comes to M times the link's angular velocity. The place of a shifted force
+of inertia is a point of its link: there the lever has it beside the centre of mass.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from dataclasses import dataclass
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forceplan import Board, Given
+from planmethod.plans.resultant import Shift
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,9 @@ def hang(board: Board) -> Lever | None:
         if at == motion.pole:
             continue
         turned = b.carry(board.name("z"), pole, motion.pole, at, turned=True)
+        shift = board.shifts.get(link)
+        if shift is not None and given.force.at == shift.at:
+            turned = _beside(board, shift, turned)
         hung.append((given, turned))
         area = b.moment(board.name("h"), pole, turned, given.force.tail, given.force.head)
         # The plan is turned by +90°: a moment on it is the power with the other sign.
@@ -63,3 +68,17 @@ def hang(board: Board) -> Lever | None:
     whole = b.total(board.name("P"), *powers)
     balance = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
     return Lever(pole, balance, tuple(hung))
+
+
+def _beside(board: Board, shift: Shift, centre: PointName) -> PointName:
+    """Return the point t of a shifted force: ω·h off the centre of mass, parallel to h.
+
+    On the turned plan the relative velocity lies along the link, against it where that goes
+    counter-clockwise.
+    """
+    b, motion = board.draft.b, board.kin.velocity
+    turning = board.kin.omega[shift.link]
+    times = b.compute(
+        board.name("k"), (turning, 1), (board.draft.mu_l, 1), (motion.scale, -1), factor=-1.0
+    )
+    return b.carry(board.name("t"), centre, shift.centre, shift.at, times)

@@ -10,8 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planmethod.construct.steps import NumberName, PointName
+from planmethod.plans.forceplan import Given
 from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.model import PlanKind
+from planmethod.plans.motion import letter
 from planmethod.plans.scaling import own_scale
 
 
@@ -29,8 +31,8 @@ class HungForce:
 
 
 @dataclass(frozen=True, slots=True)
-class HungCouple:
-    """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
+class OnLink:
+    """Something on a link as the lever has the link.
 
     ``segment`` is the segment of the plan, mm, that stands for the link; ``joints`` are the
     points of the link at its ends. ``ratio`` is the link's |omega| over the plan's scale, mm/m.
@@ -38,11 +40,28 @@ class HungCouple:
 
     symbol: str
     link: str
-    moment: float
-    lever_moment: float
     ratio: float
     segment: tuple[complex, complex] | None
     joints: tuple[str, str] | None
+
+
+@dataclass(frozen=True, slots=True)
+class HungCouple(OnLink):
+    """Couple on the lever: its letter, its link, and its moment about the pole, N·mm."""
+
+    moment: float
+    lever_moment: float
+
+
+@dataclass(frozen=True, slots=True)
+class HungShift(OnLink):
+    """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
+
+    ``letters`` are those of s and t, in rich text.
+    """
+
+    letters: tuple[str, str]
+    ends: tuple[complex, complex]
 
 
 class LeverReading:
@@ -54,6 +73,8 @@ class LeverReading:
         Those that do work; last the balancing one of a driving slider.
     couples : list of HungCouple
         Those that do work; last the balancing one of a crank, as the hand finds it on the lever.
+    shifts : list of HungShift
+        Of the forces of inertia that are moved off the centre of mass.
     """
 
     def __init__(self, reading: ForceReading) -> None:
@@ -65,6 +86,7 @@ class LeverReading:
         self._share = common / self.per_mm
         self.forces: list[HungForce] = []
         self.couples: list[HungCouple] = []
+        self.shifts: list[HungShift] = []
         for given, at in reading.statics.hung.hung:
             one = given.applied
             if at is None:
@@ -76,6 +98,7 @@ class LeverReading:
             force, place = complex(one.force[index]), reading.end(at) * self._share
             if abs(force) > 1e-9 * reading.peak:
                 self.forces.append(self._force(one.name, place, force))
+                self._shift(given, place)
         self._balance(reading.statics.hung.balance)
 
     def _balance(self, balance: NumberName) -> None:
@@ -104,6 +127,27 @@ class LeverReading:
         return 1j * at * self._share
 
     def _couple(self, symbol: str, link: str, moment: float) -> HungCouple:
+        omega = float(self.reading.solution.links[link].omega[self.reading.index])
+        own = self._on(link)
+        return HungCouple(symbol, link, *own, moment, -moment * omega / self.per_mm)
+
+    def _shift(self, given: Given, place: complex) -> None:
+        """Note the shift of a force that hangs beside its centre of mass."""
+        link = given.applied.link
+        shift = self.reading.statics.board.shifts.get(link)
+        if shift is None or given.force is None or given.force.at != shift.at:
+            return
+        assert given.applied.point is not None
+        motion = self.reading.solution.construction.kinematics.velocity
+        centre = self.place(motion.point[motion.named[given.applied.point]])
+        letters = letter(given.applied.point), f"t{shift.letter[1:]}"
+        own = self._on(link)
+        self.shifts.append(HungShift(f"h_{{{link}}}", link, *own, letters, (centre, place)))
+
+    def _on(
+        self, link: str
+    ) -> tuple[float, tuple[complex, complex] | None, tuple[str, str] | None]:
+        """Return the ratio of a link, its segment on the plan and the joints at its ends."""
         solution = self.reading.solution
         kin = solution.construction.kinematics
         omega = float(solution.links[link].omega[self.reading.index])
@@ -115,9 +159,7 @@ class LeverReading:
                 joints = (str(turning.joint), str(turning.place))
         if segment is None and link == solution.problem.drive.link:
             segment, joints = self._crank()
-        return HungCouple(
-            symbol, link, moment, -moment * omega / self.per_mm, ratio, segment, joints
-        )
+        return ratio, segment, joints
 
     def _crank(self) -> tuple[tuple[complex, complex], tuple[str, str]]:
         """Return the pole and the point of the crank's end, and the crank's points."""

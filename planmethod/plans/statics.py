@@ -24,8 +24,9 @@ from planmethod.plans.forceplan import SCALE, Board, Force, Reaction
 from planmethod.plans.impossible import failing
 from planmethod.plans.kinetostatics import drive_forces, group_forces
 from planmethod.plans.lever import Lever, hang
-from planmethod.plans.loads import applied
+from planmethod.plans.loads import Applied, applied
 from planmethod.plans.polygons import ForcePlan
+from planmethod.plans.resultant import Kept, singled
 from planmethod.plans.scaling import Box
 from planmethod.plans.solution import EVERY, UNIT_SCALES, Complexes, Reals, Solution
 from planmethod.problem.model import Convention
@@ -57,12 +58,22 @@ class Statics:
     ----------
     solution : Solution
         Of a problem with ``[dynamics]``; every group must be a dyad.
+
+    Attributes
+    ----------
+    kept : tuple of Kept
+        Links that keep the couple of inertia although the file asks for the single resultant.
     """
 
     def __init__(self, solution: Solution) -> None:
         self.solution = solution
         self.board = Board.of(solution)
-        self.board.load(solution, applied(solution))
+        loads = applied(solution)
+        single: dict[str, Applied] = {}
+        self.kept: tuple[Kept, ...] = ()
+        if solution.problem.dynamics is not None and solution.problem.dynamics.resultant:
+            single, self.kept = singled(solution, loads)
+        self.board.load(solution, loads, single)
         for group in reversed(solution.structure.groups):
             group_forces(self.board, group)
         self.driving = drive_forces(self.board)
@@ -71,6 +82,8 @@ class Statics:
 
     def _asked(self) -> list[Name]:
         asked: list[Name] = []
+        for shift in self.board.shifts.values():
+            asked += [shift.at, shift.length, shift.couple]
         for reaction in self.board.reactions:
             asked += [reaction.force.at, reaction.force.tail, reaction.force.head]
             asked += [reaction.couple] if reaction.couple is not None else []

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, Table, read_keys, read_number, read_table
+from planmethod.problem.fields import Faults, Table, read_flag, read_keys, read_number, read_table
 from planmethod.problem.forces import Scene, read_loads
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import GRAVITY, Dynamics, Mass
@@ -42,13 +42,15 @@ def read_dynamics(
     if "dynamics" not in given and "loads" not in given:
         return None
     scene = Scene(links, fixed, drive)
-    gravity, masses = 0.0, {}
+    gravity, masses, resultant = 0.0, {}, False
     if "dynamics" in given:
         table = read_table(faults, "dynamics", given["dynamics"], _EXAMPLE)
         known = read_keys(faults, "dynamics", table or {}, keys.DYNAMICS)
         gravity = _read_gravity(faults, known.get("gravity", GRAVITY))
         masses = _read_masses(faults, known.get("links", {}), scene)
-    return Dynamics(gravity, masses, read_loads(faults, given.get("loads", []), scene))
+        asked = read_flag(faults, "dynamics.resultant", known.get("resultant", False))
+        resultant = bool(asked)
+    return Dynamics(gravity, masses, read_loads(faults, given.get("loads", []), scene), resultant)
 
 
 def _read_gravity(faults: Faults, value: object) -> float:

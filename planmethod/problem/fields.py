@@ -134,6 +134,15 @@ def read_number(
     return number
 
 
+def read_flag(faults: Faults, path: str, value: object) -> bool | None:
+    """Read true or false; None after noting a fault."""
+    if isinstance(value, bool):
+        return value
+    hint = "Write it without quotes." if value in ("true", "false") else ""
+    faults.add(path, f"expected true or false, got {show(value)}", hint)
+    return None
+
+
 def read_length(faults: Faults, path: str, value: object) -> float | None:
     """Read a length of a link, m."""
     return read_number(faults, path, value, "a length in metres", low=1e-9, high=1e6, positive=True)

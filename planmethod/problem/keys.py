@@ -78,7 +78,7 @@ LETTERINGS = ("A", "A-upright", "B", "B-upright")
 SHEET_CHOICES = {"form": FORMS, "lettering": LETTERINGS}
 """Keys of ``[sheet]`` that take one of some names."""
 CONFIG = ("stamp", "sheet")
-DYNAMICS = ("gravity", "links")
+DYNAMICS = ("gravity", "resultant", "links")
 MASS = ("mass", "centre", "inertia")
 LOAD = ("name", "link", "at", "force", "couple", "angle", "against", "phases")
 TABLE = ("over", "values", "interpolation")

@@ -177,8 +177,12 @@ class Dynamics:
         By link; a link that is not here has no mass (невесомое звено).
     loads : tuple of Load and Couple
         In file order, with different names.
+    resultant : bool
+        The inertia of a link is shown as one force on a shifted line (равнодействующая сил
+        инерции) where it can be, not as a force at the centre of mass and a couple.
     """
 
     gravity: float
     masses: Mapping[str, Mass]
     loads: tuple[Load | Couple, ...]
+    resultant: bool = False

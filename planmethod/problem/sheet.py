@@ -11,7 +11,7 @@ from typing import Any
 from planmethod.errors import LayoutError
 from planmethod.paper import paper_format
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, read_keys, read_table, read_text, show
+from planmethod.problem.fields import Faults, read_flag, read_keys, read_table, read_text, show
 from planmethod.problem.model import SheetSettings
 from planmethod.problem.names import fold, joined, near, segment
 
@@ -40,11 +40,8 @@ def read_sheet(faults: Faults, table: object) -> SheetSettings:
             told[key] = _read_paper(faults, path, value)
         elif key in keys.SHEET_CHOICES:
             told[key] = _read_choice(faults, path, value, keys.SHEET_CHOICES[key])
-        elif isinstance(value, bool):
-            told[key] = value
         else:
-            hint = "Write it without quotes." if value in ("true", "false") else ""
-            faults.add(path, f"expected true or false, got {show(value)}", hint)
+            told[key] = read_flag(faults, path, value)
     return SheetSettings(**told)
 
 

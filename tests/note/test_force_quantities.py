@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from math import atan2, degrees, hypot, pi, sqrt
 
 import pytest
+from loaded import with_resultant
 from slotted import KULISA, SCALES, R, problem_of
+from worked import problem_of as worked
 
 from planmethod.note.audit import Audited, Verdict, audit, source_force_scale
 from planmethod.note.audit_table import EN, RU
@@ -158,6 +161,36 @@ def test_the_hands_balance_is_that_of_its_plans() -> None:
 
 def test_an_angle_of_a_force_is_not_read_with_a_ruler() -> None:
     assert kulisa().read(parse_selector("angle F 2 1")) is None
+
+
+def test_the_shift_is_the_constructed_one() -> None:
+    """Exact and by hand; the press prints H = 83.4 mm at 0.002 m/mm."""
+    problem = with_resultant(worked("press/press"))
+    scales = replace(problem.scales, mu_l=0.002)
+    solution = Solution(replace(problem, scales=scales))
+    (shift,) = solution.statics.board.shifts.values()
+    quantities, selector = Quantities(solution), parse_selector("shift 3")
+    exact = solution.complexes(solution.statics.paper, shift.at) - solution.complexes(
+        solution.paper, shift.centre
+    )
+    assert quantities.exact(selector) == pytest.approx(abs(complex(exact[0])), rel=1e-9)
+    laid = solution.reals(solution.statics.by_hand, shift.length)
+    assert quantities.read(selector) == pytest.approx(abs(float(laid[0])), rel=1e-9)
+    assert abs(complex(exact[0])) == pytest.approx(83.4, abs=0.5)
+
+
+def test_arms_are_those_of_the_shifted_line() -> None:
+    """Φ turns about C by 0.3·6 N·m, and as much as its couple, 0.4·10."""
+    text = KULISA + SCALES + LOADS.replace("inertia = 0.5", "inertia = 0.4\n")
+    single = Quantities(Solution(with_resultant(loads(text, name="kulisa"))))
+    arm = single.exact(parse_selector("arm inertia 3 about C"))
+    assert arm == pytest.approx((0.3 * 6 + 4) / INERTIA / 0.002, rel=1e-9)
+    assert single.exact(parse_selector("inertia couple 3")) == pytest.approx(4.0)
+    # With 5 N·m the shift is longer than the kulisa: the force stays at D.
+    far = Quantities(Solution(with_resultant(loaded())))
+    assert far.exact(parse_selector("arm inertia 3 about C")) == pytest.approx(
+        0.3 * 6 / INERTIA / 0.002, rel=1e-9
+    )
 
 
 # What there is not -----------------------------------------------------------------------------

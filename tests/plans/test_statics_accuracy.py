@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from full_system import Acting, Answer, Pose, cross, slide_between, solve_all
-from loaded import loaded_problem
+from loaded import loaded_problem, with_resultant
 from worked import problem_of
 
 from planmethod.bench import hard_problems as texts
@@ -118,6 +118,18 @@ def test_float64_is_the_solution_of_all_links_at_its_own_pose(which: int | str) 
     statics, referee = statics_of(which), Precise(50)
     values = lifted(read(statics, Float64()), referee)
     assert largest_error(statics, values, all_at_once(statics, values, referee)) <= 1e-9
+
+
+@pytest.mark.parametrize("which", ["levers/six-link", "press/press", *SEEDS])
+def test_one_force_of_inertia_has_as_many_digits(which: int | str) -> None:
+    problem = with_resultant(statics_of(which).solution.problem)
+    statics, referee = Statics(Solution(problem)), Precise(50)
+    values = read(statics, referee)
+    assert largest_error(statics, values, all_at_once(statics, values, referee)) <= 1e-40
+    if which in WORKED:
+        assert statics.board.shifts
+        for verdict in judge(statics):
+            assert verdict.multiple <= MULTIPLE, verdict
 
 
 # In units of what the data allow -----------------------------------------------------------------

@@ -61,6 +61,13 @@ def test_gravity(text: str, gravity: float) -> None:
     assert dynamics_of(f"[dynamics]\ngravity = {text}\n").gravity == gravity
 
 
+@pytest.mark.parametrize(("text", "asked"), [("", False), ("false", False), ("true", True)])
+def test_one_force_of_inertia(text: str, asked: bool) -> None:
+    line = f"resultant = {text}\n" if text else ""
+    assert dynamics_of(f"[dynamics]\n{line}").resultant is asked
+    assert not dynamics_of('[[loads]]\nlink = "1"\ncouple = 1\n').resultant
+
+
 def test_masses() -> None:
     found = dynamics_of(
         """
@@ -202,6 +209,7 @@ def test_a_variant_overrides_a_mass(text: str) -> None:
 def test_a_variant_adds_masses_and_gravity() -> None:
     found = variant("v = { dynamics.gravity = false, dynamics.links.3.mass = 5 }")
     assert (found.gravity, found.masses["3"]) == (0, Mass(5, "C"))
+    assert variant("v = { dynamics.resultant = true }").resultant
     text = "[variants]\nv = { dynamics.links.3.mass = 5 }"
     assert read(text, variant="v").dynamics == Dynamics(9.81, {"3": Mass(5, "C")}, ())
 

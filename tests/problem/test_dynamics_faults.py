@@ -37,6 +37,15 @@ FAULTS = {
         ["dynamics.gravity: expected an acceleration of free fall in m/s² from 0 to 10000, got "
          "-9.81. Check the unit: the file is in SI units and degrees."],
     ),
+    "resultant a number": (
+        "[dynamics]\nresultant = 1\n",
+        ["dynamics.resultant: expected true or false, got the integer 1"],
+    ),
+    "resultant in quotes": (
+        '[dynamics]\nresultant = "true"\n',
+        ["dynamics.resultant: expected true or false, got the string 'true'. Write it without "
+         "quotes."],
+    ),
     "mass of an unknown link": (
         "[dynamics.links.7]\nmass = 1\n",
         ["dynamics.links.7: unknown link '7'. Known here: 1, 2, 3."],
@@ -391,6 +400,8 @@ SEEN = [
     "unknown key",
     "gravity true",
     "gravity negative",
+    "resultant a number",
+    "resultant in quotes",
     "mass of the frame",
     "mass negative",
     "mass in quotes",

@@ -140,6 +140,16 @@ EN = Wording(
         "From the readings: force plans {plans} {unit}, Zhukovsky lever {lever} {unit}, difference "
         "{difference} {unit} ({share}%); the drawing lets expect σ = {sigma} {unit}."
     ),
+    resultant_shift="{force} acts in point {point} and stands for {couple}",
+    resultant_no_force="{couple} stays: link {link} has no force of inertia.",
+    resultant_faint=(
+        "{force} and {couple} are not made one force: in one of the positions the acceleration of "
+        "the centre of mass is too small on its plan."
+    ),
+    resultant_far=(
+        "{force} and {couple} are not made one force: {shift} = {value} m is more than the largest "
+        "length of the mechanism, {limit} m."
+    ),
     hand_note="“Read” is what follows from segments read with a ruler of {ruler} mm divisions.",
     many_forces="Reactions in the joints, N; balancing moment (force)",
     many_places="Coordinates of points, m",

@@ -129,6 +129,10 @@ class Wording:
     balance_moment: str
     balance_force: str
     lever_note: str
+    resultant_shift: str
+    resultant_no_force: str
+    resultant_faint: str
+    resultant_far: str
     hand_note: str
     many_forces: str
     many_places: str

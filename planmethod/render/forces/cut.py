@@ -9,7 +9,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.given import point_name
 from planmethod.plans.forcereading import ForceReading
@@ -26,6 +25,7 @@ from planmethod.render.forces.arrows import (
     force_items,
     lay_forces,
 )
+from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, revolute, slider
@@ -140,15 +140,18 @@ def _loaded_picture(
     links: Iterable[str],
     forces: Sequence[Acting],
     couples: Sequence[Turning],
+    shifts: Sequence[Shifted],
     prefix: str,
 ) -> Picture:
     items = _drawn(scheme)
-    placed = lay_forces(forces, _bars(scheme), gap=SIZES.joint / 2 * scheme.factor + 0.5)
+    bars = [*_bars(scheme), *(shift.line for shift in shifts)]
+    placed = lay_forces(forces, bars, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)
-    items += arrows
+    lines, letters = shift_items(shifts, placed, scheme.letter_height, prefix)
+    items += [*lines, *arrows]
     turns, more = couple_items(couples, items, scheme.letter_height, prefix)
     items += turns
-    return lettered(items, [*labels, *more, *_letters(scheme, prefix, links)])
+    return lettered(items, [*labels, *more, *letters, *_letters(scheme, prefix, links)])
 
 
 @lru_cache(maxsize=32)
@@ -157,21 +160,19 @@ def loads_picture(reading: ForceReading, letter_height: float) -> Picture:
     solution, index = reading.solution, reading.index
     scheme = Scheme(solution, index, letter_height)
     forces, couples = [], []
-    named = reading.statics.board.kin.velocity.named
     for given in reading.statics.board.given:
         one = given.applied
-        if one.point is not None:
+        if given.force is not None:
             force = complex(one.force[index])
             if abs(force) > 1e-9 * reading.peak:
-                place = reading.place(PointName(named[one.point][1]))
-                forces.append(Acting(one.name, place, force))
+                forces.append(Acting(one.name, reading.place(given.force.at), force))
         elif given.couple is not None:
             couple = CoupleOn(one.name, one.link, given.couple)
             if not reading.is_no_couple(couple):
                 couples.append(_turning(reading, scheme, couple))
-    return _loaded_picture(
-        scheme, solution.problem.mechanism.links, forces, couples, f"loads {index}"
-    )
+    links = solution.problem.mechanism.links
+    shifts = shifts_on(reading, links)
+    return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}")
 
 
 @lru_cache(maxsize=64)
@@ -187,7 +188,8 @@ def cut_picture(reading: ForceReading, number: int, letter_height: float) -> Pic
     order = sorted(range(len(forces)), key=lambda k: not _is_part(reading, plan, k))
     couples = [_turning(reading, scheme, couple) for couple in reading.couples(plan)]
     prefix = f"cut {reading.index} {number}"
-    return _loaded_picture(scheme, plan.links, [forces[k] for k in order], couples, prefix)
+    ordered, shifts = [forces[k] for k in order], shifts_on(reading, plan.links)
+    return _loaded_picture(scheme, plan.links, ordered, couples, shifts, prefix)
 
 
 def _is_part(reading: ForceReading, plan: ForcePlan, number: int) -> bool:

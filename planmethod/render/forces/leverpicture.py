@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from planmethod.note.letters import shown_letters
+from planmethod.note.resultants import force_symbol
 from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.leverreading import HungCouple, LeverReading
 from planmethod.plans.model import PlanKind
@@ -18,6 +19,7 @@ from planmethod.render.forces.arrows import (
     force_items,
     lay_forces,
 )
+from planmethod.render.forces.shifts import Shifted, shift_items
 from planmethod.render.labels import Label
 from planmethod.render.planview import similar_lines
 from planmethod.render.typeset import typeset
@@ -64,11 +66,16 @@ def lever_picture(reading: ForceReading, letter_height: float) -> Picture:
         for place, letters in spots
     ]
     forces = [Acting(force.symbol, force.at, force.force) for force in lever.forces]
-    arrows, letters_of_forces = force_items(lay_forces(forces, ()), letter_height, prefix)
-    items += arrows
+    shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.ends) for one in lever.shifts]
+    shifts = [one for one in shifts if one.is_seen]
+    placed = lay_forces(forces, [one.line for one in shifts])
+    arrows, letters_of_forces = force_items(placed, letter_height, prefix)
+    lines, letters_of_shifts = shift_items(shifts, placed, letter_height, prefix)
+    items += [*lines, *arrows]
     turnings = [_turning(one) for one in lever.couples if one.lever_moment]
     turns, letters_of_couples = couple_items(turnings, items, letter_height, prefix)
-    return lettered([*items, *turns], [*letters_of_forces, *letters_of_couples, *labels])
+    named = [*letters_of_forces, *letters_of_couples, *letters_of_shifts, *labels]
+    return lettered([*items, *turns], named)
 
 
 def _turning(one: HungCouple) -> Turning:

@@ -18,6 +18,8 @@ from planmethod.note.force_formulas import (
 )
 from planmethod.note.lever import STANDS, lever_lines
 from planmethod.note.plaintext import plain_text
+from planmethod.note.resultants import kept_lines, shift_lines
+from planmethod.note.wording import wording
 from planmethod.plans.forcereading import ForceReading, force_reading
 from planmethod.plans.model import Known, PlanKind
 from planmethod.plans.scaling import own_scale
@@ -171,6 +173,9 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     if loads:
         text = "; ".join(line.replace(" ", NBSP) for line in loads)
         lines.append(paragraph(f"Силы тяжести и инерции: {text}.", height, width=width))
+    words = wording("ru")
+    told = [*shift_lines(reading.statics, words), *kept_lines(reading.statics, words)]
+    lines += [paragraph(text, height, width=width) for text in told]
     return Column(lines, gap=3.0)
 
 

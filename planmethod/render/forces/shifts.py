@@ -1,0 +1,118 @@
+"""The shift of a force of inertia drawn: across from the centre of mass to its line (плечо h)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from planmethod.note.numbers import russian
+from planmethod.note.resultants import force_symbol, shift_symbol
+from planmethod.plans.forcereading import ForceReading
+from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.forces.arrows import Acting, Segment
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.symbols import unit
+from planmethod.render.typeset import typeset
+
+SHIFT = "shift"
+"""First word of the tags of the lines; the second is the letter of the point."""
+
+_LEAST = 0.3  # mm: nearer the point is the centre of mass
+_ROOM = 6.0  # mm: a shorter shift has no room for the mark of its right angle
+_CORNER = 2.0  # side of that mark, mm
+
+
+@dataclass(frozen=True, slots=True)
+class Shifted:
+    """Force moved off the centre of mass: its letter, that of its point, both places, mm.
+
+    ``told`` is what is written at the line between them.
+    """
+
+    force: str
+    letter: str
+    centre: complex
+    at: complex
+    told: str = ""
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether there is a line to be drawn."""
+        return abs(self.at - self.centre) >= _LEAST
+
+    @property
+    def line(self) -> Segment:
+        """The line from the centre of mass to the point of the force."""
+        return self.centre, self.at
+
+
+def shifts_on(reading: ForceReading, links: Iterable[str]) -> list[Shifted]:
+    """Return the shifts on some links that are there to be drawn."""
+    found = []
+    for link in links:
+        shift = reading.statics.board.shifts.get(link)
+        if shift is not None:
+            centre, at = reading.place(shift.centre), reading.place(shift.at)
+            told = f"{shift_symbol(link)} = {russian(f'{abs(at - centre):.1f}')} мм"
+            found.append(Shifted(force_symbol(link), shift.letter, centre, at, told))
+    return [one for one in found if one.is_seen]
+
+
+def shift_items(
+    shifts: Iterable[Shifted],
+    placed: Sequence[tuple[Acting, Segment]],
+    height: float,
+    prefix: str,
+) -> tuple[list[Item], list[Label]]:
+    """Return the lines of shifts, the lines of action as far as the arrows, points and letters.
+
+    ``placed`` are the arrows of the forces.
+    """
+    items: list[Item] = []
+    labels: list[Label] = []
+    for one in shifts:
+        tag = f"{SHIFT} {one.letter}"
+        items += [Stroke(one.line, Pen.THIN, tag=tag), Disc(one.at, 0.8, Ink.BLACK, tag=tag)]
+        for force, arrow in placed:
+            if force.symbol == one.force:
+                items += _line_of_action(one, min(arrow, key=lambda end: abs(end - one.at)))
+        labels += _letters(one, height, prefix)
+    return items, labels
+
+
+def _line_of_action(one: Shifted, end: complex) -> list[Item]:
+    """Return the line from the point of a force to its arrow, square to the shift."""
+    along, back = end - one.at, one.centre - one.at
+    items: list[Item] = [Stroke((one.at, end), Pen.THIN, tag="line of action")]
+    if abs(back) >= _ROOM:
+        a, b = _CORNER * unit(along), _CORNER * unit(back)
+        corner = (one.at + a, one.at + a + b, one.at + b)
+        items.append(Stroke(corner, Pen.THIN, tag="right angle"))
+    return items
+
+
+def _letters(one: Shifted, height: float, prefix: str) -> list[Label]:
+    """Return the letter of the point, and what is written at the shift."""
+    labels = [
+        Label(
+            typeset(one.letter, height),
+            one.at,
+            prefer=one.at - one.centre,
+            gap=1.5,
+            name=f"{prefix}: point {one.letter}",
+            priority=2,
+            manner=BUSY,
+        )
+    ]
+    if one.told:
+        labels.append(
+            Label(
+                typeset(one.told, height),
+                (one.centre + one.at) / 2,
+                one.line,
+                gap=1.0,
+                name=f"{prefix}: {one.told}",
+                manner=BUSY,
+            )
+        )
+    return labels

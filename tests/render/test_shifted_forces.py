@@ -1,0 +1,182 @@
+"""The sheet of the forces with one force of inertia: its shift drawn, arms to its line."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from itertools import chain
+
+import numpy as np
+import pytest
+from loaded import with_resultant
+from test_forces_sheet import arrows, computed, couples, shown, views, within
+from worked import problem_of
+
+from planmethod.note.force_formulas import load_lines, plan_moments
+from planmethod.note.lever import lever_lines
+from planmethod.note.quantities import Quantities
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.leverreading import LeverReading
+from planmethod.plans.solution import Solution
+from planmethod.problem.selector import parse_selector
+from planmethod.render.drawing import Drawing, Item, Stroke, View
+from planmethod.render.normcontrol import inspect
+from planmethod.render.remarks import Severity
+from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+SHIFTED = {"levers/six-link": "2", "press/press": "3"}
+"""Worked problems, and the link whose force is shifted."""
+
+
+@cache
+def sheet_of(name: str) -> Drawing:
+    (sheet,) = kinematics_sheets(with_resultant(problem_of(name)), layout="forces")
+    return sheet
+
+
+@cache
+def reading_of(name: str) -> ForceReading:
+    views_of = composition("forces").views_for("A1", 1)
+    return ForceReading(Solution(with_resultant(problem_of(name)), views=views_of), 0)
+
+
+def lines(items: list[Item], view: View, tag: str) -> list[Stroke]:
+    found = within(items, view.box)
+    return [item for item in found if isinstance(item, Stroke) and item.tag == tag]
+
+
+def shift_and_force(name: str) -> tuple[float, complex]:
+    """Return h, m, and Φ, N, from the motion alone."""
+    problem = problem_of(name)
+    assert problem.dynamics is not None
+    mass = problem.dynamics.masses[SHIFTED[name]]
+    assert mass.centre is not None
+    solution = Solution(problem)
+    a = complex(solution.points[mass.centre].acceleration[0])
+    epsilon = float(solution.links[SHIFTED[name]].epsilon[0])
+    return mass.inertia * abs(epsilon) / (mass.mass * abs(a)), -mass.mass * a
+
+
+@pytest.mark.parametrize("name", [*SHIFTED, "levers/task12", "press/press-stone"])
+def test_norm_control_finds_no_errors(name: str) -> None:
+    (sheet,) = kinematics_sheets(with_resultant(problem_of(name)), layout="forces")
+    assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
+
+
+@pytest.mark.parametrize("name", SHIFTED)
+def test_the_drawn_shift_is_h_across_the_force(name: str) -> None:
+    sheet, link = sheet_of(name), SHIFTED[name]
+    h, force = shift_and_force(name)
+    drawn = [
+        (line, view)
+        for view in views(sheet, "position")
+        for line in lines(sheet.items, view, f"shift T_{{{link}}}")
+    ]
+    assert len(drawn) == 2  # the scheme with all loads, and the group
+    for line, view in drawn:
+        start, end = line.points
+        assert abs(end - start) * view.per_mm == pytest.approx(h, rel=1e-6)
+        assert abs(((end - start).conjugate() * force).real) < 1e-6 * abs(force)
+        # The arrow lies on the line of action through T.
+        tag = f"force Φ_{{{link}}}"
+        (arrow,) = lines(sheet.items, view, tag)
+        across = ((arrow.points[0] - end).conjugate() * force).imag / abs(force)
+        assert abs(across) < 1e-6
+        (action,) = lines(sheet.items, view, "line of action")
+        assert action.points[0] == end
+    text = shown(sheet)
+    mm = f"{h / drawn[0][1].per_mm:.1f}".replace(".", ",")
+    assert f"= {mm} мм" in text
+
+
+@pytest.mark.parametrize("name", SHIFTED)
+def test_the_couple_is_gone_and_the_others_stay(name: str) -> None:
+    sheet, link = sheet_of(name), SHIFTED[name]
+    there = set(chain.from_iterable(couples(sheet, view) for view in sheet.views))
+    assert f"M_{{Φ{link}}}" not in there
+    assert ("M_{Φ3}" in there) is (name == "levers/six-link")
+    for view in views(sheet, "position")[:1]:
+        assert f"Φ_{{{link}}}" in dict(arrows(sheet, view))
+
+
+@pytest.mark.parametrize("name", SHIFTED)
+def test_moments_have_the_arm_of_the_shifted_line(name: str) -> None:
+    reading, link = reading_of(name), SHIFTED[name]
+    told = [line for plan in reading.plans for line in plan_moments(reading, plan)]
+    assert not any(f"M_{{Φ{link}}}" in line for line in told)
+    pivot = {"2": "C", "3": "O3"}[link]
+    hand = Quantities(reading.solution)
+    arm = hand.read(parse_selector(f"arm inertia {link} about {pivot}"))
+    (line,) = (line for line in told if line.startswith("h_") and f"h_{{Φ{link}}} = " in line)
+    written = re.search(rf"h_{{Φ{link}}} = ([\d,]+)", line)
+    assert written is not None
+    assert float(written[1].replace(",", ".")) == pytest.approx(arm)
+    for text in told:
+        match = re.match(r"^\S+ = (.*\d.*) = ([\d,]+) (?:Н|Н·м)$", text)
+        if match:
+            value = float(match[2].replace(",", "."))
+            assert computed(match[1]) == pytest.approx(value, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", SHIFTED)
+def test_the_arm_is_that_of_force_and_couple(name: str) -> None:
+    """Moment of Φ at S and of M_Φ about a point, over Φ."""
+    link, mu_l = SHIFTED[name], reading_of(name).solution.scales
+    pivot = {"2": "C", "3": "O3"}[link]
+    plain = Solution(problem_of(name), scales=mu_l)
+    given = {g.applied.name: g.applied for g in plain.statics.board.given}
+    force = given[f"Φ_{{{link}}}"]
+    assert force.point is not None
+    arm = plain.points[force.point].place - plain.points[pivot].place
+    moment = (np.conj(arm) * force.force).imag + given[f"M_{{Φ{link}}}"].couple
+    expected = abs(float(moment[0])) / abs(complex(force.force[0]))
+    shifted = Quantities(reading_of(name).solution)
+    found = shifted.exact(parse_selector(f"arm inertia {link} about {pivot}"))
+    per_mm = next(iter(mu_l.values())).per_mm
+    assert found * per_mm == pytest.approx(expected, rel=1e-9)
+
+
+def test_texts_tell_the_shift_and_what_stays() -> None:
+    loads = load_lines(reading_of("levers/six-link"))
+    h, _ = shift_and_force("levers/six-link")
+    (line,) = (line for line in loads if line.startswith("h_{2} = M_{Φ2}/Φ_{2} = "))
+    assert line.endswith(" м")
+    numbers, value = line.split(" = ")[2:]
+    assert computed(numbers) == pytest.approx(h, rel=5e-4)
+    assert float(value[:-2].replace(",", ".")) == pytest.approx(h, rel=5e-4)
+    assert any(line.startswith("M_{Φ2} = J_{S2}·ε_{2} = ") for line in loads)
+    text = shown(sheet_of("levers/six-link"))
+    assert "приложена в точке" in text
+    assert "у звена 1 нет силы инерции" in text
+    (task,) = kinematics_sheets(with_resultant(problem_of("levers/task12")), layout="forces")
+    assert "больше наибольшего размера механизма" in shown(task)
+    (plain,) = kinematics_sheets(problem_of("levers/task12"), layout="forces")
+    assert "больше наибольшего размера механизма" not in shown(plain)
+
+
+@pytest.mark.parametrize("name", SHIFTED)
+def test_the_lever_has_the_force_beside_the_centre_of_mass(name: str) -> None:
+    reading, link = reading_of(name), SHIFTED[name]
+    lever = LeverReading(reading)
+    (shift,) = lever.shifts
+    h, _ = shift_and_force(name)
+    omega = float(reading.solution.links[link].omega[0])
+    length = abs(shift.ends[1] - shift.ends[0])
+    assert length == pytest.approx(h * abs(omega) / lever.per_mm, rel=1e-9)
+    (hung,) = (force for force in lever.forces if force.symbol == f"Φ_{{{link}}}")
+    assert hung.at == shift.ends[1]
+    mm = f"{length:.1f}".replace(".", ",")
+    assert any(line.endswith(f"{mm} мм") and "t_{" in line for line in lever_lines(reading))
+    (view,) = views(sheet_of(name), "velocity")
+    (line,) = lines(sheet_of(name).items, view, f"shift t_{{{link}}}")
+    assert abs(line.points[1] - line.points[0]) == pytest.approx(length, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", SHIFTED)
+def test_the_lever_is_in_balance(name: str) -> None:
+    reading = ForceReading(Solution(with_resultant(problem_of(name)), ruler=1e-7), 0)
+    lever = LeverReading(reading)
+    moments = [abs(one.force) * one.arm for one in lever.forces]
+    moments += [one.lever_moment for one in lever.couples]
+    assert sum(moments) == pytest.approx(0.0, abs=1e-6 * max(map(abs, moments)))
