@@ -19,21 +19,25 @@ from planmethod.plans.scaling import own_scale
 class HungForce:
     """Force on the lever: letter, where it hangs (mm from the pole), N, and its arm, mm.
 
-    The arm is as the hand measures it, positive where the force turns counter-clockwise.
+    The arm is as the hand measures it, positive where the force turns counter-clockwise; ``size``
+    is the force as the hand has it, N. ``point`` is the point of the mechanism where it acts.
     """
 
     symbol: str
     at: complex
     force: complex
     arm: float
+    size: float
+    point: str
 
 
 @dataclass(frozen=True, slots=True)
 class HungCouple:
     """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
 
-    ``segment`` is the segment of the plan, mm, that stands for the link; ``joints`` are the
-    points of the link at its ends. ``ratio`` is the link's |omega| over the plan's scale, mm/m.
+    ``moment`` is that on the link as the hand has it, N·m. ``segment`` is the segment of the plan,
+    mm, that stands for the link, ``ends`` are its points, ``joints`` those of the link. ``ratio``
+    is the link's |omega| as the hand has it over the plan's scale, mm/m.
     """
 
     symbol: str
@@ -42,11 +46,18 @@ class HungCouple:
     lever_moment: float
     ratio: float
     segment: tuple[complex, complex] | None
+    ends: tuple[PointName, PointName] | None
     joints: tuple[str, str] | None
 
 
 class LeverReading:
     """The lever of one position.
+
+    Parameters
+    ----------
+    reading : ForceReading
+    common : bool
+        At the scale of all velocity plans, even where this position's is drawn smaller.
 
     Attributes
     ----------
@@ -56,26 +67,31 @@ class LeverReading:
         Those that do work; last the balancing one of a crank, as the hand finds it on the lever.
     """
 
-    def __init__(self, reading: ForceReading) -> None:
+    def __init__(self, reading: ForceReading, *, common: bool = False) -> None:
         solution, index = reading.solution, reading.index
         assert reading.statics.hung is not None
         self.reading = reading
-        common = solution.scales[PlanKind.VELOCITY].per_mm
-        self.per_mm = own_scale(solution, PlanKind.VELOCITY, index).per_mm
-        self._share = common / self.per_mm
+        scale = solution.scales[PlanKind.VELOCITY]
+        shown = scale if common else own_scale(solution, PlanKind.VELOCITY, index)
+        self.per_mm = shown.per_mm
+        self._share = scale.per_mm / self.per_mm
         self.forces: list[HungForce] = []
         self.couples: list[HungCouple] = []
         for given, at in reading.statics.hung.hung:
             one = given.applied
             if at is None:
                 assert given.couple is not None
-                moment = reading.number(given.couple)
-                if abs(moment) > 1e-9 * reading.peak_moment:
+                if abs(reading.number(given.couple)) > 1e-9 * reading.peak_moment:
+                    moment = reading.read_number(given.couple)
                     self.couples.append(self._couple(one.name, one.link, moment))
                 continue
             force, place = complex(one.force[index]), reading.end(at) * self._share
             if abs(force) > 1e-9 * reading.peak:
-                self.forces.append(self._force(one.name, place, force))
+                assert given.force is not None and one.point is not None
+                drawn = reading.by_hand(given.force.tail, given.force.head)
+                spot = reading.by_hand(reading.statics.hung.pole, at) * self._share
+                size, arm = reading.read_load(given), self._arm(spot, drawn)
+                self.forces.append(HungForce(one.name, place, force, arm, size, one.point))
         self._balance(reading.statics.hung.balance)
 
     def _balance(self, balance: NumberName) -> None:
@@ -91,11 +107,15 @@ class LeverReading:
         force = reading.of_force(driving.force)
         if force:
             place = self.place(motion.point[drive.link, pin])
-            self.forces.append(self._force(reading.balancing_symbol, place, force))
+            arm, size = self._arm(place, force), abs(reading.read_number(balance))
+            self.forces.append(HungForce(reading.balancing_symbol, place, force, arm, size, pin))
 
-    def _force(self, symbol: str, place: complex, force: complex) -> HungForce:
+    def _arm(self, place: complex, force: complex) -> float:
+        """Return the arm of a force about the pole as the hand measures it, mm."""
+        if not abs(force):
+            return 0.0
         arm = (place.conjugate() * force).imag / abs(force)
-        return HungForce(symbol, place, force, float(self.reading.solution.hand.ruled(arm)))
+        return float(self.reading.solution.hand.ruled(arm))
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever, mm from the pole."""
@@ -106,25 +126,25 @@ class LeverReading:
     def _couple(self, symbol: str, link: str, moment: float) -> HungCouple:
         solution = self.reading.solution
         kin = solution.construction.kinematics
-        omega = float(solution.links[link].omega[self.reading.index])
+        hand = solution.reals(solution.by_hand, kin.omega[link])
+        omega = float(hand[self.reading.index])
         ratio = abs(omega) / self.per_mm
-        segment, joints = None, None
+        ends, joints = None, None
         for (kind, other), turning in kin.turnings.items():
             if kind is PlanKind.VELOCITY and kin.omega.get(other) == kin.omega.get(link):
-                segment = (self.place(turning.start), self.place(turning.head))
+                ends = (turning.start, turning.head)
                 joints = (str(turning.joint), str(turning.place))
-        if segment is None and link == solution.problem.drive.link:
-            segment, joints = self._crank()
-        return HungCouple(
-            symbol, link, moment, -moment * omega / self.per_mm, ratio, segment, joints
-        )
+        if ends is None and link == solution.problem.drive.link:
+            ends, joints = self._crank()
+        segment = None if ends is None else (self.place(ends[0]), self.place(ends[1]))
+        turned = -moment * omega / self.per_mm
+        return HungCouple(symbol, link, moment, turned, ratio, segment, ends, joints)
 
-    def _crank(self) -> tuple[tuple[complex, complex], tuple[str, str]]:
+    def _crank(self) -> tuple[tuple[PointName, PointName], tuple[str, str]]:
         """Return the pole and the point of the crank's end, and the crank's points."""
         solution = self.reading.solution
         drive, motion = solution.problem.drive, solution.construction.kinematics.velocity
         assert drive.pivot is not None
         own = solution.problem.bodies[drive.link].points
         pin = next(point for point in own if point != drive.pivot)
-        end = self.place(motion.point[drive.link, pin])
-        return (0j, end), (drive.pivot, pin)
+        return (motion.pole, motion.point[drive.link, pin]), (drive.pivot, pin)
