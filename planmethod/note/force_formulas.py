@@ -101,7 +101,7 @@ def load_formula(reading: ForceReading, load: Given, say: Notation = RUSSIAN) ->
         case LoadKind.WEIGHT:
             formula = f"{m}·g = {kg}·{say.short(dynamics.gravity)}"
         case LoadKind.INERTIA:
-            formula = f"{m}·a_{{{mass.centre}}} = {kg}·{say.found(size / mass.mass)}"
+            formula = f"{m}·a_{{{mass.centre}}} = {kg}·{say.short(size / mass.mass)}"
         case LoadKind.INERTIA_COUPLE:
             epsilon = say.short(size / mass.inertia)
             formula = f"J_{{S{one.link}}}·ε_{{{one.link}}} = {say.short(mass.inertia)}·{epsilon}"

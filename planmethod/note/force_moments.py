@@ -88,7 +88,7 @@ def _force_found(
     reading: ForceReading, edge: Edge, about: PointName, terms: _Terms, head: str
 ) -> MomentText:
     if reading.is_none(edge):
-        return MomentText(f"{head} = 0:  {edge.symbol} = 0")
+        return MomentText(f"{head} = 0: {edge.symbol} = 0")
     sense = 1.0 if reading.arm(edge, about) > 0 else -1.0
     letters, length, measured = _arm_length(reading, edge, about, terms.say)
     value, unit = sense * reading.read(edge), terms.say.units["N"]

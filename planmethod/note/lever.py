@@ -65,7 +65,7 @@ def lever_lines(reading: ForceReading) -> list[str]:
     lines.append(f"{symbol} = {found(abs(value))} {unit}; по планам сил {found(abs(plans))} {unit}")
     share = difference(reading)
     if share is not None:
-        lines.append(f"Расхождение {RUSSIAN.ruled(share)} %")
+        lines.append(f"Расхождение {RUSSIAN.number(f'{share:.1f}')} %")
         sigma = expected(reading)
         if sigma is not None:
             off = RUSSIAN.number(sigma_text(sigma))
@@ -105,7 +105,7 @@ def pair(lever: LeverReading, one: HungCouple, say: Notation = RUSSIAN) -> PairT
         return PairText(f"ω_{{{one.link}}}{sign}μ_{{v}}", f"{omega}{sign}{say.short(scale)}", "")
     letters, length = ends
     metres = _length(lever, one.link, one.joints)
-    segment, link = say.ruled(one.ratio * metres), say.short(round(metres, 4))
+    segment, link = say.ruled(one.ratio * metres), say.short(metres)
     told = f"{letters} = {segment} {say.units['mm']};  {length} = {link} {say.units['m']}"
     return PairText(f"{letters}/{length}", f"{segment}/{link}", told)
 
@@ -130,5 +130,7 @@ def _letters(lever: LeverReading, one: HungCouple) -> tuple[str, str] | None:
         return None
     named = {name for _, name, _ in problem.lengths}
     joints = "".join(one.joints[::-1])
-    joints = joints if joints in named else "".join(one.joints)
+    on_link = all(joint in problem.bodies[one.link].points for joint in one.joints)
+    if on_link and joints not in named:
+        joints = "".join(one.joints)
     return f"({''.join(letters[end][0] for end in one.ends)})", f"l_{{{joints}}}"

@@ -88,8 +88,10 @@ class Notation:
         return self.number(trimmed(value, 5))
 
     def ruled(self, value: float) -> str:
-        """Return a length that a ruler has measured, mm."""
-        return self.number(f"{value:.1f}")
+        """Return a length that a ruler has measured, mm; of a finer ruler with more digits."""
+        coarse = f"{value:.1f}"
+        is_coarse = abs(float(coarse) - value) <= 1e-6 * abs(value)
+        return self.number(coarse) if is_coarse else self.short(value)
 
 
 RUSSIAN = Notation(",", UNITS_RU)

@@ -107,15 +107,13 @@ class LeverReading:
         force = reading.of_force(driving.force)
         if force:
             place = self.place(motion.point[drive.link, pin])
-            arm, size = self._arm(place, force), abs(reading.read_number(balance))
+            # Its arm is the driver's own velocity, which is laid off and not measured.
+            arm, size = _across(place, force), abs(reading.read_number(balance))
             self.forces.append(HungForce(reading.balancing_symbol, place, force, arm, size, pin))
 
     def _arm(self, place: complex, force: complex) -> float:
         """Return the arm of a force about the pole as the hand measures it, mm."""
-        if not abs(force):
-            return 0.0
-        arm = (place.conjugate() * force).imag / abs(force)
-        return float(self.reading.solution.hand.ruled(arm))
+        return float(self.reading.solution.hand.ruled(_across(place, force)))
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever, mm from the pole."""
@@ -148,3 +146,8 @@ class LeverReading:
         own = solution.problem.bodies[drive.link].points
         pin = next(point for point in own if point != drive.pivot)
         return (motion.pole, motion.point[drive.link, pin]), (drive.pivot, pin)
+
+
+def _across(place: complex, force: complex) -> float:
+    """Return the arm of a force at a place about the origin, positive counter-clockwise."""
+    return (place.conjugate() * force).imag / abs(force) if abs(force) else 0.0
