@@ -9,7 +9,7 @@ from planmethod.note.force_telling import Telling, closed
 from planmethod.note.plaintext import given
 from planmethod.plans.forceplan import Given
 from planmethod.plans.loads import LoadKind
-from planmethod.problem.load_records import Mass
+from planmethod.problem.load_records import Against, Mass
 from planmethod.problem.model import Convention
 
 
@@ -86,7 +86,20 @@ class LoadVoice:
         symbol = self.telling.plain(load.applied.name)
         if load.applied.point is not None:
             size = f"{self.telling.found(abs(force))} {self.words.units['N']}"
-            point, way = load.applied.point, self.telling.way(force)
+            point, way = load.applied.point, self.telling.way(force) + self._resisting(load)
             return self.said.force.format(symbol=symbol, size=size, point=point, way=way)
         size = f"{self.telling.found(abs(couple))} {self.words.units['N·m']}"
         return self.said.couple.format(symbol=symbol, size=size, sense=self.telling.sense(couple))
+
+    def _resisting(self, load: Given) -> str:
+        """Tell of a force that it is against the velocity of its point; of others nothing."""
+        dynamics, one = self.telling.solution.problem.dynamics, load.applied
+        assert dynamics is not None and one.point is not None
+        given_so = [other for other in dynamics.loads if other.name == one.name]
+        if not any(isinstance(other.sense, Against) for other in given_so):
+            return ""
+        velocity = complex(self.telling.solution.points[one.point].velocity[self.reading.index])
+        force = complex(one.force[self.reading.index])
+        is_against = (force * velocity.conjugate()).real < 0
+        template = self.said.against if is_against else self.said.along
+        return template.format(point=one.point)

@@ -372,6 +372,16 @@ def test_a_couple_alone_is_carried_by_reactions_along_one_line() -> None:
     assert "По уравнению сил звена 2: F₂₃ = −F₂₁." in text
 
 
+@pytest.mark.parametrize(("force", "said"), [(6000, "навстречу"), (-6000, "по")])
+def test_a_resistance_is_said_to_be_against_the_velocity(force: int, said: str) -> None:
+    text = flat(
+        protocol(
+            six_link(("force = 6000 # Н\nangle = -90", f'force = {force}\nagainst = "velocity"'))
+        )
+    )
+    assert f", {said} скорости v_H." in text
+
+
 def test_a_load_that_rests_is_said_to_rest() -> None:
     text = flat(protocol(six_link(("force = 6000", 'force = 6000\nphases = { moving = "down" }'))))
     assert "F_5C в этом положении не действует" in text

@@ -15,6 +15,8 @@ FORCE_EN = ForceWording(
     inertia_couple_zero="{symbol} = 0: {epsilon} = 0",
     force="{symbol} = {size}, acts in point {point} {way}",
     couple="{symbol} = {size}, {sense}",
+    against=", against the velocity v_{point}",
+    along=", along the velocity v_{point}",
     absent="{symbol} does not act in this position",
     unloaded="Link {link} is taken for weightless; no load is given on it.",
     title_plans="Force analysis",

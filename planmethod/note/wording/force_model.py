@@ -28,6 +28,8 @@ class ForceWording:
     inertia_couple_zero: str
     force: str
     couple: str
+    against: str
+    along: str
     absent: str
     unloaded: str
 

@@ -15,6 +15,8 @@ FORCE_RU = ForceWording(
     inertia_couple_zero="{symbol} = 0: {epsilon} = 0",
     force="{symbol} = {size}, приложена в точке {point}, направлена {way}",
     couple="{symbol} = {size}, направлен {sense}",
+    against=", навстречу скорости v_{point}",
+    along=", по скорости v_{point}",
     absent="{symbol} в этом положении не действует",
     unloaded="Звено {link} считаем невесомым, заданных нагрузок на нём нет.",
     title_plans="Силовой расчёт",
