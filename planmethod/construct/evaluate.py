@@ -160,18 +160,21 @@ def apply(
             for name in terms:
                 total = total + env[name]
             return total, None
-        case Carry(out, o, a, b, times, turned):
+        case Carry(out, o, a, b, times, turned, read):
             vector = env[b] - env[a]
+            if read:
+                vector = vector * ar.reread(out, abs(vector))
             if times is not None:
                 vector = vector * env[times]
             point = env[o] + (vector * 1j if turned else vector)
             # Nobody pricks the end of nothing; but what moves the vector moves the point.
             return ar.unless_zero(abs(vector), ar.pricked(out, point), point), None
-        case Moment(out, about, at, a, b):
+        case Moment(out, about, at, a, b, read):
             vector = env[b] - env[a]
             size = abs(vector)
             area = _cross(env[at] - env[about], vector)
-            moment = ar.read(out, area / ar.nonzero(size)) * size
+            length = ar.read(out, size) if read else size
+            moment = ar.read(out, area / ar.nonzero(size)) * length
             return ar.unless_zero(size, moment, area), None
         case _:
             assert_never(step)

@@ -233,18 +233,26 @@ class Builder:
         times: NumberName | None = None,
         *,
         turned: bool = False,
+        read: bool = False,
     ) -> PointName:
         """Carry a segment to another point."""
         name = PointName(out)
-        self.steps.append(Carry(name, origin, tail, head, times, turned))
+        self.steps.append(Carry(name, origin, tail, head, times, turned, read))
         return name
 
     def moment(
-        self, out: str, about: PointName, at: PointName, tail: PointName, head: PointName
+        self,
+        out: str,
+        about: PointName,
+        at: PointName,
+        tail: PointName,
+        head: PointName,
+        *,
+        read: bool = False,
     ) -> NumberName:
         """Measure the arm of a vector and multiply it by its length."""
         name = NumberName(out)
-        self.steps.append(Moment(name, about, at, tail, head))
+        self.steps.append(Moment(name, about, at, tail, head, read))
         return name
 
     def total(self, out: str, *terms: NumberName) -> NumberName:

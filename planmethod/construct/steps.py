@@ -182,8 +182,9 @@ class Carry:
     """Segment of a plan carried to another point, parallel to itself (перенести отрезок).
 
     ``out`` is ``origin`` plus ``times`` the segment from ``tail`` to ``head``; ``turned``: the
-    segment is turned by +90 degrees, as the plan under a Zhukovsky lever is. A segment of no length
-    has no direction, and needs none.
+    segment is turned by +90 degrees, as the plan under a Zhukovsky lever is; ``read``: its length
+    is read with the ruler and laid off again, as a force that one plan has given to another. A
+    segment of no length has no direction, and needs none.
     """
 
     out: PointName
@@ -192,6 +193,7 @@ class Carry:
     head: PointName
     times: NumberName | None = None
     turned: bool = False
+    read: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,7 +201,8 @@ class Moment:
     """Moment of a vector of a plan about a point of another drawing (момент силы), mm².
 
     The vector from ``tail`` to ``head`` acts at ``at``; its arm about ``about`` is measured with
-    the ruler, and multiplied by the vector's length. Positive counter-clockwise.
+    the ruler, and multiplied by the vector's length, which is read too where ``read`` says that no
+    number before tells it. Positive counter-clockwise.
     """
 
     out: NumberName
@@ -207,6 +210,7 @@ class Moment:
     at: PointName
     tail: PointName
     head: PointName
+    read: bool = False
 
 
 @dataclass(frozen=True, slots=True)

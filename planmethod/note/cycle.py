@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from planmethod.note.force_formulas import NEWTON, NEWTON_METRE, mass_lines, short
+from planmethod.note.force_formulas import mass_lines
 from planmethod.note.given import given, point_name
+from planmethod.note.numbers import RUSSIAN, UNITS_RU
 from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.plans.solution import Solution
 from planmethod.problem.load_records import Couple, Load, Over, Table
@@ -20,9 +21,9 @@ def cycle_statement(solution: Solution) -> list[str]:
 
 def _load(solution: Solution, load: Load | Couple) -> str:
     """Return a load: its size, or what it is a table of and how large it gets."""
-    unit = NEWTON if isinstance(load, Load) else NEWTON_METRE
+    unit = UNITS_RU["N" if isinstance(load, Load) else "N·m"]
     if not isinstance(load.size, Table):
-        return f"{load.name} = {short(load.size)} {unit}"
+        return f"{load.name} = {RUSSIAN.short(load.size)} {unit}"
     largest = max(load.size.values, key=abs)
     match load.size.over:
         case Over.PHI:
@@ -34,7 +35,7 @@ def _load(solution: Solution, load: Load | Couple) -> str:
             over = f"{load.size.over.value}_{{{point_name(load.at)}}}"
         case Over.POSITION:
             over = "№"
-    return f"{load.name} = {load.name}({over}), до {short(largest)} {unit}"
+    return f"{load.name} = {load.name}({over}), до {RUSSIAN.short(largest)} {unit}"
 
 
 def cycle_wanted(solution: Solution) -> str:

@@ -8,24 +8,16 @@ from __future__ import annotations
 
 import re
 
-from planmethod.construct.steps import PointName
-from planmethod.note.given import given, number, point_name
-from planmethod.note.numbers import MINUS, UNITS_RU, russian, significant, trimmed
+from planmethod.note.given import given, number
+from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, Notation
 from planmethod.note.resultants import shift_symbol
+from planmethod.plans.forceplan import Given
 from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.loads import Applied, LoadKind
-from planmethod.plans.model import PlanKind
-from planmethod.plans.polygons import BALANCING_MOMENT, CoupleOn, Edge, ForcePlan, Moments
+from planmethod.plans.polygons import BALANCING_MOMENT, Edge, ForcePlan
 from planmethod.plans.resultant import Shift
 from planmethod.problem.load_records import Dynamics
 from planmethod.problem.model import Convention
-
-NEWTON, NEWTON_METRE = UNITS_RU["N"], UNITS_RU["N·m"]
-
-
-def found(value: float) -> str:
-    """Return a computed number, four digits of it."""
-    return russian(significant(value))
 
 
 def force_name(symbol: str) -> str:
@@ -63,8 +55,8 @@ def statement(reading: ForceReading) -> list[str]:
     for one in _external(reading):
         size = abs(complex(one.force[index])) if one.point else abs(float(one.couple[index]))
         if size:
-            unit = NEWTON if one.point else NEWTON_METRE
-            lines.append(f"{one.name} = {short(size)} {unit}")
+            unit = RUSSIAN.units["N" if one.point else "N·m"]
+            lines.append(f"{one.name} = {RUSSIAN.short(size)} {unit}")
     return lines
 
 
@@ -74,13 +66,8 @@ def mass_lines(dynamics: Dynamics) -> list[str]:
     lines = [f"m_{{{link}}} = {number(mass.mass)} кг" for link, mass in masses if mass.mass]
     for link, mass in masses:
         if mass.inertia:
-            lines.append(f"J_{{S{link}}} = {short(mass.inertia)} кг·м^{{2}}")
+            lines.append(f"J_{{S{link}}} = {RUSSIAN.short(mass.inertia)} кг·м^{{2}}")
     return [*lines, f"g = {number(dynamics.gravity)} {UNITS_RU['m/s²']}"]
-
-
-def short(value: float) -> str:
-    """Return a given number."""
-    return russian(trimmed(value, 5))
 
 
 def _external(reading: ForceReading) -> list[Applied]:
@@ -105,150 +92,48 @@ def load_lines(reading: ForceReading) -> list[str]:
 
     A force of inertia that stands for its couple as well has the couple and its shift beside it.
     """
-    board = reading.statics.board
-    lines = []
+    lines, index, board = [], reading.index, reading.statics.board
     for load in board.given:
         one = load.applied
-        lines += _load_line(reading, one)
+        if one.kind is LoadKind.EXTERNAL or not (one.force[index] or one.couple[index]):
+            continue
+        lines.append(load_formula(reading, one, abs(reading.read_load(load))))
         shift = board.shifts.get(one.link) if one.kind is LoadKind.INERTIA else None
-        if shift is not None:
-            lines += [*_load_line(reading, shift.moment), *_shift_line(reading, one, shift)]
+        if shift is not None and shift.moment.couple[index]:
+            lines += shift_formulas(reading, load, shift)
     return lines
 
 
-def _load_line(reading: ForceReading, one: Applied) -> list[str]:
-    solution, index = reading.solution, reading.index
-    dynamics = solution.problem.dynamics
+def shift_formulas(
+    reading: ForceReading, force: Given, shift: Shift, say: Notation = RUSSIAN
+) -> list[str]:
+    """Return the couple that a shifted force of inertia stands for, and the shift, by the hand."""
+    size, moment = abs(reading.read_load(force)), abs(reading.read_number(shift.couple))
+    head = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.applied.name}"
+    numbers = f"{say.found(moment)}/{say.found(size)}"
+    length = say.found(moment / size) if size else "—"
+    told = f"{head} = {numbers} = {length} {say.units['m']}"
+    return [load_formula(reading, shift.moment, moment, say), told]
+
+
+def load_formula(reading: ForceReading, one: Applied, size: float, say: Notation = RUSSIAN) -> str:
+    """Return a weight, an inertia force or couple with its formula; ``size`` as the hand has it."""
+    dynamics = reading.solution.problem.dynamics
     assert dynamics is not None
-    mass = dynamics.masses.get(one.link)
-    force, couple = abs(complex(one.force[index])), abs(float(one.couple[index]))
-    if mass is None or not (force or couple):
-        return []
-    m, kg = f"m_{{{one.link}}}", short(mass.mass)
+    mass = dynamics.masses[one.link]
+    m, kg = f"m_{{{one.link}}}", say.short(mass.mass)
     match one.kind:
         case LoadKind.WEIGHT:
-            formula = f"{m}·g = {kg}·{number(dynamics.gravity)}"
+            formula = f"{m}·g = {kg}·{say.short(dynamics.gravity)}"
         case LoadKind.INERTIA:
-            assert mass.centre is not None
-            a = abs(complex(solution.points[mass.centre].acceleration[index]))
-            formula = f"{m}·a_{{{mass.centre}}} = {kg}·{found(a)}"
+            formula = f"{m}·a_{{{mass.centre}}} = {kg}·{say.short(size / mass.mass)}"
         case LoadKind.INERTIA_COUPLE:
-            epsilon = abs(float(solution.links[one.link].epsilon[index]))
-            letter = f"J_{{S{one.link}}}"
-            formula = f"{letter}·ε_{{{one.link}}} = {short(mass.inertia)}·{short(epsilon)}"
-        case _:
-            return []
-    size, unit = (force, NEWTON) if one.point else (couple, NEWTON_METRE)
-    return [f"{one.name} = {formula} = {found(size)} {unit}"]
-
-
-def _shift_line(reading: ForceReading, force: Applied, shift: Shift) -> list[str]:
-    moment = abs(float(shift.moment.couple[reading.index]))
-    if not moment:
-        return []
-    size, length = abs(complex(force.force[reading.index])), UNITS_RU["m"]
-    head = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.name}"
-    return [f"{head} = {found(moment)}/{found(size)} = {found(moment / size)} {length}"]
-
-
-# Moments -----------------------------------------------------------------------------------------
-
-
-def moment_lines(reading: ForceReading, equation: Moments) -> list[str]:
-    """Return an equation of moments, its arms, and what it gives; nothing where all is zero."""
-    about = point_name(str(equation.about))
-    terms = _Terms(reading)
-    for edge in equation.edges:
-        terms.force(edge, reading.read(edge), reading.arm(edge, equation.about))
-    for couple in equation.couples:
-        terms.couple(couple)
-    head = f"Σ_{{{','.join(equation.links)}}}M_{{{about}}}"
-    if equation.force is not None:
-        return _force_found(reading, equation.force, equation.about, terms, head)
-    assert equation.couple is not None
-    if reading.is_no_couple(equation.couple):
-        return []
-    value = reading.read_number(equation.couple.moment)
-    return terms.lines(head, equation.couple.symbol, value, "", "", NEWTON_METRE)
-
-
-def _force_found(
-    reading: ForceReading, edge: Edge, about: PointName, terms: _Terms, head: str
-) -> list[str]:
-    if reading.is_none(edge):
-        return [f"{head} = 0:  {edge.symbol} = 0"]
-    sense = 1.0 if reading.arm(edge, about) > 0 else -1.0
-    letters, length = _arm_length(reading, edge, about)
-    value = sense * reading.read(edge)
-    return terms.lines(head, edge.symbol, value, f"·{letters}", short(length), NEWTON)
-
-
-def _arm_length(reading: ForceReading, edge: Edge, about: PointName) -> tuple[str, float]:
-    """Return the letters and the length, m, of the arm of a tangential component."""
-    solution = reading.solution
-    body = solution.problem.bodies[edge.on].points
-    ends = (str(edge.at), str(about))
-    if all(end in body for end in ends):
-        named = {name for _, name, _ in solution.problem.lengths}
-        letters = "".join(ends[::-1] if "".join(ends[::-1]) in named else ends)
-        return f"l_{{{letters}}}", abs(body[ends[1]] - body[ends[0]])
-    length = float(solution.hand.ruled(abs(reading.place(edge.at) - reading.place(about))))
-    return f"l_{{{''.join(ends)}}}", length * solution.scales[PlanKind.POSITION].per_mm
-
-
-class _Terms:
-    """Known terms of an equation of moments: forces with arms on the drawing, and couples."""
-
-    def __init__(self, reading: ForceReading) -> None:
-        self.reading = reading
-        self.forces: list[tuple[str, float, float]] = []
-        self.couples: list[tuple[str, float]] = []
-
-    def force(self, edge: Edge, size: float, arm: float) -> None:
-        """Add a force, N, with its signed arm, mm."""
-        if arm and not self.reading.is_none(edge):
-            self.forces.append((edge.symbol, size, arm))
-
-    def couple(self, couple: CoupleOn) -> None:
-        """Add a couple."""
-        if not self.reading.is_no_couple(couple):
-            self.couples.append((couple.symbol, self.reading.read_number(couple.moment)))
-
-    def lines(
-        self, head: str, symbol: str, value: float, arm: str, divisor: str, unit: str
-    ) -> list[str]:
-        """Return the equation in letters, the arms, and the found value with numbers.
-
-        ``value`` is positive where the unknown turns counter-clockwise; ``arm`` follows its symbol.
-        """
-        letters = [(a, f"{name}·{arm_symbol(name)}") for name, _, a in self.forces]
-        letters += [(m, name) for name, m in self.couples]
-        letters.append((value, f"{symbol}{arm}"))
-        lines = [f"{head} = {signed_sum(letters)} = 0"]
-        if self.forces:
-            arms = (f"{arm_symbol(n)} = {russian(f'{abs(a):.1f}')}" for n, _, a in self.forces)
-            lines.append(f"{'; '.join(arms)} мм")
-        turn = -1.0 if value > 0 else 1.0
-        said = self._numbers(turn)
-        if divisor:
-            said = f"({said})/{divisor}" if " " in said else f"{said}/{divisor}"
-        return [*lines, f"{symbol} = {said} = {found(abs(value))} {unit}"]
-
-    def _numbers(self, turn: float) -> str:
-        scale = self.reading.solution.scales[PlanKind.POSITION].per_mm
-        inverse = self.reading.solution.problem.scales.convention is Convention.MM_PER_UNIT
-        products = [
-            (turn * arm, f"{found(size)}·{russian(f'{abs(arm):.1f}')}")
-            for _, size, arm in self.forces
-        ]
-        terms: list[tuple[float, str]] = []
-        if products:
-            inside = signed_sum(products)
-            inside = f"({inside})" if len(products) > 1 or inside.startswith(MINUS) else inside
-            factor = f"/{short(1.0 / scale)}" if inverse else f"·{short(scale)}"
-            terms.append((1.0, inside + factor))
-        terms += [(turn * moment, found(abs(moment))) for _, moment in self.couples]
-        return signed_sum(terms) if terms else "0"
+            epsilon = say.short(size / mass.inertia)
+            formula = f"J_{{S{one.link}}}·ε_{{{one.link}}} = {say.short(mass.inertia)}·{epsilon}"
+        case LoadKind.EXTERNAL:
+            raise TypeError(f"{one.name} is given, not computed")
+    unit = say.units["N" if one.point else "N·m"]
+    return f"{one.name} = {formula} = {say.found(size)} {unit}"
 
 
 def signed_sum(terms: list[tuple[float, str]]) -> str:
@@ -261,25 +146,28 @@ def signed_sum(terms: list[tuple[float, str]]) -> str:
     return text
 
 
-def plan_moments(reading: ForceReading, plan: ForcePlan) -> list[str]:
-    """Return the lines of all equations of moments of a plan."""
-    return [line for equation in plan.moments for line in moment_lines(reading, equation)]
+# Found -------------------------------------------------------------------------------------------
 
 
 def closing_lines(reading: ForceReading, plan: ForcePlan) -> list[str]:
     """Return what the force plan of some links gives: segments in mm, forces in N."""
+    return [closing_formula(reading, edge) for edge in plan.reactions]
+
+
+def closing_formula(reading: ForceReading, edge: Edge, say: Notation = RUSSIAN) -> str:
+    """Return a force read off its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
+    if reading.is_none(edge):
+        return f"{edge.symbol} = 0"
+    length = reading.length(edge)
+    if not length:
+        return f"{edge.symbol} ≈ 0"
+    size = f"{say.found(length * reading.scale.per_mm)} {say.units['N']}"
+    return f"{edge.symbol} = {scaled(say.ruled(length), reading, say)} = {size}"
+
+
+def scaled(segment: str, reading: ForceReading, say: Notation = RUSSIAN) -> str:
+    """Return a segment of a force plan times the scale, or over it: ``70,0/0,01``."""
     scale = reading.scale.per_mm
-    inverse = reading.solution.problem.scales.convention is Convention.MM_PER_UNIT
-    lines = []
-    for edge in plan.reactions:
-        if reading.is_none(edge):
-            lines.append(f"{edge.symbol} = 0")
-            continue
-        millimetres = float(reading.solution.hand.ruled(abs(reading.vector(edge))))
-        if not millimetres:
-            lines.append(f"{edge.symbol} ≈ 0")
-            continue
-        mm = russian(f"{millimetres:.1f}")
-        factor = f"{mm}/{short(1.0 / scale)}" if inverse else f"{mm}·{short(scale)}"
-        lines.append(f"{edge.symbol} = {factor} = {found(millimetres * scale)} {NEWTON}")
-    return lines
+    if reading.solution.problem.scales.convention is Convention.MM_PER_UNIT:
+        return f"{segment}/{say.short(1.0 / scale)}"
+    return f"{segment}·{say.short(scale)}"

@@ -10,6 +10,9 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import LayOff, NumberName, PointName
 from planmethod.note.forces import NOTHING
@@ -203,7 +206,10 @@ class ForceQuantities:
         """Return the balancing moment (force, of a slider), or the force at a point that does."""
         statics, drive = self.statics, self.at.solution.problem.drive
         if kind == "balance":
-            value = float(statics.balance_of(sheet.trace)[sheet.motion.index])
+            exact = sheet.trace is statics.si
+            arithmetic = Float64() if exact else self.at.solution.hand
+            values = np.asarray(statics.balance_in(sheet.trace, arithmetic), dtype=float)
+            value = float(values if values.ndim == 0 else values[sheet.motion.index])
         elif statics.hung is None:
             raise UnansweredError(Why.STANDS)
         else:

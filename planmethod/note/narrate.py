@@ -79,7 +79,7 @@ class Narrator:
             case Compute():
                 return self.motion.compute(step)
             case Carry() | Moment() | Total():
-                return []  # steps of the force plans, which no protocol has yet
+                return []  # of force plans only: ForceVoice tells them with the forces they carry
             case _:
                 assert_never(step)
 

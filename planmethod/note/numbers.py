@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import SupportsFloat
 
 MINUS = "−"
@@ -57,6 +58,43 @@ def russian(text: str) -> str:
         return mantissa
     exponent = str(int(power)).replace("-", MINUS)
     return f"{mantissa}·10^{{{exponent}}}"
+
+
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """How a language writes computed numbers and units, as rich text (запись чисел).
+
+    Attributes
+    ----------
+    decimal : str
+        Decimal sign.
+    units : mapping
+        Letters of the units, by those of SI: ``N``, ``N·m``, ``mm``.
+    """
+
+    decimal: str
+    units: Mapping[str, str]
+
+    def number(self, text: str) -> str:
+        """Return a plain number."""
+        return russian(text).replace(",", self.decimal)
+
+    def found(self, value: float) -> str:
+        """Return a computed number, four digits of it."""
+        return self.number(significant(value))
+
+    def short(self, value: float) -> str:
+        """Return a number that goes on into a formula, no more than five digits."""
+        return self.number(trimmed(value, 5))
+
+    def ruled(self, value: float) -> str:
+        """Return a length that a ruler has measured, mm; of a finer ruler with more digits."""
+        coarse = f"{value:.1f}"
+        is_coarse = abs(float(coarse) - value) <= 1e-6 * abs(value)
+        return self.number(coarse) if is_coarse else self.short(value)
+
+
+RUSSIAN = Notation(",", UNITS_RU)
 
 
 def plain(value: SupportsFloat) -> float:

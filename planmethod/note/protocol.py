@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import MeasureAlong, PointName
-from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
-from planmethod.mechanism.structure import roman
 from planmethod.note.equations import equation_lines
 from planmethod.note.given import given_lines
 from planmethod.note.naming import Names
 from planmethod.note.narrate import Narrator
+from planmethod.note.numbered import Steps
 from planmethod.note.plaintext import NO_BREAK, given, heading, plain_text, wrap
-from planmethod.note.structure_text import local_letters
+from planmethod.note.structure_text import group_title
 from planmethod.note.tables import position_line, position_tables, scale_texts
 from planmethod.note.wording import Wording, wording
 from planmethod.plans.build import Section
@@ -48,16 +47,14 @@ def protocol(solution: Solution, *, lang: str = "ru", position: int = 0) -> str:
     return "\n".join(_Writer(solution, words, position).write()) + "\n"
 
 
-class _Writer:
-    """Text of a protocol while it is being written: headings and numbered steps."""
+class _Writer(Steps):
+    """Text of a protocol while it is being written."""
 
     def __init__(self, solution: Solution, words: Wording, index: int) -> None:
+        super().__init__()
         self.solution, self.words, self.index = solution, words, index
         self.names = Names(solution, words)
         self.narrator = Narrator(solution, self.names, index)
-        self.lines: list[str] = []
-        self.steps = 0
-        self.chapter = self.part = 0
 
     def write(self) -> list[str]:
         words, problem = self.words, self.solution.problem
@@ -70,9 +67,9 @@ class _Writer:
             plain_text(line).replace(" ", NO_BREAK) for line in given_lines(problem, words.lang)
         )
         self.lines += wrap(words.given.format(given=text))
-        self._chapter(words.scales)
-        self._item([words.scales_text.format(scales="; ".join(scale_texts(self.solution, words)))])
-        self._item([words.ruler.format(ruler=given(self.solution.hand.ruler, words))])
+        self.chapter(words.scales)
+        self.item([words.scales_text.format(scales="; ".join(scale_texts(self.solution, words)))])
+        self.item([words.ruler.format(ruler=given(self.solution.hand.ruler, words))])
         titles = {
             PlanKind.POSITION: words.plan_position,
             PlanKind.VELOCITY: words.plan_velocity,
@@ -84,33 +81,16 @@ class _Writer:
                 continue  # guides alone: each is drawn where it is used
             if section.kind is not kind:
                 kind = section.kind
-                self._chapter(titles[kind])
+                self.chapter(titles[kind])
                 self._open_plan(kind)
             self._section(section)
-        self._chapter(words.title_results)
+        if problem.dynamics is not None:
+            self._forces()
+        self.chapter(words.title_results)
         self.lines += position_tables(self.solution, words, self.index)
+        if problem.dynamics is not None:
+            self._force_tables()
         return self.lines
-
-    # Layout ----------------------------------------------------------------------------------
-
-    def _chapter(self, title: str) -> None:
-        self.chapter, self.part = self.chapter + 1, 0
-        self.lines += ["", *heading(f"{self.chapter}. {title}"), ""]
-
-    def _part(self, title: str) -> None:
-        self.part += 1
-        blank = [] if self.lines[-1] == "" else [""]
-        self.lines += [*blank, f"{self.chapter}.{self.part}. {title}", ""]
-
-    def _item(self, lines: list[str], *, more: bool = False) -> None:
-        """Write a numbered step; ``more`` goes on with the last one."""
-        if not lines:
-            return
-        if not more:
-            self.steps += 1
-        for i, line in enumerate(lines):
-            first = f"{self.steps:>3}) " if i == 0 and not more else " " * 5
-            self.lines += wrap(line, first=first, rest=" " * 5)
 
     # Content ---------------------------------------------------------------------------------
 
@@ -122,9 +102,9 @@ class _Writer:
         assert pole is not None
         fixed = self.names.others(pole)
         template = words.pole_fixed if fixed else words.pole
-        self._item([template.format(pole=self.names.pole(kind), points=", ".join(fixed)) + "."])
+        self.item([template.format(pole=self.names.pole(kind), points=", ".join(fixed)) + "."])
         if kind is PlanKind.VELOCITY:
-            self._item([words.equation_legend], more=True)
+            self.item([words.equation_legend], more=True)
 
     def _title(self, section: Section) -> str:
         if section.frame:
@@ -135,27 +115,37 @@ class _Writer:
 
     def _section(self, section: Section) -> None:
         words = self.words
-        self._part(self._title(section))
+        self.part(self._title(section))
         if section.frame:
             self._fixed_points()
         made = {PointName(step.out) for step in section.steps}
         if section.kind is not PlanKind.POSITION:
             self._equations(section.kind, made)
         if section.kind is PlanKind.VELOCITY:
-            self._item(self._known_turning(section))
+            self.item(self._known_turning(section))
         if section.kind is PlanKind.ACCELERATION:
-            self._item(self._constant_speed(section))
-            self._item(self.narrator.motion.without_coriolis(made))
+            self.item(self._constant_speed(section))
+            self.item(self.narrator.motion.without_coriolis(made))
         measured = False
         for step in section.steps:
             told = self.narrator.tell(step)
-            self._item(told, more=measured and bool(told))
+            self.item(told, more=measured and bool(told))
             measured = isinstance(step, MeasureAlong)
         if section.kind is not PlanKind.POSITION:
             read = self.narrator.motion.readings(section.kind, made)
             if read:
                 closed = [*(f"{line};" for line in read[:-1]), f"{read[-1]}."]
-                self._item([words.read_off, *closed])
+                self.item([words.read_off, *closed])
+
+    def _forces(self) -> None:
+        from planmethod.note.force_protocol import tell_forces
+
+        tell_forces(self, self.narrator.say, self.index)
+
+    def _force_tables(self) -> None:
+        from planmethod.note.forces import forces_tables
+
+        self.lines += ["", *forces_tables(self.solution, self.words, self.index)]
 
     def _fixed_points(self) -> None:
         points = []
@@ -164,7 +154,7 @@ class _Writer:
             x, y = (given(value, self.words, 5) for value in (place.real, place.imag))
             points.append(f"{name} ({x}; {y})")
         if points:
-            self._item([self.words.fixed_points.format(points=", ".join(points))])
+            self.item([self.words.fixed_points.format(points=", ".join(points))])
 
     def _equations(self, kind: PlanKind, made: set[PointName]) -> None:
         plan = self.names.construction.plan(kind)
@@ -173,7 +163,7 @@ class _Writer:
             return
         self.lines += [self.words.equations, ""]
         for equation in found:
-            self.lines += [*(f"     {line}" for line in equation_lines(equation, self.names)), ""]
+            self.formulas(equation_lines(equation, self.names))
 
     def _constant_speed(self, section: Section) -> list[str]:
         drive = self.solution.problem.drive
@@ -203,14 +193,3 @@ class _Writer:
                     )
                 )
         return lines
-
-
-def group_title(group: AssurGroup, words: Wording) -> str:
-    """Return a group's heading: links, letters, class, order and kind."""
-    links = "–".join(group.links)
-    if group.kind is None:
-        return words.higher_group.format(
-            links=links, roman=roman(group.class_number), order=group.order
-        )
-    letters = local_letters(group.signature, words)
-    return words.group.format(links=links, letters=letters, kind=group.kind)

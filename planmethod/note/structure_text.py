@@ -155,3 +155,14 @@ def _group(group: AssurGroup, words: Wording) -> list[str]:
 
 def _inside(joint: Joint, group: AssurGroup) -> list[str]:
     return [link for link in group.links if link in links_of(joint)]
+
+
+def group_title(group: AssurGroup, words: Wording) -> str:
+    """Return a group's heading: links, letters, class, order and kind."""
+    links = "–".join(group.links)
+    if group.kind is None:
+        return words.higher_group.format(
+            links=links, roman=roman(group.class_number), order=group.order
+        )
+    letters = local_letters(group.signature, words)
+    return words.group.format(links=links, letters=letters, kind=group.kind)

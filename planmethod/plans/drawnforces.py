@@ -58,7 +58,7 @@ class DrawnForces:
         """Return reactions (by their number), balances and their difference from a trace."""
         statics = self.statics
         with np.errstate(all="ignore"):
-            taken: dict[str, Number] = {"plans": statics.balance_in(trace)}
+            taken: dict[str, Number] = {"plans": statics.balance_in(trace, pencil)}
             for k, reaction in enumerate(statics.board.reactions):
                 force = trace.value[reaction.force.head] - trace.value[reaction.force.tail]
                 length = pencil.read(f"reaction {k}", abs(force))
@@ -102,8 +102,13 @@ class DrawnForces:
         return self._sigmas[str(number)]
 
     @property
+    def balance(self) -> Reals:
+        """What balances the driver by the force plans as the ruler gives it, N·m or N."""
+        return self._by_hand["plans"]
+
+    @property
     def balances(self) -> Balances | None:
-        """What balances the driver as the ruler gives it; None where the driver stands."""
+        """The same by the force plans and by the lever; None where the driver stands."""
         if "lever" not in self._by_hand:
             return None
         return Balances(self._by_hand["plans"], self._by_hand["lever"])

@@ -30,16 +30,20 @@ DOWN = -90.0
 
 @dataclass(frozen=True, slots=True)
 class Force:
-    """Force on a link (сила): where it acts, its segment on a force plan, and its letter."""
+    """Force on a link (сила): where it acts, its segment on a force plan, and its letter.
+
+    ``read`` is a force that a plan has found: who uses it reads its length with the ruler.
+    """
 
     at: PointName
     tail: PointName
     head: PointName
     symbol: str = ""
+    read: bool = False
 
     def reversed(self, symbol: str = "") -> Force:
         """Return the force that acts back."""
-        return Force(self.at, self.head, self.tail, symbol)
+        return replace(self, tail=self.head, head=self.tail, symbol=symbol)
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +180,7 @@ class Board:
             self.name("k"), (mass, 1), (motion.scale, 1), (self.scale, -1), factor=-1.0
         )
         head = motion.point[link, place]
-        return self.pole, b.carry(self.name("F"), self.pole, motion.pole, head, times)
+        return self.pole, b.carry(self.name("F"), self.pole, motion.pole, head, times, read=True)
 
     def _shifted(
         self, solution: Solution, couple: Applied, mass: NumberName, link: str, place: str
@@ -214,7 +218,7 @@ class Board:
         The laid off edges are put ``into`` a list.
         """
         for force in self.forces.get(link, ()):
-            end = self.draft.b.carry(self.name("c"), start, force.tail, force.head)
+            end = self.draft.b.carry(self.name("c"), start, force.tail, force.head, read=force.read)
             into.append(Edge(force.symbol, link, force.at, start, end))
             start = end
         return start
@@ -222,7 +226,7 @@ class Board:
     def back(self, end: PointName, link: str, into: list[Edge]) -> PointName:
         """Return where the forces on a link start that end in a point."""
         for force in self.forces.get(link, ()):
-            start = self.draft.b.carry(self.name("c"), end, force.head, force.tail)
+            start = self.draft.b.carry(self.name("c"), end, force.head, force.tail, read=force.read)
             into.insert(0, Edge(force.symbol, link, force.at, start, end))
             end = start
         return end
@@ -235,13 +239,14 @@ class Board:
             for name in self.couples.get(link, ())
         )
 
-    def moment(self, links: Sequence[str], about: PointName) -> NumberName:
-        """Return the moment of all loads on links about a point, N·m."""
+    def moment(self, links: Sequence[str], about: PointName, *others: Force) -> NumberName:
+        """Return the moment of all loads on links, and of other forces, about a point, N·m."""
         b = self.draft.b
         terms = []
         for link in links:
             terms += [self.moment_of(force, about) for force in self.forces.get(link, ())]
             terms += self.couples.get(link, ())
+        terms += [self.moment_of(force, about) for force in others]
         return b.total(self.name("M"), *(term for term in terms if term is not None))
 
     def moment_of(self, force: Force, about: PointName) -> NumberName | None:
@@ -249,7 +254,7 @@ class Board:
         if force.at == about:
             return None
         b = self.draft.b
-        area = b.moment(self.name("h"), about, force.at, force.tail, force.head)
+        area = b.moment(self.name("h"), about, force.at, force.tail, force.head, read=force.read)
         return b.compute(self.name("M"), (area, 1), (self.scale, 1), (self.draft.mu_l, 1))
 
     def negative(self, number: NumberName) -> NumberName:
@@ -284,7 +289,7 @@ class Board:
         ``couple`` is about the place of ``force``. ``inner`` reactions act between links that are
         both done with.
         """
-        force = replace(force, symbol=reaction_symbol(on, by))
+        force = replace(force, symbol=reaction_symbol(on, by), read=True)
         self.reactions.append(Reaction(joint, on, by, force, couple))
         if couple is not None:
             self.symbols[couple] = reaction_symbol(on, by, letter="M")
@@ -298,11 +303,6 @@ class Board:
     def press(
         self, pin: str, on: str, by: str, force: Force, couple: NumberName, *, inner: bool = False
     ) -> CoupleOn:
-        """Note the reaction of a guide, moved to the pin of its slider if it is an outer one."""
-        if not inner and PointName(pin) != force.at:
-            shift = self.moment_of(force, PointName(pin))
-            assert shift is not None
-            couple = self.draft.b.total(self.name("M"), couple, shift)
-            force = Force(PointName(pin), force.tail, force.head)
+        """Note the reaction of a guide: a force and its moment about the place of the force."""
         self.react(pin, on, by, force, couple, inner=inner)
         return CoupleOn(self.symbols[couple], on, couple, force.at)

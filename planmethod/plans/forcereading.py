@@ -9,7 +9,7 @@ from planmethod.construct.evaluate import Trace
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
-from planmethod.plans.forceplan import Force
+from planmethod.plans.forceplan import Force, Given
 from planmethod.plans.polygons import (
     BALANCING_FORCE,
     BALANCING_MOMENT,
@@ -64,6 +64,10 @@ class ForceReading:
         """Return the position plan if it has a point."""
         return self.solution.paper if point in self.solution.paper.value else None
 
+    def distance(self, one: str, other: str) -> float:
+        """Return how far two places of the position plan are apart, mm."""
+        return abs(self.place(PointName(other)) - self.place(PointName(one)))
+
     def end(self, point: PointName) -> complex:
         """Return an end of a force plan, or a point of the lever, mm."""
         return self._column(self.statics.paper, point)
@@ -81,9 +85,29 @@ class ForceReading:
         si = self.statics.si
         return self._column(si, force.head) - self._column(si, force.tail)
 
+    def by_hand(self, tail: PointName, head: PointName) -> complex:
+        """Return a segment of a force plan, or of the lever, as the hand has drawn it, mm."""
+        hand = self.statics.by_hand
+        return self._column(hand, head) - self._column(hand, tail)
+
+    @cached_property
+    def _found(self) -> frozenset[frozenset[PointName]]:
+        """Segments that the plans find: their lengths are read with the ruler."""
+        edges = [edge for plan in self.plans for edge in plan.reactions]
+        return frozenset(frozenset((edge.tail, edge.head)) for edge in edges)
+
+    def length(self, edge: Edge) -> float:
+        """Return the length of a force on its plan, mm: laid off, or read where the plan finds it.
+
+        What was laid off was computed before, and nobody reads it.
+        """
+        drawn = abs(self.by_hand(edge.tail, edge.head))
+        found = frozenset((edge.tail, edge.head)) in self._found
+        return float(self.solution.hand.ruled(drawn)) if found else drawn
+
     def read(self, edge: Edge) -> float:
-        """Return the size of a force as the hand has it on its plan, N."""
-        return self.read_force(Force(edge.at, edge.tail, edge.head))
+        """Return the size of a force as the hand has it from its plan, N."""
+        return self.length(edge) * self.scale.per_mm
 
     def number(self, name: NumberName) -> float:
         """Return a moment, N·m, or another computed number."""
@@ -93,13 +117,12 @@ class ForceReading:
         """Return a moment as the hand has it, N·m."""
         return float(self.solution.reals(self.statics.by_hand, name)[self.index])
 
-    def read_force(self, force: Force | None) -> float:
-        """Return the size of a force as the hand has it on its plan, N; zero of none."""
-        if force is None:
-            return 0.0
-        hand = self.statics.by_hand
-        tail, head = self._column(hand, force.tail), self._column(hand, force.head)
-        return abs(head - tail) * self.scale.per_mm
+    def read_load(self, given: Given) -> float:
+        """Return a given force as the hand lays it off, N, or a couple as it computes it, N·m."""
+        if given.force is not None:
+            return abs(self.by_hand(given.force.tail, given.force.head)) * self.scale.per_mm
+        assert given.couple is not None
+        return self.read_number(given.couple)
 
     def arm(self, edge: Edge, about: PointName) -> float:
         """Return the arm of a force about a point as the hand measures it, mm.
@@ -107,12 +130,12 @@ class ForceReading:
         Positive where the force turns counter-clockwise. A shifted force acts where the hand has
         laid off the h that follows from its own readings.
         """
-        force = self.vector(edge)
+        force, drawn = self.by_hand(edge.tail, edge.head), self.solution.by_hand
         if not abs(force):
             return 0.0
-        at = self._column(self._of_plan(edge.at) or self.statics.by_hand, edge.at)
-        across = ((at - self.place(about)).conjugate() * force).imag / abs(force)
-        return float(self.solution.hand.ruled(across))
+        at = self._column(drawn if edge.at in drawn.value else self.statics.by_hand, edge.at)
+        lever = at - self._column(drawn, about)
+        return float(self.solution.hand.ruled((lever.conjugate() * force).imag / abs(force)))
 
     @property
     def balancing_symbol(self) -> str:

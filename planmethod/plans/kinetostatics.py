@@ -149,7 +149,8 @@ def _revolute_and_slider(board: Board, group: AssurGroup) -> None:
     known = (board.couples_on(revolute.link), board.couples_on(prismatic.link))
     at = PointName(lead_point(revolute))
     board.react(at, revolute.link, revolute.to, Force(at, end, first))
-    guide = _guide_reaction(board, prismatic, Force(middle, loaded, end))
+    back_on_slider = Force(middle, end, between, read=True)
+    guide = _guide_reaction(board, prismatic, Force(middle, loaded, end), back_on_slider)
     board.react(middle, revolute.link, prismatic.link, Force(middle, between, end), inner=True)
     board.plans.append(
         ForcePlan(
@@ -186,8 +187,12 @@ def _two_sliders(board: Board, group: AssurGroup) -> None:
     inner = reaction_edge(one.link, two.link, middle, between, end)
     known = (board.couples_on(one.link), board.couples_on(two.link))
     found = (
-        _guide_reaction(board, one, Force(middle, end, start)),
-        _guide_reaction(board, two, Force(middle, loaded, end)),
+        _guide_reaction(
+            board, one, Force(middle, end, start), Force(middle, between, end, read=True)
+        ),
+        _guide_reaction(
+            board, two, Force(middle, loaded, end), Force(middle, end, between, read=True)
+        ),
     )
     board.react(middle, one.link, two.link, Force(middle, between, end), inner=True)
     board.plans.append(
@@ -209,11 +214,11 @@ def _two_sliders(board: Board, group: AssurGroup) -> None:
     )
 
 
-def _guide_reaction(board: Board, lead: Lead, force: Force) -> CoupleOn:
-    """Note the reaction of a guide: its moment balances those of the slider's other loads."""
-    couple = board.negative(board.moment((lead.link,), force.at))
-    pin = slide_of(board.draft, lead.joint).pin
-    return board.press(pin, lead.link, lead.to, force, couple)
+def _guide_reaction(board: Board, lead: Lead, force: Force, inner: Force) -> CoupleOn:
+    """Note the reaction of a guide: its moment about the pin balances those of all other forces."""
+    pin = PointName(slide_of(board.draft, lead.joint).pin)
+    couple = board.negative(board.moment((lead.link,), pin, inner))
+    return board.press(pin, lead.link, lead.to, replace(force, at=pin), couple)
 
 
 def _guide_edge(board: Board, lead: Lead, tail: PointName, head: PointName) -> Edge:
@@ -295,16 +300,16 @@ def _sliding(board: Board, group: AssurGroup) -> None:
     )
     first = board.back(start, revolute.link, loads[0])
     own = board.moment((revolute.link,), at)
-    other = board.moment((prismatic.link,), at)
-    both = board.draft.b.total(board.name("M"), own, other)
+    pin = PointName(outer.pin)
+    whole = board.moment((revolute.link, prismatic.link), pin, Force(at, end, first, read=True))
     across = _guide_edge(board, prismatic, loaded, end)
     hinge = reaction_edge(revolute.link, revolute.to, at, end, first)
     note = track_note(inner, board.draft.problem, turned=True)
     between = reaction_edge(prismatic.link, revolute.link, at, end, start, note)
     known, of_one = board.couples_on(*group.links), board.couples_on(revolute.link)
     board.react(at, revolute.link, revolute.to, Force(at, end, first))
-    across_pin = Force(at, loaded, end)
-    guide = board.press(outer.pin, prismatic.link, prismatic.to, across_pin, board.negative(both))
+    across_pin = Force(pin, loaded, end)
+    guide = board.press(outer.pin, prismatic.link, prismatic.to, across_pin, board.negative(whole))
     pressed = Force(at, start, end)
     held = board.press(
         inner.pin, revolute.link, prismatic.link, pressed, board.negative(own), inner=True

@@ -8,6 +8,7 @@ other way where the link goes counter-clockwise, for the segment then lies again
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forceplan import Given
@@ -16,38 +17,53 @@ from planmethod.plans.model import PlanKind
 from planmethod.plans.motion import letter
 from planmethod.plans.scaling import own_scale
 
+_Own: TypeAlias = tuple[
+    float,
+    tuple[complex, complex] | None,
+    tuple[PointName, PointName] | None,
+    tuple[str, str] | None,
+]
+
 
 @dataclass(frozen=True, slots=True)
 class HungForce:
     """Force on the lever: letter, where it hangs (mm from the pole), N, and its arm, mm.
 
-    The arm is as the hand measures it, positive where the force turns counter-clockwise.
+    The arm is as the hand measures it, positive where the force turns counter-clockwise; ``size``
+    is the force as the hand has it, N. ``point`` is the point of the mechanism where it acts.
     """
 
     symbol: str
     at: complex
     force: complex
     arm: float
+    size: float
+    point: str
 
 
 @dataclass(frozen=True, slots=True)
 class OnLink:
     """Something on a link as the lever has the link.
 
-    ``segment`` is the segment of the plan, mm, that stands for the link; ``joints`` are the
-    points of the link at its ends. ``ratio`` is the link's |omega| over the plan's scale, mm/m.
+    ``segment`` is the segment of the plan, mm, that stands for the link, ``ends`` are its points,
+    ``joints`` those of the link. ``ratio`` is the link's |omega| as the hand has it over the plan's
+    scale, mm/m.
     """
 
     symbol: str
     link: str
     ratio: float
     segment: tuple[complex, complex] | None
+    ends: tuple[PointName, PointName] | None
     joints: tuple[str, str] | None
 
 
 @dataclass(frozen=True, slots=True)
 class HungCouple(OnLink):
-    """Couple on the lever: its letter, its link, and its moment about the pole, N·mm."""
+    """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
+
+    ``moment`` is that on the link as the hand has it, N·m.
+    """
 
     moment: float
     lever_moment: float
@@ -57,15 +73,23 @@ class HungCouple(OnLink):
 class HungShift(OnLink):
     """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
 
-    ``letters`` are those of s and t, in rich text.
+    ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``length`` is h as
+    the hand has it, m.
     """
 
     letters: tuple[str, str]
-    ends: tuple[complex, complex]
+    line: tuple[complex, complex]
+    length: float
 
 
 class LeverReading:
     """The lever of one position.
+
+    Parameters
+    ----------
+    reading : ForceReading
+    common : bool
+        At the scale of all velocity plans, even where this position's is drawn smaller.
 
     Attributes
     ----------
@@ -77,13 +101,14 @@ class LeverReading:
         Of the forces of inertia that are moved off the centre of mass.
     """
 
-    def __init__(self, reading: ForceReading) -> None:
+    def __init__(self, reading: ForceReading, *, common: bool = False) -> None:
         solution, index = reading.solution, reading.index
         assert reading.statics.hung is not None
         self.reading = reading
-        common = solution.scales[PlanKind.VELOCITY].per_mm
-        self.per_mm = own_scale(solution, PlanKind.VELOCITY, index).per_mm
-        self._share = common / self.per_mm
+        scale = solution.scales[PlanKind.VELOCITY]
+        shown = scale if common else own_scale(solution, PlanKind.VELOCITY, index)
+        self.per_mm = shown.per_mm
+        self._share = scale.per_mm / self.per_mm
         self.forces: list[HungForce] = []
         self.couples: list[HungCouple] = []
         self.shifts: list[HungShift] = []
@@ -91,13 +116,17 @@ class LeverReading:
             one = given.applied
             if at is None:
                 assert given.couple is not None
-                moment = reading.number(given.couple)
-                if abs(moment) > 1e-9 * reading.peak_moment:
+                if abs(reading.number(given.couple)) > 1e-9 * reading.peak_moment:
+                    moment = reading.read_number(given.couple)
                     self.couples.append(self._couple(one.name, one.link, moment))
                 continue
             force, place = complex(one.force[index]), reading.end(at) * self._share
             if abs(force) > 1e-9 * reading.peak:
-                self.forces.append(self._force(one.name, place, force))
+                assert given.force is not None and one.point is not None
+                drawn = reading.by_hand(given.force.tail, given.force.head)
+                spot = reading.by_hand(reading.statics.hung.pole, at) * self._share
+                size, arm = reading.read_load(given), self._arm(spot, drawn)
+                self.forces.append(HungForce(one.name, place, force, arm, size, one.point))
                 self._shift(given, place)
         self._balance(reading.statics.hung.balance)
 
@@ -114,11 +143,13 @@ class LeverReading:
         force = reading.of_force(driving.force)
         if force:
             place = self.place(motion.point[drive.link, pin])
-            self.forces.append(self._force(reading.balancing_symbol, place, force))
+            # Its arm is the driver's own velocity, which is laid off and not measured.
+            arm, size = _across(place, force), abs(reading.read_number(balance))
+            self.forces.append(HungForce(reading.balancing_symbol, place, force, arm, size, pin))
 
-    def _force(self, symbol: str, place: complex, force: complex) -> HungForce:
-        arm = (place.conjugate() * force).imag / abs(force)
-        return HungForce(symbol, place, force, float(self.reading.solution.hand.ruled(arm)))
+    def _arm(self, place: complex, force: complex) -> float:
+        """Return the arm of a force about the pole as the hand measures it, mm."""
+        return float(self.reading.solution.hand.ruled(_across(place, force)))
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever, mm from the pole."""
@@ -127,9 +158,8 @@ class LeverReading:
         return 1j * at * self._share
 
     def _couple(self, symbol: str, link: str, moment: float) -> HungCouple:
-        omega = float(self.reading.solution.links[link].omega[self.reading.index])
-        own = self._on(link)
-        return HungCouple(symbol, link, *own, moment, -moment * omega / self.per_mm)
+        turned = -moment * self._omega(link) / self.per_mm
+        return HungCouple(symbol, link, *self._on(link), moment, turned)
 
     def _shift(self, given: Given, place: complex) -> None:
         """Note the shift of a force that hangs beside its centre of mass."""
@@ -141,32 +171,40 @@ class LeverReading:
         motion = self.reading.solution.construction.kinematics.velocity
         centre = self.place(motion.point[motion.named[given.applied.point]])
         letters = letter(given.applied.point), f"t{shift.letter[1:]}"
-        own = self._on(link)
-        self.shifts.append(HungShift(f"h_{{{link}}}", link, *own, letters, (centre, place)))
+        mu_l = self.reading.solution.scales[PlanKind.POSITION].per_mm
+        length, line = abs(self.reading.read_number(shift.length)) * mu_l, (centre, place)
+        self.shifts.append(HungShift(f"h_{{{link}}}", link, *self._on(link), letters, line, length))
 
-    def _on(
-        self, link: str
-    ) -> tuple[float, tuple[complex, complex] | None, tuple[str, str] | None]:
-        """Return the ratio of a link, its segment on the plan and the joints at its ends."""
+    def _omega(self, link: str) -> float:
+        """Return the angular velocity of a link as the hand has it, 1/s."""
+        solution = self.reading.solution
+        name = solution.construction.kinematics.omega[link]
+        return float(solution.reals(solution.by_hand, name)[self.reading.index])
+
+    def _on(self, link: str) -> _Own:
+        """Return the ratio of a link, its segment on the plan, its ends and their joints."""
         solution = self.reading.solution
         kin = solution.construction.kinematics
-        omega = float(solution.links[link].omega[self.reading.index])
-        ratio = abs(omega) / self.per_mm
-        segment, joints = None, None
+        ends, joints = None, None
         for (kind, other), turning in kin.turnings.items():
             if kind is PlanKind.VELOCITY and kin.omega.get(other) == kin.omega.get(link):
-                segment = (self.place(turning.start), self.place(turning.head))
+                ends = (turning.start, turning.head)
                 joints = (str(turning.joint), str(turning.place))
-        if segment is None and link == solution.problem.drive.link:
-            segment, joints = self._crank()
-        return ratio, segment, joints
+        if ends is None and link == solution.problem.drive.link:
+            ends, joints = self._crank()
+        segment = None if ends is None else (self.place(ends[0]), self.place(ends[1]))
+        return abs(self._omega(link)) / self.per_mm, segment, ends, joints
 
-    def _crank(self) -> tuple[tuple[complex, complex], tuple[str, str]]:
+    def _crank(self) -> tuple[tuple[PointName, PointName], tuple[str, str]]:
         """Return the pole and the point of the crank's end, and the crank's points."""
         solution = self.reading.solution
         drive, motion = solution.problem.drive, solution.construction.kinematics.velocity
         assert drive.pivot is not None
         own = solution.problem.bodies[drive.link].points
         pin = next(point for point in own if point != drive.pivot)
-        end = self.place(motion.point[drive.link, pin])
-        return (0j, end), (drive.pivot, pin)
+        return (motion.pole, motion.point[drive.link, pin]), (drive.pivot, pin)
+
+
+def _across(place: complex, force: complex) -> float:
+    """Return the arm of a force at a place about the origin, positive counter-clockwise."""
+    return (place.conjugate() * force).imag / abs(force) if abs(force) else 0.0

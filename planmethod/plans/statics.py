@@ -166,24 +166,24 @@ class Statics:
             self._number(reaction.couple),
         )
 
-    def balance_in(self, trace: Trace) -> Number:
-        """Return what balances the driver, N or N·m, as the force plans of a trace give it."""
+    def balance_in(self, trace: Trace, arithmetic: Arithmetic) -> Number:
+        """Return what balances the driver, N or N·m, as the force plans of a trace give it.
+
+        A force is read on its plan in the arithmetic of the trace.
+        """
         if self.driving.moment is not None:
             return trace.value[self.driving.moment]
         assert self.driving.force is not None and self.driving.axis is not None
         vector = trace.value[self.driving.force.head] - trace.value[self.driving.force.tail]
         along = trace.value[self.driving.axis][1]
-        return (vector * along.conjugate()).real / abs(along) * trace.value[self.board.scale]
-
-    def balance_of(self, trace: Trace) -> Reals:
-        """Return what balances the driver in a reading of the force plans, N·m or N."""
-        shape = self.solution.positions.shape
-        return np.broadcast_to(np.asarray(self.balance_in(trace), dtype=float), shape)
+        length = (vector * along.conjugate()).real / abs(along)
+        return arithmetic.read("balance", length) * trace.value[self.board.scale]
 
     @cached_property
     def balance(self) -> Reals:
         """Balancing moment on the crank, N·m, or force along the guide of a driving slider, N."""
-        return self.balance_of(self.si)
+        balance = self.balance_in(self.si, Float64())
+        return np.broadcast_to(np.asarray(balance, dtype=float), self.solution.positions.shape)
 
     @cached_property
     def lever(self) -> Reals | None:

@@ -59,8 +59,11 @@ CARRIED = built(lambda b: b.carry("X", O, P, Q))
 TIMES = built(lambda b: b.carry("X", O, P, Q, K))
 TURNED = built(lambda b: b.carry("X", O, P, Q, K, turned=True))
 MOMENT = built(lambda b: b.moment("X", A, B, P, Q))
+AGAIN = built(lambda b: b.carry("X", O, P, Q, K, read=True))
+WEIGHED = built(lambda b: b.moment("X", A, B, P, Q, read=True))
 SUM = built(lambda b: b.total("X", b.moment("M", A, B, P, Q), K, b.measure("l", P, Q), K))
 EVERY = {"carried": CARRIED, "times": TIMES, "turned": TURNED, "moment": MOMENT, "sum": SUM}
+EVERY |= {"again": AGAIN, "weighed": WEIGHED}
 
 
 def read(program: Program, arithmetic: Arithmetic | None = None, /, **data: Any) -> Any:
@@ -76,7 +79,9 @@ def wanted(name: str, **data: Any) -> Any:
         "carried": o + (q - p),
         "times": o + k * (q - p),
         "turned": o + 1j * k * (q - p),
+        "again": o + k * (q - p),
         "moment": moment,
+        "weighed": moment,
         "sum": moment + 2 * k + abs(q - p),
     }[name]
 
@@ -166,6 +171,14 @@ def test_the_hand_carries_exactly(name: str) -> None:
     assert read(EVERY[name], Hand(ruler=1.0)) == read(EVERY[name])
 
 
+def test_the_hand_lays_off_again_what_it_has_read() -> None:
+    """The vector of 50 mm is read in steps of 15 as 45, its arm of 20.8 as 15."""
+    assert read(AGAIN, Hand(ruler=15.0)) == pytest.approx(5 - 2j - 1.5 * 0.9 * (30 + 40j))
+    assert read(WEIGHED, Hand(ruler=15.0)) == pytest.approx(-15.0 * 45.0)
+    assert read(AGAIN, Hand(ruler=200.0)) == DATA["O"]
+    assert read(WEIGHED, Hand(ruler=200.0)) == 0.0
+
+
 def spread(program: Program, profile: Profile = PROFILE, **data: Any) -> tuple[float, float]:
     """Sigmas of the two coordinates of a result, the given points being sharp."""
     counted = Counted(profile, FREE)
@@ -186,6 +199,15 @@ def test_a_moment_errs_by_the_force_times_the_reading_of_its_arm() -> None:
     arm = math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12.0))
     assert spread(MOMENT)[0] == pytest.approx(50.0 * arm)
     assert spread(MOMENT, Q=DATA["P"])[0] == 0.0
+
+
+def test_a_force_that_is_read_errs_by_its_reading_too() -> None:
+    reading = math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12.0))
+    assert spread(WEIGHED)[0] == pytest.approx(math.hypot(50.0 * reading, 20.8 * reading))
+    across, up = spread(AGAIN)
+    assert across == pytest.approx(math.hypot(PROFILE.point, 1.5 * 0.6 * reading))
+    assert up == pytest.approx(math.hypot(PROFILE.point, 1.5 * 0.8 * reading))
+    assert spread(WEIGHED, Q=DATA["P"])[0] == 0.0
 
 
 @pytest.mark.parametrize("name", EVERY)

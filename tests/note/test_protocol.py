@@ -100,7 +100,7 @@ def test_the_random_mechanisms_have_every_dyad_and_step() -> None:
     signatures = {group.signature for s in programs for group in s.structure.groups}
     assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP"}
     kinds = {type(step) for s in programs for step in s.construction.program.steps}
-    # Those of the force plans, which no protocol tells.
+    # Those of the force plans, which mechanisms without loads have not.
     assert kinds == set(get_args(Step)) - {Carry, Moment, Total}
     assert any(not s.problem.drive.is_crank for s in programs)
 

@@ -2,23 +2,35 @@ from __future__ import annotations
 
 import re
 from dataclasses import fields
+from pathlib import Path
 from string import Formatter
 
 import pytest
 
+import planmethod
 from planmethod.errors import ExitCode
-from planmethod.note.wording import CATALOGUES, UnknownLanguageError, Wording, wording
+from planmethod.note.wording import (
+    CATALOGUES,
+    FORCE_CATALOGUES,
+    ForceWording,
+    UnknownLanguageError,
+    Wording,
+    force_wording,
+    wording,
+)
 
-TEMPLATES = [field.name for field in fields(Wording)]
+TEMPLATES: list[tuple[tuple[object, ...], str]] = []
+TEMPLATES += [(CATALOGUES, field.name) for field in fields(Wording)]
+TEMPLATES += [(FORCE_CATALOGUES, field.name) for field in fields(ForceWording)]
 
 
 def places(text: str) -> set[str]:
     return {name for _, name, _, _ in Formatter().parse(text) if name}
 
 
-@pytest.mark.parametrize("name", TEMPLATES)
-def test_catalogues_fill_the_same_places(name: str) -> None:
-    one, *others = (getattr(catalogue, name) for catalogue in CATALOGUES)
+@pytest.mark.parametrize(("catalogues", "name"), TEMPLATES, ids=[name for _, name in TEMPLATES])
+def test_catalogues_fill_the_same_places(catalogues: tuple[object, ...], name: str) -> None:
+    one, *others = (getattr(catalogue, name) for catalogue in catalogues)
     for other in others:
         assert type(other) is type(one)
         if isinstance(one, str):
@@ -30,9 +42,19 @@ def test_catalogues_fill_the_same_places(name: str) -> None:
 
 
 def test_russian_is_russian_and_english_is_english() -> None:
-    for field in TEMPLATES:
-        text = getattr(wording("en"), field)
-        assert not re.search("[а-яё]", str(text), re.IGNORECASE), field
+    for catalogue in (wording("en"), force_wording(wording("en"))):
+        for field in fields(catalogue):
+            text = getattr(catalogue, field.name)
+            assert not re.search("[а-яё]", str(text), re.IGNORECASE), field.name
+
+
+def test_every_sentence_of_the_forces_is_said() -> None:
+    folder = Path(planmethod.__file__).parent / "note"
+    source = "".join(path.read_text(encoding="utf-8") for path in folder.glob("*.py"))
+    for field in fields(ForceWording):
+        name = field.name
+        other = name == "lang" or name.startswith("side_")  # these are put together
+        assert other or re.search(rf"(said\.|\"){name}\b", source), name
 
 
 def test_an_unknown_language_is_an_error_of_usage() -> None:

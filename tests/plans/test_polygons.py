@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 from worked import problem_of
 
-from planmethod.plans.model import Known
+from planmethod.plans.model import Known, PlanKind
 from planmethod.plans.polygons import Edge, Share, reaction_symbol
 from planmethod.plans.solution import Reals, Solution
 from planmethod.plans.statics import Statics
@@ -85,6 +86,38 @@ def test_moments_give_what_they_say(name: str) -> None:
             couples = [*equation.couples, *([equation.couple] if equation.couple else [])]
             values = [statics.solution.reals(statics.si, couple.moment) for couple in couples]
             assert whole + sum(values) == pytest.approx(0.0, abs=1e-7)
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
+    """Each equation of moments once more, from arms and forces in whole steps of the ruler."""
+    statics = statics_of(name)
+    solution, step = statics.solution, statics.solution.hand.ruler
+    loaded = {given.applied.name for given in statics.board.given}
+
+    def drawn_by_hand(edge: Edge) -> Any:
+        hand = statics.by_hand
+        return solution.complexes(hand, edge.head) - solution.complexes(hand, edge.tail)
+
+    def ruled(length: Any) -> Any:
+        return np.sign(length) * np.floor(np.abs(length) / step + 0.5) * step
+
+    for plan in statics.board.plans:
+        for equation in plan.moments:
+            total: Any = 0.0
+            about = solution.complexes(solution.by_hand, equation.about)
+            for edge in equation.edges:
+                vector, at = drawn_by_hand(edge), solution.complexes(solution.by_hand, edge.at)
+                length = np.abs(vector)
+                size = length if edge.symbol in loaded else ruled(length)
+                across = ((at - about).conj() * vector).imag / np.where(length == 0, 1.0, length)
+                total = total + ruled(across) * size
+            whole = total * statics.scale.per_mm * solution.scales[PlanKind.POSITION].per_mm
+            for couple in equation.couples:
+                whole = whole + solution.reals(statics.by_hand, couple.moment)
+            if equation.couple is not None:
+                found = solution.reals(statics.by_hand, equation.couple.moment)
+                assert found == pytest.approx(-whole, rel=1e-9, abs=1e-9)
 
 
 def test_letters_of_the_components() -> None:

@@ -155,7 +155,7 @@ def test_the_hand_lays_off_what_it_computed_and_reads_other_numbers(name: str) -
     assert laid * per_mm == pytest.approx(metres, rel=1e-12)
     one, other = couples.drawn, shifted.drawn
     assert one.balances is not None and other.balances is not None
-    apart = np.abs(one.balances.plans - other.balances.plans)
+    apart = np.abs(one.balances.lever - other.balances.lever)
     assert np.any(apart > 0)
     spread = np.abs(couples.balance) * 0.2 + 3.0 * np.asarray(other.discrepancy_sigma)
     assert np.all(apart <= spread)

@@ -66,7 +66,7 @@ def lever_picture(reading: ForceReading, letter_height: float) -> Picture:
         for place, letters in spots
     ]
     forces = [Acting(force.symbol, force.at, force.force) for force in lever.forces]
-    shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.ends) for one in lever.shifts]
+    shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts]
     shifts = [one for one in shifts if one.is_seen]
     placed = lay_forces(forces, [one.line for one in shifts])
     arrows, letters_of_forces = force_items(placed, letter_height, prefix)

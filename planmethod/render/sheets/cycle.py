@@ -11,9 +11,9 @@ import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.cycle import cycle_statement, cycle_wanted
-from planmethod.note.force_formulas import found, link_names
+from planmethod.note.force_formulas import link_names
 from planmethod.note.given import point_name
-from planmethod.note.numbers import MINUS, UNITS_RU, russian
+from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, russian
 from planmethod.plans.cycle import Cycle, Piece, cycle
 from planmethod.plans.model import PlanKind
 from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
@@ -302,10 +302,10 @@ def _largest(solution: Solution, symbol: str, size: float, at: float) -> str:
     """Return the largest size of a reaction and the position where it is."""
     drive = solution.problem.drive
     letter, _, index = symbol.partition("_")
-    head = f"{letter}_{{{index.strip('{}')} max}} = {found(size)} {UNITS_RU['N']}"
+    head = f"{letter}_{{{index.strip('{}')} max}} = {RUSSIAN.found(size)} {UNITS_RU['N']}"
     if drive.is_crank:
         return f"{head} при φ_{{{drive.link}}} = {russian(f'{at % 360.0:.0f}')}°"
-    return f"{head} при s = {found(at)} м"
+    return f"{head} при s = {RUSSIAN.found(at)} м"
 
 
 # Texts -------------------------------------------------------------------------------------------

@@ -11,11 +11,11 @@ from planmethod.construct.scale import Scale
 from planmethod.note.force_formulas import (
     closing_lines,
     load_lines,
-    plan_moments,
     plan_title,
     statement,
     wanted,
 )
+from planmethod.note.force_moments import plan_moments
 from planmethod.note.lever import STANDS, lever_lines
 from planmethod.note.plaintext import plain_text
 from planmethod.note.resultants import kept_lines, shift_lines

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.force_formulas import found
 from planmethod.note.given import point_name
 from planmethod.note.lever import both_balances, difference
-from planmethod.note.numbers import UNITS_RU, alike, russian
+from planmethod.note.numbers import RUSSIAN, UNITS_RU, alike, russian
 from planmethod.plans.forcereading import NOTHING, ForceReading, force_reading
 from planmethod.plans.polygons import reaction_symbol
 from planmethod.plans.solution import Solution
@@ -74,7 +73,9 @@ def _balances(reading: ForceReading, height: float, width: float) -> Block:
     def cell(value: float | None) -> Cell:
         if value is None:
             return Cell("—")
-        return Cell(found(abs(value)), (1 if value > 0 else -1) if sense and value else None)
+        return Cell(
+            RUSSIAN.found(abs(value)), (1 if value > 0 else -1) if sense and value else None
+        )
 
     columns = [
         TableColumn(f"{symbol}, {unit}", (cell(exact),)),

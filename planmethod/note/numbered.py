@@ -1,0 +1,47 @@
+"""Text in numbered chapters, parts and steps (нумерация шагов)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from planmethod.note.plaintext import NO_BREAK, heading, wrap
+
+INDENT = " " * 5
+"""What stands before the lines of a step, under its number."""
+
+_UNIT = re.compile(r"(?<=\d) (?=(?:мм|м|Н|с|mm|m|N|s)(?![^\W\d_]))")
+"""Space between a number and its unit, where no line is cut."""
+
+
+class Steps:
+    """Plain text while it is being written: headings, and steps numbered through all of them."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self._step = self._chapter = self._part = 0
+
+    def chapter(self, title: str) -> None:
+        """Begin a chapter."""
+        self._chapter, self._part = self._chapter + 1, 0
+        self.lines += ["", *heading(f"{self._chapter}. {title}"), ""]
+
+    def part(self, title: str) -> None:
+        """Begin a part of the chapter."""
+        self._part += 1
+        blank = [] if self.lines[-1] == "" else [""]
+        self.lines += [*blank, f"{self._chapter}.{self._part}. {title}", ""]
+
+    def item(self, lines: Sequence[str], *, more: bool = False) -> None:
+        """Write a numbered step; ``more`` goes on with the last one."""
+        if not lines:
+            return
+        if not more:
+            self._step += 1
+        for i, line in enumerate(lines):
+            first = f"{self._step:>3}) " if i == 0 and not more else INDENT
+            self.lines += wrap(_UNIT.sub(NO_BREAK, line), first=first, rest=INDENT)
+
+    def formulas(self, lines: Sequence[str]) -> None:
+        """Write lines that must not be wrapped, such as an equation over its underlines."""
+        self.lines += [*(f"{INDENT}{line}" for line in lines), ""]

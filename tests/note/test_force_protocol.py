@@ -1,0 +1,426 @@
+"""Force plans in the protocol: what is said, that numbers follow from each other and are right."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+import pytest
+from loaded import loaded_problem
+from told import LANGUAGES, assert_readable, flat, told, worked
+from worked import path_of
+
+from planmethod.bench.hard_problems import rocker
+from planmethod.errors import AssemblyError
+from planmethod.note.force_formulas import closing_formula
+from planmethod.note.force_moments import moment_text
+from planmethod.note.lever import lever_equation
+from planmethod.note.plaintext import plain_text
+from planmethod.note.protocol import protocol
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.leverreading import LeverReading
+from planmethod.plans.polygons import reaction_symbol
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads
+
+LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
+SEEDS = range(30)
+"""Random loaded mechanisms: enough for every dyad and for a driving slider."""
+
+SENTENCES = {
+    ("levers/six-link", "ru"): (
+        "Принимаем масштаб планов сил μ_F = 0,01 мм/Н, один для всех планов.",
+        "Φ₁ = 0: ускорение точки A равно нулю;",
+        "Φ₂ = m₂·a_S2 = 40·68,5 = 2740 Н (точно 2744), приложена в точке S2, направлена "
+        "противоположно a_S2;",
+        "M_Φ2 = J_S2·ε₂ = 2·124,17 = 248,3 Н·м (точно 250,3), направлен по часовой стрелке, "
+        "противоположно ε₂.",
+        "Звено 4 считаем невесомым",
+        "F_5C = 6000 Н, приложена в точке H, направлена вертикально вниз.",
+        "в порядке, обратном кинематическому: группа 4–5, группа 2–3, начальное звено 1.",
+        "реакции: F₄₂ со стороны звена 2 в точке H, F₅₀ со стороны стойки в точке H.",
+        "Из конца вектора G₅ откладываем Φ₅ параллельно отрезку p′h′, противоположно a_H: "
+        "2488·0,01 = 24,88 мм.",
+        "Из начала плана проводим прямую, перпендикулярную CH: таково направление F₄₂.",
+        "F₄₂ = 70,0/0,01 = 7000 Н (точно 6996);",
+        "По уравнению сил звена 4: F₄₅ = −F₄₂.",
+        "поэтому M₅₀ = 0 и F₅₀ проходит через точку H.",
+        "Реакцию F₂₁ представляем двумя составляющими: касательной Fᵗ₂₁ ⊥ BC и нормальной Fⁿ₂₁ ∥ "
+        "BC.",
+        "Из расчёта предыдущих групп известно: F₂₄ = −F₄₂.",
+        "ΣM_C = Φ₂·h_Φ2 + F₂₄·h_F24 − G₂·h_G2 − M_Φ2 − Fᵗ₂₁·l_BC = 0, плечи: h_G2 = 20,5; h_Φ2 = "
+        "23,5; h_F24 = 38,0 мм; Fᵗ₂₁ = ((2740·23,5 + 7000·38,0 − 392,4·20,5)/250 − 248,3)/0,3 = "
+        "3470 Н (точно 3475). Fᵗ₂₁ поворачивает звено 2 вокруг точки C по часовой стрелке.",
+        "Из конца вектора Φ₂ откладываем F₂₄ параллельно F₄₂, в обратную сторону: 7000·0,01 = 70 "
+        "мм.",
+        "Полная реакция F₂₁ = Fⁿ₂₁ + Fᵗ₂₁ — вектор от точки пересечения до конца вектора Fᵗ₂₁.",
+        "реакция F₂₃ замыкает план этого звена: вектор от конца вектора F₂₄ до точки пересечения.",
+        "M_ур = 9850·17,5/250 − 400,0 = 289,5 Н·м (точно 287,2), направлен по часовой стрелке.",
+        "G₂, Φ₂ — в точку s₂; G₅, Φ₅, F_5C — в точку h.",
+        "не дают: G₁, G₃.",
+        "Момент M_Φ2 заменяем парой сил M_Φ2/l_BC в точках b, c рычага: (bc) = 73,0 мм; l_BC = 0,3 "
+        "м; пара поворачивает рычаг против часовой стрелки.",
+        "По планам сил M_ур = 289,5 Н·м, по рычагу 286,0 Н·м: расхождение 3,5 Н·м (1,2 %).",
+    ),
+    ("levers/six-link", "en"): (
+        "Φ₂ = m₂·a_S2 = 40·68.5 = 2740 N (exactly 2744), acts in point S2 opposite to a_S2;",
+        "From the head of Φ₂ we lay off F₂₄ parallel to F₄₂, in the opposite sense: 7000·0.01 = 70 "
+        "mm.",
+        "M_b = 9850·17.5/250 − 400.0 = 289.5 N·m (exactly 287.2), clockwise.",
+        "By the force plans M_b = 289.5 N·m, by the lever 286.0 N·m",
+    ),
+    ("levers/task12", "ru"): (
+        "По уравнению сил звена 4: F₄₃ = F₅₄.",
+        "F₅₀ = 0: направляющая передаёт только пару с моментом M₅₀.",
+        "M₅₀ = 2000·15,0/300 = 100,0 Н·м (точно 98,97), направлен по часовой стрелке.",
+        "Прямые пересекаются и замыкают план сил звена 2: F₂₃ — от конца вектора Fᵗ₂₁ до точки "
+        "пересечения. ",
+        "Замыкаем план сил группы 2–3: F₃₀ — вектор от конца вектора F₃₄ до точки пересечения.",
+        "l_BC = 57,5/300 = 0,19167 м;",
+        "Полная реакция F₂₁ = Fᵗ₂₁.",
+    ),
+    ("press/press", "ru"): (
+        "μ_F = 5 Н/мм",
+        "M_Φ1 = 0: ε₁ = 0.",
+        "P = 350,4 Н, приложена в точке B, направлена вертикально вверх.",
+        "ΣM_B = 0: Fᵗ₄₃ = 0. Известные силы момента относительно точки B не дают.",
+        "l_AO3 = 191,0·0,005 = 0,955 м;",
+        "F₅₀ ≈ 0",
+    ),
+    ("press/press-stone", "ru"): ("таково направление F₄₃", "⊥ O3B"),
+}
+
+
+@cache
+def random_loaded(seed: int, ruler: float | None = None) -> Solution:
+    problem = loaded_problem(seed)[0]
+    return Solution(problem) if ruler is None else Solution(problem, ruler=ruler)
+
+
+def every(ruler: float | None = None) -> list[Solution]:
+    return [random_loaded(seed, ruler) for seed in SEEDS]
+
+
+@cache
+def text_of(solution: Solution) -> str:
+    return protocol(solution)
+
+
+def forces_of(text: str) -> str:
+    """Return the chapters on forces in one line."""
+    start = re.search(r"^\d+\. (Силы, действующие|Forces on)", text, re.MULTILINE)
+    end = re.search(r"^\d+\. (Результаты|Results)", text, re.MULTILINE)
+    assert start and end
+    return flat(text[start.start() : end.start()])
+
+
+def number(text: str) -> float:
+    """Return a number as it is told: ``−3,5``, ``1,2·10⁻⁵``."""
+    powers = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+    plain = text.replace(",", ".").replace("−", "-")
+    return float(re.sub(r"·10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", lambda m: f"e{m[1].translate(powers)}", plain))
+
+
+@pytest.mark.parametrize(("name", "lang"), SENTENCES)
+def test_says_what_a_student_writes(name: str, lang: str) -> None:
+    text = told(name, lang)
+    for sentence in SENTENCES[name, lang]:
+        assert sentence in text
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", LOADED)
+def test_worked_mechanisms_are_readable(name: str, lang: str) -> None:
+    assert_readable(protocol(worked(name), lang=lang))
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_any_loaded_mechanism_is_readable(seed: int, lang: str) -> None:
+    text = protocol(random_loaded(seed), lang=lang)
+    assert_readable(text)
+    if lang == "en":
+        assert not re.search("[а-яё]", forces_of(text), re.IGNORECASE)
+
+
+def test_the_random_mechanisms_have_every_dyad_and_driver() -> None:
+    signatures = {g.signature for s in every() for g in s.structure.groups}
+    assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP"}
+    assert {s.problem.drive.is_crank for s in every()} == {True, False}
+
+
+# Numbers ------------------------------------------------------------------------------------------
+
+NUMBER = r"−?\d[\d,]*(?:·10[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)?"
+WORKED = re.compile(
+    rf"(?:^|[;,.:] )(?P<symbol>\S+) = (?:[^=;:]*[^\d=;:][^=;:]* = )?(?P<sum>[\d(][\d,()/·+− ]*)"
+    rf" = (?P<value>{NUMBER}) (?:Н·м|Н|мм|м)\b"
+)
+
+
+def computed(text: str) -> tuple[float, float]:
+    """Return the value of a sum of products, and the sum of the sizes of its terms."""
+    plain = text.replace(",", ".").replace("·", "*").replace("−", "-")
+    return float(eval(plain)), float(eval(plain.replace("-", "+")))
+
+
+def test_every_formula_gives_what_stands_after_it() -> None:
+    """Four digits of the numbers put in: of a difference as much as of its terms."""
+    count = 0
+    fine = [Solution(worked(name).problem, ruler=0.01) for name in LOADED]
+    for solution in (*map(worked, LOADED), *fine, *every()):
+        text = forces_of(text_of(solution))
+        for found in WORKED.finditer(text):
+            value, size = computed(found["sum"])
+            assert number(found["value"]) == pytest.approx(value, abs=1.2e-3 * abs(size)), found[0]
+            count += 1
+    assert count > 900
+
+
+EXACTLY = re.compile(
+    rf"(?P<symbol>[^\s;]+) (?:=|≈) [^;:]*?(?P<value>{NUMBER})(?: (?:Н·м|Н))? "
+    rf"\(точно (?P<exact>{NUMBER})\)"
+)
+
+
+def test_with_a_fine_ruler_all_forces_are_exact() -> None:
+    """All that was read comes to the exact value, whichever way it went."""
+    count = 0
+    for solution in (Solution(worked(name).problem, ruler=1e-9) for name in LOADED):
+        for found in EXACTLY.finditer(forces_of(text_of(solution))):
+            assert number(found["value"]) == pytest.approx(number(found["exact"]), rel=2e-3)
+            count += 1
+    for solution in every(1e-9):
+        peak = solution.statics.largest(0)
+        for found in EXACTLY.finditer(forces_of(text_of(solution))):
+            value, exact = number(found["value"]), number(found["exact"])
+            # Of a force in whole ruler steps of 0.1 mm only so much is written.
+            step = 0.06 * solution.statics.scale.per_mm
+            assert abs(value - exact) <= 2e-3 * abs(exact) + (step if exact < peak else 0.0)
+            count += 1
+    assert count > 400
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_exact_values_are_those_of_the_table(name: str) -> None:
+    solution = worked(name)
+    text = forces_of(text_of(solution))
+    exact = {m["symbol"]: m["exact"] for m in EXACTLY.finditer(text)}
+    for joint in solution.statics.reactions:
+        size = abs(complex(joint.force[0]))
+        symbols = [reaction_symbol(joint.on, joint.by), reaction_symbol(joint.by, joint.on)]
+        named = [exact[plain_text(s)] for s in symbols if plain_text(s) in exact]
+        if size > 1e-9:
+            assert named, symbols
+            assert number(named[0]) == pytest.approx(size, rel=1e-3)
+    balance = float(solution.statics.balance[0])
+    assert number(exact["M_ур"]) == pytest.approx(abs(balance), rel=1e-3)
+    sense = "против часовой стрелки" if balance > 0 else "по часовой стрелке"
+    for found in re.finditer(r"M_ур = [^.;]*\(точно \S+\), направлен ([^.]*)\.", text):
+        assert found[1] == sense
+
+
+# Steps --------------------------------------------------------------------------------------------
+
+LAID = re.compile(r"[Оо]ткладываем (?P<symbol>\S+) [^:]*: (?P<product>\S+) = (?P<length>[\d,]+) мм")
+
+
+def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
+    """A link's forces once each: those of the second link of two guides backwards."""
+    count = 0
+    for solution in every():
+        reading = ForceReading(solution, 0)
+        parts = re.split(r"\n\d+\.\d+\. ", text_of(solution).partition("Силовой расчёт")[2])[1:]
+        for plan, part in zip(reading.plans, parts, strict=True):
+            laid = list(LAID.finditer(flat(part)))
+            unknown = {edge.symbol for edge in plan.reactions}
+            asked = [
+                edge
+                for edge in plan.polygon
+                if edge.symbol not in unknown and reading.length(edge) > 0.0
+            ]
+            order = [m["symbol"] for m in laid]
+            assert sorted(order) == sorted(plain_text(e.symbol) for e in asked)
+            lengths = {plain_text(edge.symbol): reading.length(edge) for edge in asked}
+            for match in laid:
+                length = lengths[match["symbol"]]
+                assert number(match["length"]) == pytest.approx(length, rel=6e-4)
+                assert computed(match["product"])[0] == pytest.approx(length, rel=1.2e-3)
+            if "с концом у" not in flat(part):
+                assert order == [plain_text(edge.symbol) for edge in asked]
+            count += len(laid)
+    assert count > 300
+
+
+def test_every_reaction_is_told_from_end_to_end() -> None:
+    """Its vector, or another that it is equal to; then its size."""
+    for solution in every():
+        reading, text = ForceReading(solution, 0), forces_of(text_of(solution))
+        for plan in reading.plans:
+            for edge in plan.reactions:
+                symbol = re.escape(plain_text(edge.symbol))
+                assert re.search(rf"[ :]{symbol} (=|≈) [^;.]*[;.]", text), symbol
+                if not reading.is_none(edge):
+                    said = rf"{symbol} (— (вектор )?от|=|замыкает)|реакция {symbol} = "
+                    assert re.search(said, text), symbol
+
+
+WHIRLS = re.compile(
+    r"(?P<symbol>Fᵗ\S+) поворачивает звено (?P<link>\S+) вокруг точки (?P<p>\S+) (?P<s>[^.]*)\."
+)
+
+
+def test_a_tangential_reaction_turns_its_link_as_told() -> None:
+    count = 0
+    for solution in (*map(worked, LOADED), *every()):
+        reading = ForceReading(solution, 0)
+        senses = {(m["symbol"], m["p"]): m["s"] for m in WHIRLS.finditer(flat(text_of(solution)))}
+        for plan in reading.plans:
+            for equation in plan.moments:
+                edge = equation.force
+                if edge is None or reading.is_none(edge):
+                    continue
+                arm = reading.place(edge.at) - reading.place(equation.about)
+                turn = (arm.conjugate() * reading.force(edge)).imag
+                sense = "против часовой стрелки" if turn > 0 else "по часовой стрелке"
+                assert senses[plain_text(edge.symbol), str(equation.about)] == sense
+                count += 1
+    assert count > 30
+
+
+ACTS = re.compile(
+    r"Точка приложения (?P<force>F\S+) отстоит от точки (?P<point>\S+) на \S+ = \S+ = "
+    r"(?P<distance>\S+) м (?P<side>\w+)\."
+)
+AHEAD = {"вправо": 1, "влево": -1, "вверх": 1j, "вниз": -1j}
+
+
+def test_the_force_of_a_guide_acts_where_it_is_told() -> None:
+    """There its moment about the pin is that of the guide."""
+    count = 0
+    for solution in every(1e-9):
+        text = flat(text_of(solution))
+        found = {(m["force"], m["point"]): m for m in ACTS.finditer(text)}
+        for joint in solution.statics.reactions:
+            force, moment = complex(joint.force[0]), float(joint.moment[0])
+            symbol = plain_text(reaction_symbol(joint.on, joint.by))
+            told_of = [m for (name, _), m in found.items() if name == symbol]
+            if not told_of or abs(force) < 10 * solution.statics.scale.per_mm:
+                continue
+            away = -1j * force / abs(force) * moment / abs(force)
+            assert number(told_of[0]["distance"]) == pytest.approx(abs(away), rel=1e-2)
+            assert (away * AHEAD[told_of[0]["side"]].conjugate()).real >= 0.7 * abs(away)
+            count += 1
+    assert count > 10
+
+
+# The sheet ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_protocol_has_the_formulas_of_the_sheet(name: str) -> None:
+    reading, text = ForceReading(worked(name), 0), told(name, "ru")
+    for plan in reading.plans:
+        for edge in plan.reactions:
+            assert plain_text(closing_formula(reading, edge)) in text
+        for equation in plan.moments:
+            sheet = moment_text(reading, equation)
+            if sheet is not None and sheet.result:
+                assert plain_text(sheet.result) in text
+                assert plain_text("; ".join(sheet.arms)) in text
+    assert plain_text(lever_equation(LeverReading(reading))) in text
+
+
+# Odd problems -------------------------------------------------------------------------------------
+
+
+def six_link(*changes: tuple[str, str]) -> Solution:
+    text = path_of("levers/six-link").read_text(encoding="utf-8")
+    text = text[: text.index("[published]")]
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return Solution(loads(text, name="six-link"))
+
+
+def unloaded(*lines: str) -> Solution:
+    text = path_of("levers/six-link").read_text(encoding="utf-8")
+    start, end = text.index("[dynamics] #"), text.index("[scales]")
+    rest = text[end : text.index("[published]")]
+    return Solution(loads(text[:start] + "\n".join(lines) + "\n" + rest, name="six-link"))
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_driver_that_stands_has_no_lever(lang: str) -> None:
+    text = protocol(six_link(("omega = -20", "omega = 0"), ("epsilon = 80", "")), lang=lang)
+    said = {"ru": "рычаг не строится", "en": "there is no lever"}
+    assert said[lang] in flat(text)
+    assert "ΣM_p" not in text
+
+
+def test_without_any_load_there_is_no_plan() -> None:
+    text = flat(protocol(unloaded("[dynamics]", "gravity = false")))
+    assert text.count("Все силы равны нулю, план сил не строим") == 3
+    assert "Нагрузок, совершающих работу, нет: M_ур = 0." in text
+    assert "откладываем" not in text.partition("Силовой расчёт")[2]
+
+
+def test_a_couple_alone_is_carried_by_reactions_along_one_line() -> None:
+    text = flat(protocol(unloaded("[dynamics]", "[[loads]]", 'link = "2"', "couple = 50.0")))
+    assert "M₂ = 50,00 Н·м, направлен против часовой стрелки." in text
+    assert "Fᵗ₂₁ = 50,00/0,3 = 166,7 Н" in text
+    assert "По уравнению сил звена 2: F₂₃ = −F₂₁." in text
+
+
+@pytest.mark.parametrize(("force", "said"), [(6000, "навстречу"), (-6000, "по")])
+def test_a_resistance_is_said_to_be_against_the_velocity(force: int, said: str) -> None:
+    text = flat(
+        protocol(
+            six_link(("force = 6000 # Н\nangle = -90", f'force = {force}\nagainst = "velocity"'))
+        )
+    )
+    assert f", {said} скорости v_H." in text
+
+
+def test_a_load_that_rests_is_said_to_rest() -> None:
+    text = flat(protocol(six_link(("force = 6000", 'force = 6000\nphases = { moving = "down" }'))))
+    assert "F_5C в этом положении не действует" in text
+
+
+def test_a_reaction_below_the_ruler_is_not_laid_off() -> None:
+    text = flat(protocol(Solution(worked("press/press").problem, ruler=100.0)))
+    assert "отрезок короче половины деления линейки" in text
+
+
+def by_rocker(phi: float) -> Solution:
+    """Return a mechanism whose crank and rod stand in one line at 90 degrees."""
+    text = rocker(phi=phi, by_rocker=True)
+    load = '[[loads]]\nlink = "1"\ncouple = 7\n'
+    return Solution(loads(f'title = "Мёртвое положение"\n{text}{load}', name="rocker"))
+
+
+def test_a_dead_position_is_refused_as_by_solve() -> None:
+    """No moment on the rocker holds a crank that stands in one line with the rod."""
+    assert "Рычаг Жуковского" in protocol(by_rocker(110.0))
+    with pytest.raises(AssemblyError, match="dead position"):
+        protocol(by_rocker(90.0))
+
+
+def test_without_dynamics_there_are_no_forces() -> None:
+    text = told("linkages/ex1", "ru")
+    assert "Силовой расчёт" not in text
+    assert "Реакции" not in text
+
+
+def test_each_of_many_positions_has_its_own_forces() -> None:
+    problem = worked("levers/task12").problem
+    many = Solution(problem, positions=[245.0, 260.0])
+    for index, phi in enumerate((245.0, 260.0)):
+        exact = abs(complex(many.statics.reactions[0].force[index]))
+        text = forces_of(protocol(many, position=index))
+        symbol = many.statics.reactions[0]
+        found = re.search(
+            rf"{plain_text(reaction_symbol(symbol.on, symbol.by))} = [^;]*точно (\S+)\)", text
+        )
+        assert found is not None, phi
+        assert number(found[1]) == pytest.approx(exact, rel=1e-3)
