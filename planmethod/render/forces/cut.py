@@ -58,7 +58,7 @@ class Cut(Scheme):
     def _cut_slide(self, slide: Slide, *, slider_is_here: bool) -> None:
         """Draw one half of a prismatic pair: the block, or the bar without a block."""
         u, pin = self.line_direction(slide), self.at(slide.pin)
-        block = self._is_block(slide)
+        block = self.solution.problem.is_block(slide)
         if block and not slider_is_here:
             self.bodies += slider(self.base(slide), angle=angle_of(u), factor=self.factor)
             return
