@@ -12,8 +12,8 @@ from functools import cached_property
 
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import LayOff, NumberName, PointName
-from planmethod.note.forces import NOTHING
 from planmethod.note.quantities import Quantities, Reading, UnansweredError, Why
+from planmethod.plans.contact import NOTHING
 from planmethod.plans.forceplan import SCALE, Force, Given
 from planmethod.plans.loads import LoadKind
 from planmethod.plans.model import PlanKind
