@@ -14,7 +14,14 @@ from planmethod.note.numbers import MINUS, UNITS_RU, russian, significant, trimm
 from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.loads import Applied, LoadKind
 from planmethod.plans.model import PlanKind
-from planmethod.plans.polygons import BALANCING_MOMENT, CoupleOn, Edge, ForcePlan, Moments
+from planmethod.plans.polygons import (
+    BALANCING_MOMENT,
+    CoupleOn,
+    Edge,
+    ForcePlan,
+    Moments,
+    reaction_symbol,
+)
 from planmethod.problem.model import Convention
 
 NEWTON, NEWTON_METRE = UNITS_RU["N"], UNITS_RU["N·m"]
@@ -62,6 +69,10 @@ def statement(reading: ForceReading) -> list[str]:
     for link, mass in dynamics.masses.items():
         if mass.inertia:
             lines.append(f"J_{{S{link}}} = {short(mass.inertia)} кг·м^{{2}}")
+    for contact in reading.statics.contacts.values():
+        if contact.length is not None:
+            letter = reaction_symbol(contact.joint.on, contact.joint.by, letter="a")
+            lines.append(f"{letter} = {number(contact.length)} м")
     lines.append(f"g = {number(dynamics.gravity)} {UNITS_RU['m/s²']}")
     for one in _external(reading):
         size = abs(complex(one.force[index])) if one.point else abs(float(one.couple[index]))
@@ -88,6 +99,8 @@ def wanted(reading: ForceReading) -> str:
     symbols = dict.fromkeys(
         edge.symbol for edge in edges if edge.known.value < 2 and "^" not in edge.symbol
     )
+    for contact in reading.statics.contacts.values():
+        symbols[reaction_symbol(contact.joint.on, contact.joint.by, letter="l")] = None
     if reading.statics.driving.moment is not None:
         symbols[BALANCING_MOMENT] = None
     return ", ".join(symbols)
