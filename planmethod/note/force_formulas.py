@@ -14,7 +14,7 @@ from planmethod.note.resultants import shift_symbol
 from planmethod.plans.forceplan import Given
 from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.loads import Applied, LoadKind
-from planmethod.plans.polygons import BALANCING_MOMENT, Edge, ForcePlan
+from planmethod.plans.polygons import BALANCING_MOMENT, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.resultant import Shift
 from planmethod.problem.load_records import Dynamics
 from planmethod.problem.model import Convention
@@ -52,6 +52,10 @@ def statement(reading: ForceReading) -> list[str]:
     assert dynamics is not None
     lines = given(problem, [float(reading.solution.positions[index])])
     lines += mass_lines(dynamics)
+    for contact in reading.statics.contacts.values():
+        if contact.length is not None:
+            letter = reaction_symbol(contact.joint.on, contact.joint.by, letter="a")
+            lines.append(f"{letter} = {number(contact.length)} м")
     for one in _external(reading):
         size = abs(complex(one.force[index])) if one.point else abs(float(one.couple[index]))
         if size:
@@ -82,6 +86,8 @@ def wanted(reading: ForceReading) -> str:
     symbols = dict.fromkeys(
         edge.symbol for edge in edges if edge.known.value < 2 and "^" not in edge.symbol
     )
+    for contact in reading.statics.contacts.values():
+        symbols[reaction_symbol(contact.joint.on, contact.joint.by, letter="l")] = None
     if reading.statics.driving.moment is not None:
         symbols[BALANCING_MOMENT] = None
     return ", ".join(symbols)

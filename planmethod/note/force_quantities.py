@@ -15,8 +15,8 @@ import numpy as np
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import LayOff, NumberName, PointName
-from planmethod.note.forces import NOTHING
 from planmethod.note.quantities import Quantities, Reading, UnansweredError, Why
+from planmethod.plans.contact import NOTHING
 from planmethod.plans.forceplan import SCALE, Force, Given
 from planmethod.plans.loads import LoadKind
 from planmethod.plans.model import PlanKind

@@ -8,15 +8,22 @@ from typing import Any
 import numpy as np
 
 from planmethod.note.numbers import finite_or_none, plain
-from planmethod.note.plaintext import fixed, found, plain_text, spoken, table, wrap
+from planmethod.note.plaintext import (
+    NO_BREAK,
+    fixed,
+    found,
+    given,
+    plain_text,
+    spoken,
+    table,
+    wrap,
+)
 from planmethod.note.resultants import kept_lines, shift_lines
 from planmethod.note.sigmas import sigma_text
 from planmethod.note.wording import Wording
+from planmethod.plans.contact import NOTHING, Contact
 from planmethod.plans.solution import Solution
 from planmethod.plans.statics import JointForce
-
-NOTHING = 1e-12
-"""Share of the largest force of a position below which a reaction is nothing, and has no angle."""
 
 
 def _angle(force: complex, largest: float) -> float | None:
@@ -25,18 +32,41 @@ def _angle(force: complex, largest: float) -> float | None:
     return plain(np.degrees(np.angle(force)) % 360.0)
 
 
+def _contact_record(contact: Contact, index: int) -> dict[str, Any]:
+    """Return where the reaction of a guide acts, m, and what acts at the edges of the slider, N."""
+    b = finite_or_none(contact.b()[index])
+    place = complex(contact.place(contact.b())[index])
+    record: dict[str, Any] = {
+        "b": None if b is None else plain(b),
+        "point": None if b is None else [plain(place.real), plain(place.imag)],
+    }
+    edges = contact.edges(index)
+    if edges:
+        record["edges"] = [
+            {
+                "at": [plain(edge.at.real), plain(edge.at.imag)],
+                "fx": plain(edge.force.real),
+                "fy": plain(edge.force.imag),
+            }
+            for edge in edges
+        ]
+    return record
+
+
 def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     """Return reactions, driving and lever of one position as plain data, N and N·m.
 
-    A reaction is what the link ``from`` does to the link ``on``; ``moment`` is about ``at``. The
-    lever's ``difference`` from the force plans is that of the exact values; ``sigma`` is what a
-    drawing of the profile lets expect, ``hand`` what the ruler gives.
+    A reaction is what the link ``from`` does to the link ``on``; ``moment`` is about ``at``. A
+    guide's acts in ``point``, ``b`` from ``at`` along the guide, or at the ``edges``. The lever's
+    ``difference`` from the force plans is that of the exact values; ``sigma`` is what a drawing of
+    the profile lets expect, ``hand`` what the ruler gives.
     """
     statics = solution.statics
     drawn, largest = statics.drawn, statics.largest(index)
 
     def told(number: int, joint: JointForce) -> dict[str, Any]:
         force, at = complex(joint.force[index]), complex(joint.at[index])
+        contact = statics.contacts.get(number)
         return {
             "joint": joint.joint,
             "on": joint.on,
@@ -49,6 +79,7 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             "moment": plain(joint.moment[index]),
             "read": plain(drawn.read(number)[index]),
             "sigma": finite_or_none(drawn.sigma(number)[index]),
+            **(_contact_record(contact, index) if contact is not None else {}),
         }
 
     quantity = "moment" if solution.problem.drive.is_crank else "force"
@@ -87,6 +118,45 @@ def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
     return [*columns, balance]
 
 
+def _distance(solution: Solution, number: int, index: int, words: Wording) -> str:
+    """Return how far along its guide a reaction acts, m."""
+    contact = solution.statics.contacts.get(number)
+    b = np.nan if contact is None else float(contact.b()[index])
+    if contact is None or not np.isfinite(b):
+        return "—"
+    largest = solution.statics.largest(index)
+    return found(0.0 if abs(contact.joint.moment[index]) <= NOTHING * largest else b, words)
+
+
+def _edge_notes(solution: Solution, words: Wording, index: int) -> list[str]:
+    """Return what is told of the guides whose sliders bear at their edges."""
+    lines = []
+    for contact in solution.statics.contacts.values():
+        edges = contact.edges(index)
+        if not edges:
+            continue
+        assert contact.length is not None
+        told = [
+            f"{letter} = {found(abs(edge.force), words)} {words.units['N']} "
+            f"(φ = {fixed(np.degrees(np.angle(edge.force)) % 360.0, words)}°)".replace(
+                " ", NO_BREAK
+            )
+            for letter, edge in zip(("F′", "F″"), edges, strict=True)
+        ]
+        note = words.edges_note if np.isfinite(contact.b()[index]) else words.edges_couple
+        joint = contact.joint
+        lines += wrap(
+            note.format(
+                joint=joint.joint,
+                links=f"{joint.on}←{joint.by}",
+                length=given(contact.length, words),
+                first=told[0],
+                second=told[1],
+            )
+        )
+    return lines
+
+
 def forces_tables(
     solution: Solution, words: Wording, index: int, *, sigma: Sequence[str] | None = None
 ) -> list[str]:
@@ -112,9 +182,11 @@ def forces_tables(
                 *([spoken(sigma_text(off), words)] if sigma is not None else []),
                 "—" if angle is None else fixed(angle, words),
                 "—" if abs(moment) <= NOTHING * largest else found(moment, words),
+                _distance(solution, number, index, words),
             ]
         )
     lines = [words.table_forces, *table(sigma or words.columns_forces, rows, left=2)]
+    lines += _edge_notes(solution, words, index)
     for line in (*shift_lines(statics, words, index), *kept_lines(statics, words)):
         lines += wrap(plain_text(line))
     crank = solution.problem.drive.is_crank

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from planmethod.note.force_moments import MomentText, moment_text
-from planmethod.note.force_telling import Telling
+from planmethod.note.force_telling import Telling, closed
+from planmethod.note.guide_formulas import edge_lines
 from planmethod.plans.forceplan import Force
+from planmethod.plans.guidereading import Guided, guide_of
 from planmethod.plans.polygons import CoupleOn, Edge, ForcePlan, Moments
 
 SIDES = ("right", "up", "left", "down")
@@ -83,31 +85,32 @@ class MomentVoice:
 
     def _guide(self, equation: Moments, couple: CoupleOn) -> list[str]:
         said, point = self.said, str(equation.about)
-        reactions = self.statics.board.reactions
-        reaction = next(r for r in reactions if r.couple == couple.moment)
-        moment, force = self.telling.plain(couple.symbol), self.telling.plain(reaction.force.symbol)
-        symbols = {"moment": moment, "force": force}
+        guided = guide_of(self.reading, couple)
+        assert guided is not None, "a couple that a plan finds is the driver's or a guide's"
+        moment, force = (self.telling.plain(guided.symbol(letter)) for letter in "MF")
+        symbols = {"moment": moment, "force": force, "point": point}
         told = self._moment(equation)
         if told is None:
             links = ", ".join(equation.links)
-            return [said.guide_through.format(link=links, point=point, **symbols)]
+            return [said.guide_through.format(link=links, **symbols)]
         lines = [*self._sum(equation, told), self._couple(told, couple)]
-        edge = self._pressing(reaction.force)
-        if self.reading.is_none(edge):
-            return [*lines, said.guide_couple.format(sign="=", **symbols)]
-        size = self.reading.read(edge)
-        if not size:
-            return [*lines, said.guide_couple.format(sign="≈", **symbols)]
-        return [*lines, self._acts(reaction.force, told.value, size, point, symbols)]
+        size = guided.read_force
+        if guided.is_none or not size:
+            sign = "=" if guided.is_none else "≈"
+            lines.append(said.guide_couple.format(sign=sign, **symbols))
+            return [*lines, *self._edges(guided, said.guide_pair)]
+        pressing = guided.reaction.force
+        pressing = pressing if guided.sense > 0 else pressing.reversed()
+        symbols["arm"] = self.telling.plain(guided.own.symbol("l"))
+        lines.append(self._acts(pressing, told.value, size, symbols))
+        return [*lines, *self._edges(guided, said.guide_edges)]
 
-    def _pressing(self, force: Force) -> Edge:
-        """Return the force of a guide as the plan has it, or what acts back."""
-        ends = {force.tail, force.head}
-        return next(edge for edge in self.plan.reactions if {edge.tail, edge.head} == ends)
+    def _edges(self, guided: Guided, head: str) -> list[str]:
+        """Tell what acts at the edges of a slider that is too short for the resultant."""
+        formulas = [self.telling.plain(line) for line in edge_lines(guided, self.telling.notation)]
+        return [head, *closed(formulas)] if formulas else []
 
-    def _acts(
-        self, force: Force, moment: float, size: float, point: str, symbols: dict[str, str]
-    ) -> str:
+    def _acts(self, force: Force, moment: float, size: float, symbols: dict[str, str]) -> str:
         """Tell where on its guide a force acts."""
         say = self.telling.notation
         numbers = f"{say.found(abs(moment))}/{say.found(size)}"
@@ -115,7 +118,6 @@ class MomentVoice:
         quarter = round(float(np.degrees(np.angle(away))) / 90.0) % 4
         distance = f"{say.found(abs(moment) / size)} {say.units['m']}"
         return self.said.guide_at.format(
-            point=point,
             numbers=self.telling.plain(numbers),
             distance=self.telling.plain(distance),
             side=getattr(self.said, f"side_{SIDES[quarter]}"),

@@ -33,6 +33,7 @@ from planmethod.plans.polygons import (
     as_known,
     back,
     reaction_edge,
+    reaction_symbol,
 )
 from planmethod.plans.position import (
     inner_point,
@@ -41,6 +42,7 @@ from planmethod.plans.position import (
     slide_of,
     split,
 )
+from planmethod.problem.model import Slide
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,18 +254,23 @@ def _swinging(board: Board, group: AssurGroup) -> None:
         b.perpendicular(between, board.draft.direction(slide)),
     )
     loaded = board.chain(between, host.link, loads[1])
-    couple = board.negative(board.moment((slider.link,), at))
     hinged = Components(slider, at, mark(at, pivot))
     two = (hinged.normal(end, start), hinged.tangential(start, first))
     whole = hinged.whole(end, first)
     stands = reaction_edge(host.link, host.to, pivot, loaded, end)
     note = track_note(slide, board.draft.problem, turned=True)
     inner = reaction_edge(slider.link, host.link, at, between, end, note)
-    known, of_slider = board.couples_on(*group.links), board.couples_on(slider.link)
+    known = board.couples_on(*group.links)
     board.react(at, slider.link, slider.to, Force(at, end, first))
     board.react(pivot, host.link, host.to, Force(pivot, loaded, end))
-    pressed = Force(at, between, end)
-    held = board.press(slide.pin, slider.link, host.link, pressed, couple, inner=True)
+    if board.draft.problem.is_block(slide):
+        weighed = _pressed_block(board, slide, Force(pivot, between, end), loads[1])
+    else:
+        couple = board.negative(board.moment((slider.link,), at))
+        of_slider = board.couples_on(slider.link)
+        pressed = Force(at, between, end)
+        held = board.press(slide.pin, slider.link, host.link, pressed, couple, inner=True)
+        weighed = _of_guide(held, loads[0], of_slider)
     polygon = (*two, *loads[0], *loads[1], stands)
     board.plans.append(
         ForcePlan(
@@ -277,11 +284,21 @@ def _swinging(board: Board, group: AssurGroup) -> None:
             ),
             (
                 Moments(group.links, pivot, (*loads[0], *loads[1]), known, two[1]),
-                _of_guide(held, loads[0], of_slider),
+                weighed,
             ),
             known,
         )
     )
+
+
+def _pressed_block(board: Board, slide: Slide, force: Force, loads: Sequence[Edge]) -> Moments:
+    """Note the reaction of a block on the bar through it, by the moments about its own joint."""
+    known = board.couples_on(slide.host)
+    held = board.negative(board.moment((slide.host,), force.at))
+    board.press(slide.pin, slide.slider, slide.host, force, board.negative(held), inner=True)
+    symbol = reaction_symbol(slide.host, slide.slider, letter="M")
+    couple = CoupleOn(symbol, slide.host, held, force.at)
+    return _of_guide(couple, loads, known)
 
 
 def _sliding(board: Board, group: AssurGroup) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -30,6 +31,9 @@ from planmethod.plans.resultant import Kept, singled
 from planmethod.plans.scaling import Box
 from planmethod.plans.solution import EVERY, UNIT_SCALES, Complexes, Reals, Solution
 from planmethod.problem.model import Convention
+
+if TYPE_CHECKING:
+    from planmethod.plans.contact import Contact
 
 PLAN_BOX: Box = (100.0, 100.0)
 """What the largest of the force plans shall fill, mm: a usual size on training drawings."""
@@ -165,6 +169,13 @@ class Statics:
             self._vector(reaction.force),
             self._number(reaction.couple),
         )
+
+    @cached_property
+    def contacts(self) -> Mapping[int, Contact]:
+        """The reactions of the guides, by their numbers: where they act."""
+        from planmethod.plans.contact import contacts
+
+        return contacts(self)
 
     def balance_in(self, trace: Trace, arithmetic: Arithmetic) -> Number:
         """Return what balances the driver, N or N·m, as the force plans of a trace give it.

@@ -22,7 +22,7 @@ TOP = (
 FRAME = ("guides",)
 GUIDE = ("through", "angle")
 LINK = ("points", "slides")
-SLIDES = ("on", "along", "through", "angle", "offset")
+SLIDES = ("on", "along", "through", "angle", "offset", "length")
 POINT_FORMS = {
     "side": ("side",),
     "on": ("on", "at", "across"),

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from planmethod.mechanism.model import Mechanism
+from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -60,6 +60,8 @@ class Slide:
         Name of the host's point at ``base`` when it has one.
     towards : str or None
         Name of the host's second point of the line (``D`` of ``along = "CD"``), if so given.
+    length : float or None, m
+        Length of contact along the line (длина ползуна), if it is given.
     """
 
     slider: str
@@ -71,6 +73,7 @@ class Slide:
     label: str
     through: str | None = None
     towards: str | None = None
+    length: float | None = None
 
 
 class Where(Enum):
@@ -232,3 +235,11 @@ class Problem:
     variant: str | None = None
     dynamics: Dynamics | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
+
+    def is_block(self, slide: Slide) -> bool:
+        """Tell whether the host of a slide is a block through which the slider, a bar, passes."""
+        return (
+            slide.host != FRAME
+            and len(self.bodies[slide.host].points) == 1
+            and len(self.bodies[slide.slider].points) > 1
+        )

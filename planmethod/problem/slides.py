@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
@@ -15,6 +15,7 @@ from planmethod.problem.fields import (
     read_coordinate,
     read_keys,
     read_known_point,
+    read_length,
     read_line_name,
     read_place,
     read_point_name,
@@ -171,7 +172,7 @@ def read_slide(
     turn: float | None,
     bare: bool,
 ) -> Slide | None:
-    """Read the line of one prismatic pair.
+    """Read one prismatic pair: its line, and its length of contact where one is given.
 
     Parameters
     ----------
@@ -182,6 +183,26 @@ def read_slide(
     bare : bool
         Whether this line is itself the host's own axis.
     """
+    assert link.slides is not None
+    length = None
+    if "length" in link.slides:
+        length = read_length(faults, f"{link.path}.slides.length", link.slides["length"])
+    slide = _read_line(faults, link, host, guide, body, frame, turn=turn, bare=bare)
+    return None if slide is None else replace(slide, length=length)
+
+
+def _read_line(
+    faults: Faults,
+    link: LinkText,
+    host: str,
+    guide: str | None,
+    body: Body,
+    frame: Frame,
+    *,
+    turn: float | None,
+    bare: bool,
+) -> Slide | None:
+    """Read the line of a prismatic pair; the arguments are those of `read_slide`."""
     assert link.slides is not None
     path = f"{link.path}.slides"
     before = len(faults)

@@ -30,6 +30,9 @@ _HOLDERS = (Mapping, list)
 _MOTION = ("frame", "links", "driver", "assembly")
 """Tables on which all published values depend."""
 
+_CONTACT = ("slides", "length")
+"""Key of a link on which none of them depends."""
+
 _FORCES = ("dynamics", "loads")
 """Tables on which the published values of the force analysis depend."""
 
@@ -178,7 +181,7 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> di
     one with other masses or loads keeps those of the motion.
     """
     result = dict(table)
-    if any(path[0] in _MOTION for path in overrides):
+    if any(path[0] in _MOTION and path[2:] != _CONTACT for path in overrides):
         result.pop("published", None)
     elif any(path[0] in _FORCES for path in overrides):
         entries = result.get("published")

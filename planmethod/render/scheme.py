@@ -97,7 +97,7 @@ class Scheme:
         body = problem.bodies[link].points
         ends = [(z, self.at(name)) for name, z in body.items()]
         carried = [s for s in problem.slides.values() if s.host == link]
-        own = [s for s in carried if not self._is_block(s)]
+        own = [s for s in carried if not self.solution.problem.is_block(s)]
         size = max((abs(z - ends[0][0]) for z, _ in ends), default=0.0)
         collinear = [(z, p) for z, p in ends if abs((z - ends[0][0]).imag) <= 1e-9 * size]
         corners = [(z, p) for z, p in ends if (z, p) not in collinear]
@@ -175,20 +175,11 @@ class Scheme:
 
     # Sliders ---------------------------------------------------------------------------------
 
-    def _is_block(self, slide: Slide) -> bool:
-        """Tell whether the host is a block through which the slider, a bar, passes."""
-        bodies = self.solution.problem.bodies
-        return (
-            slide.host != FRAME
-            and len(bodies[slide.host].points) == 1
-            and len(bodies[slide.slider].points) > 1
-        )
-
     def draw_slider(self, slide: Slide) -> None:
         """Draw the rectangle of a prismatic pair and the guide that it runs on."""
         u = self.line_direction(slide)
         pin, angle = self.at(slide.pin), angle_of(u)
-        if self._is_block(slide):
+        if self.solution.problem.is_block(slide):
             block = self.base(slide)
             reach = block + unit(block - pin) * (7.0 + OVERHANG) * self.factor
             far = max(

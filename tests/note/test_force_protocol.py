@@ -289,7 +289,7 @@ def test_a_tangential_reaction_turns_its_link_as_told() -> None:
 
 
 ACTS = re.compile(
-    r"Точка приложения (?P<force>F\S+) отстоит от точки (?P<point>\S+) на \S+ = \S+ = "
+    r"Точка приложения (?P<force>F\S+) отстоит от точки (?P<point>\S+) на l\S+ = \S+ = \S+ = "
     r"(?P<distance>\S+) м (?P<side>\w+)\."
 )
 AHEAD = {"вправо": 1, "влево": -1, "вверх": 1j, "вниз": -1j}

@@ -125,6 +125,7 @@ def test_every_reading_has_its_error_beside_it(name: str, lang: str) -> None:
         return spoken(float(spread.sigma[0]), bool(spread.drawn[0]), lang)
 
     points = [row for row in plain if len(row) == 7 and row[0] in solution.points]
+    points = [row for row in points if "←" not in row[1]]  # not the reactions
     assert points
     for row in points:
         wide = [*row[:5], cell(f"v_{row[0]}"), *row[5:7], cell(f"a_{row[0]}")]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from planmethod.mechanism.model import Prismatic, Revolute
@@ -48,6 +50,13 @@ def test_along_is_geometry_of_the_host_whatever_its_motion() -> None:
     slide = yoke('along = "DB", offset = 0.05')
     assert (slide.angle, slide.base, slide.offset) == (180, 0.2, 0.05)
     assert (slide.label, slide.through, slide.towards) == ("DB", "D", "B")
+
+
+def test_a_slider_may_have_a_length_of_contact() -> None:
+    assert yoke('along = "DB"').length is None
+    slide = yoke('along = "DB", length = 0.06')
+    assert slide.length == 0.06
+    assert slide == replace(yoke('along = "DB"'), length=0.06)
 
 
 def test_a_slider_on_a_slider_translates_too() -> None:

@@ -93,6 +93,18 @@ def test_published_values_stay_where_the_motion_is_the_same() -> None:
     assert [item.value for item in own.published] == [2]
 
 
+def test_published_values_stay_where_only_a_slider_has_another_length() -> None:
+    text = TEXT.replace(
+        "[links.3]", '[links.4]\npoints = ["D"]\nslides = { on = "x-x" }\n[links.3]'
+    )
+
+    def kept(variants: str) -> int:
+        return len(loads(text + variants, name="v", variant="v").published)
+
+    assert kept("v = { links.4.slides.length = 0.06 }") == 1
+    assert kept("v = { links.4.slides.offset = 0.06 }") == 0
+
+
 LOADED = TEXT.replace(
     "[variants]",
     """[published]

@@ -133,7 +133,15 @@ EN = Wording(
     columns_lengths=("segment", "exact, mm", "read, mm"),
     sliding_row="{point}: {of} on {to}",
     table_forces="Reactions in the joints: force on the first link by the second",
-    columns_forces=("joint", "links", "F, N", "read", "φ, °", "M, N·m"),
+    columns_forces=("joint", "links", "F, N", "read", "φ, °", "M, N·m", "l, m"),
+    edges_note=(
+        "{joint} {links}: the resultant is outside the slider {length}\u00a0m long; at its edges "
+        "{first} and {second} act against one another."
+    ),
+    edges_couple=(
+        "{joint} {links}: the force is nothing, there is a moment only; at the edges of the slider "
+        "{length}\u00a0m long acts the couple {first} and {second}."
+    ),
     balance_moment="Balancing moment on the driving link: {value} {unit}.",
     balance_force="Balancing force on the driving link: {value} {unit}.",
     lever_note=(

@@ -43,11 +43,13 @@ FORCE_EN = ForceWording(
     turns="{symbol} turns link {link} about point {point} {sense}.",
     no_moments="The known forces have no moment about point {point}.",
     directed=", {sense}.",
-    guide_at="The force {force} acts {moment}/{force} = {numbers} = {distance} from point {point}, "
-    "{side}.",
+    guide_at="The force {force} acts {arm} = {moment}/{force} = {numbers} = {distance} from point "
+    "{point}, {side}.",
     guide_through="The other forces on link {link} have no moment about point {point}, so that "
     "{moment} = 0 and {force} goes through point {point}.",
     guide_couple="{force} {sign} 0: the guide gives a couple of the moment {moment} alone.",
+    guide_edges="That is beyond the slider, so two reactions act at its edges:",
+    guide_pair="This couple is that of the reactions at the edges of the slider:",
     of_start="the start of the plan",
     of_head="the head of {symbol}",
     of_tail="the tail of {symbol}",

@@ -60,6 +60,8 @@ class ForceWording:
     guide_at: str
     guide_through: str
     guide_couple: str
+    guide_edges: str
+    guide_pair: str
 
     # Steps of a plan
     of_start: str

@@ -44,11 +44,13 @@ FORCE_RU = ForceWording(
     turns="{symbol} поворачивает звено {link} вокруг точки {point} {sense}.",
     no_moments="Известные силы момента относительно точки {point} не дают.",
     directed=", направлен {sense}.",
-    guide_at="Точка приложения {force} отстоит от точки {point} на {moment}/{force} = {numbers} = "
-    "{distance} {side}.",
+    guide_at="Точка приложения {force} отстоит от точки {point} на {arm} = {moment}/{force} = "
+    "{numbers} = {distance} {side}.",
     guide_through="Остальные силы звена {link} не дают момента относительно точки {point}, поэтому "
     "{moment} = 0 и {force} проходит через точку {point}.",
     guide_couple="{force} {sign} 0: направляющая передаёт только пару с моментом {moment}.",
+    guide_edges="Это за краем ползуна, поэтому на него действуют две реакции по краям:",
+    guide_pair="Эту пару составляют реакции на краях ползуна:",
     of_start="начала плана",
     of_head="конца вектора {symbol}",
     of_tail="начала вектора {symbol}",

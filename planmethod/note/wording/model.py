@@ -126,6 +126,8 @@ class Wording:
     sliding_row: str
     table_forces: str
     columns_forces: tuple[str, ...]
+    edges_note: str
+    edges_couple: str
     balance_moment: str
     balance_force: str
     lever_note: str

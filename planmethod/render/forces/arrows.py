@@ -39,12 +39,16 @@ Segment = tuple[complex, complex]
 
 @dataclass(frozen=True, slots=True)
 class Acting:
-    """Force to be drawn: its letter, where it acts, mm, and in which direction."""
+    """Force to be drawn: its letter, where it acts, mm, and in which direction.
+
+    ``gap`` is the white between its arrow and its point, mm, where it is not that of the others.
+    """
 
     symbol: str
     at: complex
     direction: complex
     pen: Pen = Pen.MAIN
+    gap: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,10 +79,11 @@ def lay_forces(
     """
     placed: list[tuple[Acting, Segment]] = []
     for force in forces:
-        along = unit(force.direction)
+        along, white = unit(force.direction), gap if force.gap is None else force.gap
         tries: list[tuple[float, int, Segment]] = []
         for level in range(_LEVELS):
-            near, far = gap + level * (length + gap), gap + level * (length + gap) + length
+            near = white + level * (length + white)
+            far = near + length
             outward = (force.at + along * near, force.at + along * far)
             inward = (force.at - along * far, force.at - along * near)
             for k, segment in enumerate((outward, inward)):
@@ -131,7 +136,7 @@ def couple_items(
     items: list[Item] = []
     labels: list[Label] = []
     for k, couple in enumerate(couples):
-        lines = list(_lines([*around, *items]))
+        lines = list(lines_of([*around, *items]))
         radius, middle = _room(couple.at, lines)
         tag = f"{COUPLE} {couple.symbol}"
         items += turn_arrow(
@@ -172,7 +177,8 @@ def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, float]:
     return best[1], best[2]
 
 
-def _lines(items: Iterable[Item]) -> Iterable[Segment]:
+def lines_of(items: Iterable[Item]) -> Iterable[Segment]:
+    """Return the straight lines of items; of a disc its centre."""
     for item in items:
         match item:
             case Stroke(points=points):

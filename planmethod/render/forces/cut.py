@@ -8,11 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import combinations
 
+from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.given import point_name
 from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.polygons import CoupleOn, ForcePlan, Share
+from planmethod.plans.guidereading import guides
+from planmethod.plans.polygons import CoupleOn, Edge, Share
 from planmethod.problem.model import Slide
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item
@@ -24,6 +27,15 @@ from planmethod.render.forces.arrows import (
     couple_items,
     force_items,
     lay_forces,
+    lines_of,
+)
+from planmethod.render.forces.guides import (
+    FAR,
+    Pressed,
+    dimension,
+    drawn_length,
+    point_items,
+    pressed,
 )
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.labels import Label, segment_label
@@ -35,12 +47,22 @@ from planmethod.render.typeset import typeset
 _AXIS = 26.0
 """Length of a cut guide's axis to both sides of the slider's pin, before ``factor``, mm."""
 
+_AXIS_BEYOND = 10.0
+"""Least length of it beyond the slider, mm."""
+
+_BEYOND_POINT = 5.0
+"""Length of it beyond the place of a reaction, mm."""
+
 
 @dataclass(slots=True)
 class Cut(Scheme):
-    """Some links of a mechanism in one position, cut free from the others (группа отдельно)."""
+    """Some links of a mechanism in one position, cut free from the others (группа отдельно).
+
+    The axis of a cut guide goes at least ``reach`` mm to both sides of the slider's pin.
+    """
 
     links: tuple[str, ...] = field(default=())
+    reach: float = 0.0
 
     def draw(self) -> None:
         """Draw the links and, of the pairs that were cut, what belongs to them."""
@@ -58,19 +80,26 @@ class Cut(Scheme):
     def _cut_slide(self, slide: Slide, *, slider_is_here: bool) -> None:
         """Draw one half of a prismatic pair: the block, or the bar without a block."""
         u, pin = self.line_direction(slide), self.at(slide.pin)
-        block = self._is_block(slide)
+        block = self.solution.problem.is_block(slide)
         if block and not slider_is_here:
-            self.bodies += slider(self.base(slide), angle=angle_of(u), factor=self.factor)
+            self.bodies += self._body(slide, self.base(slide))
             return
         if block:
             self.bar(slide.slider, pin, self.base(slide))
         elif slider_is_here:
-            reach = _AXIS * self.factor * u
-            edge = SIZES.slider_length / 2 * self.factor * u
+            half = drawn_length(self.solution, slide, self.factor) / 2
+            edge = half * u
+            reach = max(_AXIS * self.factor, half + _AXIS_BEYOND, self.reach) * u
             for side in (-1, 1):
                 self.guides += axis_line(pin + side * edge, pin + side * reach, tag="guide")
             self.axis_ends.append((slide.label, pin - reach, pin + reach))
-            self.bodies += slider(pin, angle=angle_of(u), factor=self.factor, pen=self.pen)
+            self.bodies += self._body(slide, pin)
+
+    def _body(self, slide: Slide, middle: complex) -> list[Item]:
+        """Return the slider of a cut pair, as long as it is where that can be drawn."""
+        length = drawn_length(self.solution, slide, self.factor) / self.factor
+        angle = angle_of(self.line_direction(slide))
+        return slider(middle, angle=angle, length=length, factor=self.factor, pen=self.pen)
 
     def draw_joints(self) -> None:
         """Draw joints without the frame, and the other points of the links."""
@@ -142,8 +171,9 @@ def _loaded_picture(
     couples: Sequence[Turning],
     shifts: Sequence[Shifted],
     prefix: str,
+    guided: Sequence[Pressed] = (),
 ) -> Picture:
-    items = _drawn(scheme)
+    items = [*_drawn(scheme), *point_items(guided, scheme.factor)]
     bars = [*_bars(scheme), *(shift.line for shift in shifts)]
     placed = lay_forces(forces, bars, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)
@@ -151,6 +181,10 @@ def _loaded_picture(
     items += [*lines, *arrows]
     turns, more = couple_items(couples, items, scheme.letter_height, prefix)
     items += turns
+    for span in (one.span for one in guided if one.span is not None):
+        drawn, letter = dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
+        items += drawn
+        labels.append(letter)
     return lettered(items, [*labels, *more, *letters, *_letters(scheme, prefix, links)])
 
 
@@ -180,20 +214,63 @@ def cut_picture(reading: ForceReading, number: int, letter_height: float) -> Pic
     """Return the links of a force plan cut free, with all that acts on them, mm."""
     plan = reading.plans[number]
     scheme = Cut(reading.solution, reading.index, letter_height, links=plan.links)
-    forces = [
-        Acting(edge.symbol, reading.place(edge.at), reading.force(edge))
-        for edge in reading.shown(plan)
-    ]
-    # The found reactions first, where they have to be: across or along the link, at its end.
-    order = sorted(range(len(forces)), key=lambda k: not _is_part(reading, plan, k))
-    couples = [_turning(reading, scheme, couple) for couple in reading.couples(plan)]
     prefix = f"cut {reading.index} {number}"
-    ordered, shifts = [forces[k] for k in order], shifts_on(reading, plan.links)
-    return _loaded_picture(scheme, plan.links, ordered, couples, shifts, prefix)
+    return _cut(reading, scheme, reading.shown(plan), reading.couples(plan), prefix)
 
 
-def _is_part(reading: ForceReading, plan: ForcePlan, number: int) -> bool:
-    return reading.shown(plan)[number].share is not Share.WHOLE
+@lru_cache(maxsize=64)
+def inner_picture(
+    reading: ForceReading, number: int, letter_height: float
+) -> tuple[str, Picture] | None:
+    """Return a link of a dyad cut free at its inner guide too, and its picture, mm.
+
+    None where the plan has no inner guide, or its reaction acts in the joint.
+    """
+    plan = reading.plans[number]
+    inner = (g for g in guides(reading).values() if g.sense > 0 and {g.on, g.by} <= {*plan.links})
+    guided = next(inner, None)
+    if guided is None or guided.is_no_couple:
+        return None
+    link, reaction = guided.on, guided.reaction
+    assert reaction.couple is not None
+    (balance,) = (one for one in plan.balances if one.links == (link,))
+    edges = [edge for edge in balance.edges if not reading.is_none(edge)]
+    couples = [couple for couple in reading.couples(plan) if couple.on == link]
+    couples.append(CoupleOn(guided.symbol("M"), link, reaction.couple, reaction.force.at))
+    scheme = Cut(reading.solution, reading.index, letter_height, links=(link,))
+    return link, _cut(reading, scheme, edges, couples, f"link {reading.index} {link}")
+
+
+def _cut(
+    reading: ForceReading,
+    scheme: Cut,
+    edges: Sequence[Edge],
+    couples: Sequence[CoupleOn],
+    prefix: str,
+) -> Picture:
+    guided = pressed(reading, scheme.links, _link_lines(reading, scheme.links), scheme.factor)
+    # The axis of a guide reaches the place of its reaction; a link that does so needs no axis.
+    spans = [abs(one.span.end - one.span.start) for one in guided if one.span is not None]
+    scheme.reach = max((span + _BEYOND_POINT for span in spans if span <= FAR), default=0.0)
+    replaced = {symbol for one in guided for symbol in one.replaced}
+    # The found reactions first, where they have to be: across or along the link, at its end.
+    shown = sorted(edges, key=lambda edge: edge.share is Share.WHOLE)
+    forces = [force for one in guided for force in one.forces]
+    forces += [
+        Acting(edge.symbol, reading.place(edge.at), reading.force(edge))
+        for edge in shown
+        if edge.symbol not in replaced
+    ]
+    turnings = [_turning(reading, scheme, one) for one in couples if one.symbol not in replaced]
+    shifts = shifts_on(reading, scheme.links)
+    return _loaded_picture(scheme, scheme.links, forces, turnings, shifts, prefix, guided)
+
+
+def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:
+    """Return the lines of links between any two of their points, mm."""
+    bodies = reading.solution.problem.bodies
+    places = [[reading.place(PointName(p)) for p in bodies[link].points] for link in links]
+    return [pair for ends in places for pair in combinations(ends, 2)]
 
 
 def _turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn) -> Turning:

@@ -13,7 +13,7 @@ from planmethod.render.block import Block
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.pack import EDGE
 from planmethod.render.sheets.composition.model import Manner
-from planmethod.render.sheets.reactions import direction
+from planmethod.render.sheets.guides import angle_text
 from planmethod.render.sheets.results import position_text
 from planmethod.render.tables import Cell, TableColumn, table_block
 
@@ -44,10 +44,7 @@ def _reaction_columns(forces: Cycle, number: int, indices: Sequence[int]) -> lis
     values = [complex(joint.force[i]) for i in indices]
     nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
     sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
-    angles = [
-        "—" if nil else russian(f"{direction(v):.1f}")
-        for v, nil in zip(values, nothing, strict=True)
-    ]
+    angles = ["—" if nil else angle_text(v) for v, nil in zip(values, nothing, strict=True)]
     index = reaction_symbol(joint.on, joint.by, letter="")
     columns = [
         TableColumn(reaction_symbol(joint.on, joint.by), tuple(map(russian, sizes)), unit="Н"),

@@ -16,6 +16,7 @@ from planmethod.note.force_formulas import (
     wanted,
 )
 from planmethod.note.force_moments import plan_moments
+from planmethod.note.guide_formulas import place_lines
 from planmethod.note.lever import STANDS, lever_lines
 from planmethod.note.plaintext import plain_text
 from planmethod.note.resultants import kept_lines, shift_lines
@@ -24,10 +25,10 @@ from planmethod.plans.forcereading import ForceReading, force_reading
 from planmethod.plans.model import Known, PlanKind
 from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
-from planmethod.render.block import Block, Column, Line, Picture, heading, paragraph
+from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
 from planmethod.render.drawing import Disc, Item, Span, View
 from planmethod.render.equations import balance_block, formula_block
-from planmethod.render.forces.cut import cut_picture, loads_picture
+from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.render.forces.polygon import START, apart, drawn_edges, polygon_picture
 from planmethod.render.sheets.composition.model import Manner
@@ -104,7 +105,7 @@ def _named(picture: Block, title: str, said: Sequence[str], manner: Manner) -> B
 
 
 def _scheme(
-    reading: ForceReading, picture: Picture, title: str, manner: Manner, *said: str
+    reading: ForceReading, picture: Block, title: str, manner: Manner, *said: str
 ) -> Viewed:
     solution, kind = reading.solution, PlanKind.POSITION
     scale = solution.scales[kind]
@@ -124,7 +125,14 @@ def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> View
     """Return a structural group, or the driver, cut free with all that acts on it."""
     reading, number = _reading(solution, indices, manner), manner.entry.number
     title = plan_title(reading, reading.plans[number])
-    return _scheme(reading, cut_picture(reading, number, manner.letter), title, manner)
+    picture: Block = cut_picture(reading, number, manner.letter)
+    inner = inner_picture(reading, number, manner.letter)
+    if inner is not None:
+        link, apart_from = inner
+        said = Line(typeset(f"Звено {link}", manner.text(manner.sizes.text)))
+        beside = Column([apart_from, said], gap=3.0, align="centre")
+        picture = Row([picture, beside], gap=10.0, align="centre")
+    return _scheme(reading, picture, title, manner)
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -199,6 +207,7 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     blocks = [*balances, *moments] if drive else [*moments, *balances]
     closing = "; ".join(line.replace(" ", NBSP) for line in closing_lines(reading, plan))
     blocks.append(paragraph(f"Из плана сил: {closing}.", height, width=width))
+    blocks += [formula_block(line, height, width=width) for line in place_lines(reading, plan)]
     return Column(blocks, gap=3.0)
 
 

@@ -14,8 +14,8 @@ from planmethod.render.block import Block, Column
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.pack import EDGE
 from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
 from planmethod.render.sheets.views import shown_position
-from planmethod.render.symbols import angle_of
 from planmethod.render.tables import Cell, TableColumn, table_block
 
 
@@ -28,12 +28,9 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     reactions = reading.statics.reactions
     index = reading.index
     sizes = [abs(complex(one.force[index])) for one in reactions]
-    moments = [float(one.moment[index]) for one in reactions]
     none = [size <= NOTHING * reading.peak for size in sizes]
-    still = [abs(moment) <= NOTHING * reading.peak_moment for moment in moments]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
-    turning = alike([0.0 if nil else abs(m) for m, nil in zip(moments, still, strict=True)])
-    angles = [russian(f"{direction(complex(one.force[index])):.1f}") for one in reactions]
+    angles = [angle_text(complex(one.force[index])) for one in reactions]
     columns = [
         TableColumn(
             "Пара", tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
@@ -43,22 +40,13 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         TableColumn(
             "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
         ),
+        *place_columns(reading),
     ]
-    if not all(still):
-        cells = tuple(
-            Cell(russian(text), 0 if nil else (1 if moment > 0 else -1))
-            for text, moment, nil in zip(turning, moments, still, strict=True)
-        )
-        columns.append(TableColumn("M_{ij}, Н·м", cells))
     title = manner.entry.title or "Реакции в кинематических парах (точные значения)"
     table = table_block(columns, height, width=width, units="none", title=title)
-    return Column([table, _balances(reading, height, width)], gap=4.0)
-
-
-def direction(force: complex) -> float:
-    """Return the angle of a force from +x, degrees in [0, 360)."""
-    turn = round(angle_of(force), 1) % 360.0
-    return turn + 0.0
+    edges = edges_table(reading, height, width)
+    further = [] if edges is None else [edges]
+    return Column([table, *further, _balances(reading, height, width)], gap=4.0)
 
 
 def _balances(reading: ForceReading, height: float, width: float) -> Block:

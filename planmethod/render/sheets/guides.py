@@ -1,0 +1,83 @@
+"""Reactions of the guides in the table of a sheet: where they act, and those at the edges."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planmethod.note.given import point_name
+from planmethod.note.numbers import RUSSIAN, alike, russian, significant
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.guidereading import Guided, guides
+from planmethod.plans.polygons import reaction_symbol
+from planmethod.render.block import Block
+from planmethod.render.symbols import angle_of
+from planmethod.render.tables import Cell, TableColumn, table_block
+
+_TITLE = "Реакции на краях ползунов"
+_NONE = "—"
+
+
+def angle_text(force: complex) -> str:
+    """Return the angle of a force from +x, degrees in [0, 360)."""
+    return russian(f"{round(angle_of(force), 1) % 360.0 + 0.0:.1f}")
+
+
+def place_columns(reading: ForceReading) -> list[TableColumn]:
+    """Return the distance l of each reaction from its joint, m; the moment of one without a force.
+
+    There are cells for all reactions in their order, and no columns where nothing stands in them.
+    """
+    numbers = range(len(reading.statics.reactions))
+    found = [_guided(reading, number) for number in numbers]
+    columns = []
+    if any(one is not None and one.b is not None for one in found):
+        columns.append(TableColumn("l_{ij}, м", tuple(map(_distance, found))))
+    if any(_is_couple(one) for one in found):
+        columns.append(TableColumn("M_{ij}, Н·м", tuple(map(_moment, found))))
+    return columns
+
+
+def _guided(reading: ForceReading, number: int) -> Guided | None:
+    """Return the reaction of a guide; None of a hinge."""
+    joint = reading.statics.reactions[number]
+    one = guides(reading).get(reaction_symbol(joint.on, joint.by))
+    return one if one is not None and one.number == number else None
+
+
+def _distance(one: Guided | None) -> str:
+    if one is None or one.b is None:
+        return _NONE
+    return russian(significant(abs(one.b))) if one.b else "0"
+
+
+def _is_couple(one: Guided | None) -> bool:
+    return one is not None and one.is_none and not one.is_no_couple
+
+
+def _moment(one: Guided | None) -> Cell:
+    if one is None or not _is_couple(one):
+        return Cell(_NONE)
+    moment = float(one.contact.joint.moment[one.reading.index])
+    return Cell(russian(significant(abs(moment))), 1 if moment > 0 else -1)
+
+
+def edges_table(reading: ForceReading, height: float, width: float) -> Block | None:
+    """Return the table of the reactions at the edges of sliders; None where there are none."""
+    found = [_guided(reading, number) for number in reading.statics.contacts]
+    bearing = [one for one in found if one is not None and one.edges]
+    if not bearing:
+        return None
+    pairs = tuple(f"{point_name(one.contact.joint.joint)} ({one.on}–{one.by})" for one in bearing)
+    lengths = tuple(RUSSIAN.short(one.contact.length or 0.0) for one in bearing)
+    columns = [TableColumn("Пара", pairs), TableColumn("a_{ij}, м", lengths)]
+    for number, primes in enumerate(("'", "''")):
+        columns += _edge_columns(primes, [one.edges[number].force for one in bearing])
+    return table_block(columns, height, width=width, units="none", title=_TITLE)
+
+
+def _edge_columns(primes: str, forces: Sequence[complex]) -> list[TableColumn]:
+    sizes = tuple(map(russian, alike([abs(force) for force in forces])))
+    return [
+        TableColumn(f"F^{{{primes}}}_{{ij}}, Н", sizes),
+        TableColumn(f"φ^{{{primes}}}_{{ij}}, °", tuple(map(angle_text, forces))),
+    ]
