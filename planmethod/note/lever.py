@@ -114,8 +114,9 @@ def pair(lever: LeverReading, one: OnLink, say: Notation = RUSSIAN) -> PairText:
 
 def shift_text(lever: LeverReading, one: HungShift, say: Notation = RUSSIAN) -> str:
     """Return how far the point of a shifted force is from the centre of mass on the lever."""
+    told = pair(lever, one, say)
+    formula = f"{one.symbol}·{told.letters} = {say.found(one.length)}·{told.numbers}"
     length = say.number(f"{one.length * one.ratio:.1f}")
-    formula = f"{one.symbol}·{pair(lever, one, say).letters}"
     return f"({''.join(one.letters)}) = {formula} = {length} {say.units['mm']}"
 
 

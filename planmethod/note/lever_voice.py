@@ -14,9 +14,11 @@ from planmethod.note.lever import (
     lever_equation,
     lever_unit,
     pair,
+    shift_text,
 )
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, spoken
+from planmethod.note.resultants import force_symbol
 from planmethod.note.sigmas import sigma_text
 from planmethod.plans.leverreading import HungCouple, LeverReading
 from planmethod.plans.model import PlanKind
@@ -53,9 +55,12 @@ class LeverVoice:
         """Tell which force goes to which point, and which go nowhere."""
         motion, names = self.telling.names.kin.velocity, self.telling.names
         at: dict[str, list[str]] = {}
+        beside = {force_symbol(one.link): one for one in self.lever.shifts}
         for one in self.lever.forces:
-            point = motion.point[motion.named[one.point]]
-            at.setdefault(names.point(point), []).append(self.telling.plain(one.symbol))
+            point = names.point(motion.point[motion.named[one.point]])
+            if one.symbol in beside:
+                point = self.telling.plain(beside[one.symbol].letters[1])
+            at.setdefault(point, []).append(self.telling.plain(one.symbol))
         lines = []
         if at:
             told = (
@@ -63,6 +68,15 @@ class LeverVoice:
                 for point, symbols in at.items()
             )
             lines.append(self.said.hung.format(forces="; ".join(told)))
+        for shift in self.lever.shifts:
+            text = shift_text(self.lever, shift, self.telling.notation)
+            lines.append(
+                self.said.shift_on_lever.format(
+                    point=self.telling.plain(shift.letters[1]),
+                    force=self.telling.plain(force_symbol(shift.link)),
+                    formula=self.telling.plain(text),
+                )
+            )
         hung = {one.symbol for one in self.lever.forces}
         still = [
             self.telling.plain(load.applied.name)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from planmethod.note.force_formulas import load_formula
+from planmethod.note.force_formulas import load_formula, shift_formulas
 from planmethod.note.force_telling import Telling, closed
 from planmethod.note.plaintext import given
 from planmethod.plans.forceplan import Given
 from planmethod.plans.loads import LoadKind
+from planmethod.plans.resultant import Shift
 from planmethod.problem.load_records import Against, Mass
 from planmethod.problem.model import Convention
 
@@ -41,10 +42,43 @@ class LoadVoice:
         own = [load for load in self.reading.statics.board.given if load.applied.link == link]
         mass = dynamics.masses.get(link)
         for kind in (LoadKind.WEIGHT, LoadKind.INERTIA, LoadKind.INERTIA_COUPLE, LoadKind.EXTERNAL):
-            found = [self._load(load) for load in own if load.applied.kind is kind]
+            found = [text for load in own if load.applied.kind is kind for text in self._told(load)]
             yield from found
-            if mass is not None and not found:
+            if mass is not None and not found and not self._is_shifted(link, kind):
                 yield from self._none(link, mass, kind)
+
+    def _is_shifted(self, link: str, kind: LoadKind) -> bool:
+        return kind is LoadKind.INERTIA_COUPLE and link in self.reading.statics.board.shifts
+
+    def _told(self, load: Given) -> list[str]:
+        """Tell a load; of a shifted force of inertia, which couple it stands for and where."""
+        one = load.applied
+        shift = self.reading.statics.board.shifts.get(one.link)
+        if one.kind is not LoadKind.INERTIA or shift is None:
+            return [self._load(load)]
+        return [self._load(load), *self._shift(load, shift)]
+
+    def _shift(self, load: Given, shift: Shift) -> list[str]:
+        couple = float(shift.moment.couple[self.reading.index])
+        if not couple:
+            return []
+        plain, one = self.telling.plain, load.applied
+        moment, formula = shift_formulas(self.reading, load, shift, self.telling.notation)
+        epsilon = plain(f"ε_{{{one.link}}}")
+        turning = self.said.inertia_couple.format(
+            formula=plain(moment), exact="", sense=self.telling.sense(couple), epsilon=epsilon
+        )
+        length = abs(self.reading.read_number(shift.length))
+        laid = self.said.shift.format(
+            formula=plain(formula),
+            length=plain(self.telling.notation.short(round(length, 2))),
+            centre=one.point,
+            acceleration=f"a_{one.point}",
+            force=plain(one.name),
+            point=plain(shift.letter),
+            couple=plain(shift.moment.name),
+        )
+        return [turning, laid]
 
     def _none(self, link: str, mass: Mass, kind: LoadKind) -> Iterator[str]:
         """Tell an inertia force or couple that is none by nature."""
@@ -76,7 +110,9 @@ class LoadVoice:
             case LoadKind.WEIGHT:
                 return said.weight.format(**common)
             case LoadKind.INERTIA:
-                return said.inertia.format(acceleration=f"a_{one.point}", **common)
+                shifted = one.link in self.reading.statics.board.shifts
+                template = said.inertia_shifted if shifted else said.inertia
+                return template.format(acceleration=f"a_{one.point}", **common)
             case LoadKind.INERTIA_COUPLE:
                 sense = self.telling.sense(couple)
                 epsilon = self.telling.plain(f"ε_{{{one.link}}}")

@@ -424,3 +424,22 @@ def test_each_of_many_positions_has_its_own_forces() -> None:
         )
         assert found is not None, phi
         assert number(found[1]) == pytest.approx(exact, rel=1e-3)
+
+
+# One force of inertia -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("lang", ["ru", "en"])
+def test_a_shifted_force_of_inertia_is_told_where_it_acts(lang: str) -> None:
+    """The couple, the shift laid off on the drawing, the point of the lever; no pair on that."""
+    solution = six_link(("[dynamics]", "[dynamics]\nresultant = true"))
+    text = flat(protocol(solution, lang=lang))
+    (shift,) = solution.statics.board.shifts.values()
+    drawn = abs(float(solution.reals(solution.statics.by_hand, shift.length)[0]))
+    laid = "откладываем {} мм от точки S2" if lang == "ru" else "{} mm are laid off from point S2"
+    length = f"{drawn:.2f}"
+    assert laid.format(length.replace(".", ",") if lang == "ru" else length) in text
+    assert "h₂ = M_Φ2/Φ₂ = " in text and "T₂" in text and "(s₂t₂) = h₂·(bc)/l_BC = " in text
+    told = [line for line in text.split(";") if "M_Φ2" in line]
+    assert all("M_Φ2/Φ₂" in line or "J_S2" in line or "T₂" in line for line in told)
+    assert "M_Φ2/l_BC" not in text  # no pair of forces on the lever

@@ -10,6 +10,11 @@ FORCE_EN = ForceWording(
     of_link="Link {link}:",
     weight="{formula}, acts in point {point} vertically down",
     inertia="{formula}{exact}, acts in point {point} opposite to {acceleration}",
+    inertia_shifted="{formula}{exact}, opposite to {acceleration}",
+    shift="{formula}; {length} mm are laid off from point {centre}, perpendicular to "
+    "{acceleration}, to the side where {force} has a moment of the same sense: point {point}; "
+    "{force} acts there and stands for {couple}",
+    shift_on_lever="Point {point} is on the perpendicular to {force}: {formula}.",
     inertia_zero="{symbol} = 0: point {point} has no acceleration",
     inertia_couple="{formula}{exact}, {sense}, opposite to {epsilon}",
     inertia_couple_zero="{symbol} = 0: {epsilon} = 0",

@@ -23,6 +23,9 @@ class ForceWording:
     of_link: str
     weight: str
     inertia: str
+    inertia_shifted: str
+    shift: str
+    shift_on_lever: str
     inertia_zero: str
     inertia_couple: str
     inertia_couple_zero: str

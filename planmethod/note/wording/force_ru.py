@@ -10,6 +10,11 @@ FORCE_RU = ForceWording(
     of_link="Звено {link}:",
     weight="{formula}, приложена в точке {point}, направлена вертикально вниз",
     inertia="{formula}{exact}, приложена в точке {point}, направлена противоположно {acceleration}",
+    inertia_shifted="{formula}{exact}, направлена противоположно {acceleration}",
+    shift="{formula}; откладываем {length} мм от точки {centre} перпендикулярно {acceleration} в "
+    "ту сторону, где {force} даёт момент того же направления: получаем точку {point}; приложенная "
+    "в ней {force} заменяет {couple}",
+    shift_on_lever="Точка {point} лежит на перпендикуляре к {force}: {formula}.",
     inertia_zero="{symbol} = 0: ускорение точки {point} равно нулю",
     inertia_couple="{formula}{exact}, направлен {sense}, противоположно {epsilon}",
     inertia_couple_zero="{symbol} = 0: {epsilon} = 0",
