@@ -102,11 +102,16 @@ class DrawnForces:
         return self._sigmas[str(number)]
 
     @property
+    def balance(self) -> Reals:
+        """What balances the driver by the force plans, as the ruler gives it, N·m or N."""
+        return self._by_hand["plans"]
+
+    @property
     def balances(self) -> Balances | None:
         """What balances the driver as the ruler gives it; None where the driver stands."""
         if "lever" not in self._by_hand:
             return None
-        return Balances(self._by_hand["plans"], self._by_hand["lever"])
+        return Balances(self.balance, self._by_hand["lever"])
 
     @property
     def discrepancy_sigma(self) -> Reals | None:

@@ -15,12 +15,12 @@ from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
+from planmethod.plans.impossible import FORCE_PREFIX
 from planmethod.plans.leads import Kinematics
 from planmethod.plans.loads import Applied, LoadKind
 from planmethod.plans.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.solution import Solution
 
-PREFIX = "f:"
 SCALE = "mu_F"
 
 DOWN = -90.0
@@ -50,6 +50,18 @@ class Given:
     couple: NumberName | None
 
 
+def numbers_of(one: Applied) -> tuple[Number, ...]:
+    """Return what a load is known by: its couple, N·m, or its direction, degrees, and size, N.
+
+    Numbers of a load that is the same in every position, else arrays of shape (n,).
+    """
+    if one.point is None:
+        return (one.couple if one.steady is None else one.steady.real,)
+    force = one.force if one.steady is None else one.steady
+    turned = DOWN if one.kind is LoadKind.WEIGHT else np.degrees(np.angle(force))
+    return turned, np.abs(force)
+
+
 @dataclass(frozen=True, slots=True)
 class Reaction:
     """What one link of a joint does to the other (реакция в кинематической паре).
@@ -77,7 +89,8 @@ class Board:
     """State of the force plans while they are being planned (планы сил в работе).
 
     ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
-    groups that hang on it do to it. ``symbols`` are the letters of the couples.
+    groups that hang on it do to it. ``symbols`` are the letters of the couples. ``changing`` are
+    loads that differ from position to position, by name, with the known numbers that hold them.
     """
 
     draft: Draft
@@ -90,6 +103,7 @@ class Board:
     plans: list[ForcePlan] = field(default_factory=list)
     symbols: dict[NumberName, str] = field(default_factory=dict)
     starts: list[PointName] = field(default_factory=list)
+    changing: list[tuple[str, tuple[NumberName, ...]]] = field(default_factory=list)
     scale: NumberName = field(init=False)
     pole: PointName = field(init=False)
     _count: int = 0
@@ -98,15 +112,10 @@ class Board:
         self.scale = self.draft.b.known(SCALE)
         self.pole = self.start()
 
-    @classmethod
-    def of(cls, solution: Solution) -> Board:
-        """Return a board that goes on from the kinematics of a solution, which stays as it is."""
-        return cls(solution.construction.draft.copy(), solution.construction.kinematics)
-
     def name(self, hint: str) -> str:
         """Return a name that nothing has."""
         self._count += 1
-        return f"{PREFIX}{hint}{self._count}"
+        return f"{FORCE_PREFIX}{hint}{self._count}"
 
     def known(self, hint: str, value: Number) -> NumberName:
         """Take numbers of all positions as known."""
@@ -148,7 +157,11 @@ class Board:
             inertia = self.known("J", dynamics.masses[one.link].inertia)
             turning = self.kin.epsilon[one.link]
             return self.draft.b.compute(self.name("M"), (inertia, 1), (turning, 1), factor=-1.0)
-        return self.known("M", one.couple)
+        (size,) = numbers_of(one)
+        couple = self.known("M", size)
+        if one.steady is None:
+            self.changing.append((one.name, (couple,)))
+        return couple
 
     def _inertia(
         self, solution: Solution, one: Applied, link: str, place: str
@@ -165,11 +178,10 @@ class Board:
         return self.pole, b.carry(self.name("F"), self.pole, motion.pole, head, times)
 
     def _laid_off(self, one: Applied) -> tuple[PointName, PointName]:
-        size = np.abs(one.force)
-        turned: Number = DOWN
-        if one.kind is not LoadKind.WEIGHT:
-            turned = np.degrees(np.angle(one.force))
+        turned, size = numbers_of(one)
         angle, newtons = self.known("angle", turned), self.known("F", size)
+        if one.steady is None:
+            self.changing.append((one.name, (angle, newtons)))
         b = self.draft.b
         line = b.at_angle(self.pole, None, angle)
         length = b.compute(self.name("l"), (newtons, 1), (self.scale, -1))

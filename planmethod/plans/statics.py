@@ -19,10 +19,11 @@ from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
 from planmethod.errors import AssemblyError
+from planmethod.plans.draft import Draft
 from planmethod.plans.drawnforces import DrawnForces
 from planmethod.plans.forceplan import SCALE, Board, Force, Reaction
-from planmethod.plans.impossible import failing
-from planmethod.plans.kinetostatics import drive_forces, group_forces
+from planmethod.plans.impossible import explain, failing
+from planmethod.plans.kinetostatics import Driving, drive_forces, group_forces
 from planmethod.plans.lever import Lever, hang
 from planmethod.plans.loads import applied
 from planmethod.plans.polygons import ForcePlan
@@ -50,6 +51,33 @@ class JointForce:
     moment: Reals
 
 
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """Force plans of a problem as steps that go on from its kinematics (планы сил).
+
+    ``lever`` is None where the driver stands.
+    """
+
+    board: Board
+    driving: Driving
+    lever: Lever | None
+
+
+def plan_forces(solution: Solution, draft: Draft) -> Planned:
+    """Plan the forces of a solution on a draft of its construction, from the last group on.
+
+    Parameters
+    ----------
+    draft : Draft
+        Is gone on with.
+    """
+    board = Board(draft, solution.construction.kinematics)
+    board.load(solution, applied(solution))
+    for group in reversed(solution.structure.groups):
+        group_forces(board, group)
+    return Planned(board, drive_forces(board), hang(board))
+
+
 class Statics:
     """Force analysis of a solution (силовой расчёт).
 
@@ -61,12 +89,8 @@ class Statics:
 
     def __init__(self, solution: Solution) -> None:
         self.solution = solution
-        self.board = Board.of(solution)
-        self.board.load(solution, applied(solution))
-        for group in reversed(solution.structure.groups):
-            group_forces(self.board, group)
-        self.driving = drive_forces(self.board)
-        self.hung: Lever | None = hang(self.board)
+        planned = plan_forces(solution, solution.construction.draft.copy())
+        self.board, self.driving, self.hung = planned.board, planned.driving, planned.lever
         self.program: Program = self.board.draft.b.program().needed_for(self._asked())
 
     def _asked(self) -> list[Name]:
@@ -106,19 +130,23 @@ class Statics:
         AssemblyError
             Where a force plan does not close.
         """
-        self.solution.si  # noqa: B018 - an impossible position must be told first
-        trace = self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
-        first = failing(self.program, trace, len(self.solution.positions))
-        bad = np.flatnonzero(first >= 0)
-        if bad.size:
-            index = int(bad[0])
-            unit = "phi" if self.solution.problem.drive.is_crank else "s"
-            where = f"position {index + 1} ({unit} = {self.solution.positions[index] + 0.0:.12g})"
+        if (self.failing >= 0).any():
+            problem, at = self.solution.problem, self.solution.positions
+            draft = self.board.draft
             raise AssemblyError(
-                f"Cannot close the force plan at {where}: the mechanism stands in a dead position, "
-                "where no forces balance the loads. Ask another position."
+                explain(problem, draft, self.program, self._si, at, unit_scales=True)
             )
-        return trace
+        return self._si
+
+    @cached_property
+    def _si(self) -> Trace:
+        self.solution.si  # noqa: B018 - an impossible position must be told first
+        return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
+
+    @cached_property
+    def failing(self) -> npt.NDArray[np.int64]:
+        """Number of the first step that fails in each position, or -1; shape (n,)."""
+        return failing(self.program, self._si, len(self.solution.positions))
 
     def _vector(self, force: Force) -> Complexes:
         return self.solution.complexes(self.si, force.head) - self.solution.complexes(
