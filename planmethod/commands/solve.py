@@ -154,7 +154,7 @@ def solve(
         elif as_json:
             from planmethod.note.record import record
 
-            solution = solution_of(problem, phi, hand, hint=HINT)
+            solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
             records.append(record(solution))
             if referee is not None:
                 from planmethod.note.referee import referee_record
@@ -167,7 +167,7 @@ def solve(
         else:
             from planmethod.note.tables import result_tables
 
-            solution = solution_of(problem, phi, hand, hint=HINT)
+            solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
             click.echo(result_tables(solution, lang, sigma=sigma))
             if referee is not None:
                 from planmethod.note.referee import referee_tables

@@ -128,9 +128,8 @@ def large_table(
     partial : bool
         A last column ``reason`` says why cells are empty.
     """
-    scales, drawn = common_scales(problem, positions, gaps), problem
-    if problem.dynamics is not None:
-        drawn = with_force_scale(problem, positions, gaps)
+    scales = common_scales(problem, positions, gaps)
+    drawn = with_force_scale(problem, positions, gaps)
 
     def solved(asked: Reals) -> Solution:
         return Solution(drawn, positions=asked.tolist(), ruler=ruler, scales=scales)
