@@ -323,6 +323,34 @@ def test_forces_end_where_a_mechanism_is_dead(more: str, said: str, count: int) 
         _ = Statics(Solution(sweep.problem, positions=[180.0])).si
 
 
+BESIDE = """
+[links.4]
+points = ["B", "E"]
+BE = 2.0
+[links.5]
+points = ["G", "E"]
+GE = 2.5
+[[loads]]
+link = "5"
+at = "E"
+force = 7
+"""
+
+
+@pytest.mark.parametrize(("way", "exists"), [("angle = 30", True), ('against = "velocity"', False)])
+def test_a_load_against_a_motion_needs_the_whole_motion(way: str, exists: bool) -> None:
+    """What stands still is told by the largest speed: that of another group, which is dead."""
+    text = DEAD.replace("D = [3.0, 0.0]", "D = [3.0, 0.0]\nG = [-1.0, 2.5]")
+    problem = loads(f'{text}E = "left of BG"\n{BESIDE}{way}\n', name="beside")
+    sweep = Sweep(problem, ["F_G_5/0", "E"])
+    for positions in (np.array([90.0, 180.0, 120.0]), np.linspace(90.0, 270.0, FEW + 3)):
+        found = sweep.table(positions)
+        dead = positions == 180.0
+        assert np.isfinite(found["E.x"]).all()
+        assert np.isnan(found["F.G.5-0"]).tolist() == (dead & (not exists)).tolist()
+    assert ("Cannot close the velocity plan" in sweep.explain(180.0)) is not exists
+
+
 def test_one_by_one_in_line_finds_the_dead_position_too() -> None:
     sweep = at_dead(COUPLE)
     assert np.isnan(sweep.run([180.0])[2:]).all()
