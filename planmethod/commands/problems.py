@@ -112,7 +112,12 @@ def warn(problem: Problem, said: str) -> None:
 
 
 def solution_of(
-    problem: Problem, phi: Positions | None, hand: Profile, *, hint: str = ""
+    problem: Problem,
+    phi: Positions | None,
+    hand: Profile,
+    *,
+    hint: str = "",
+    forces: bool = False,
 ) -> Solution:
     """Solve a problem, check the solution, and tell the doubts about it.
 
@@ -122,6 +127,8 @@ def solution_of(
         Who draws the plans.
     hint : str
         What else can be asked where one of several positions is refused.
+    forces : bool
+        The forces must exist, too, where there are loads.
     """
     from planmethod.plans.selfcheck import verify, warnings
     from planmethod.plans.solution import Solution
@@ -129,6 +136,8 @@ def solution_of(
     solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=hand)
     try:
         verify(solution)
+        if forces and problem.dynamics is not None:
+            _ = solution.statics.si
     except AssemblyError as error:
         if len(solution.positions) < 2:
             raise

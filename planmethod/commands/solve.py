@@ -68,7 +68,8 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
     "--ask",
     callback=read_labels,
     metavar="LIST",
-    help="Only these results: v_E,omega_3,B,phi_2, or positions, velocities, accelerations.",
+    help="Only these results: v_E,omega_3,B,phi_2,F_B_2/1,M_dr, or positions, velocities, "
+    "accelerations, forces.",
 )
 @click.option(
     "--partial",
@@ -153,7 +154,7 @@ def solve(
         elif as_json:
             from planmethod.note.record import record
 
-            solution = solution_of(problem, phi, hand, hint=HINT)
+            solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
             records.append(record(solution))
             if referee is not None:
                 from planmethod.note.referee import referee_record
@@ -166,7 +167,7 @@ def solve(
         else:
             from planmethod.note.tables import result_tables
 
-            solution = solution_of(problem, phi, hand, hint=HINT)
+            solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
             click.echo(result_tables(solution, lang, sigma=sigma))
             if referee is not None:
                 from planmethod.note.referee import referee_tables
@@ -232,8 +233,10 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
 
     positions = _asked(problem, phi)
     if len(positions) <= BLOCK and not partial:
-        return solved_table(solution_of(problem, phi, drawn_by("board", ruler), hint=HINT))
-    looked = examine(problem, positions)
+        return solved_table(
+            solution_of(problem, phi, drawn_by("board", ruler), hint=HINT, forces=True)
+        )
+    looked = examine(problem, positions, forces=problem.dynamics is not None)
     _tell(problem, looked.gaps, looked.doubts, partial)
     return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
 from planmethod.note.wording import wording
-from planmethod.plans.many import Gaps, blocks, common_scales
+from planmethod.plans.many import Gaps, blocks, common_scales, with_force_scale
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Reals, Solution
 from planmethod.problem.model import Problem
@@ -43,8 +43,8 @@ class Table:
     blocks: Callable[[], Iterator[Rows]]
 
 
-def csv_columns(solution: Solution) -> dict[str, Reals]:
-    """Return the columns of a spreadsheet by name, ndarrays of shape (n,).
+def motion_columns(solution: Solution) -> dict[str, Reals]:
+    """Return the columns of the motion and of its plans by name, ndarrays of shape (n,).
 
     Columns: ``phi_deg`` or ``s``, ``margin``; for each point ``B.x, B.y, B.vx, B.vy, B.v, B.ax,
     B.ay, B.a``; for each link ``2.phi_deg, 2.omega, 2.epsilon`` (counter-clockwise positive); for
@@ -53,10 +53,7 @@ def csv_columns(solution: Solution) -> dict[str, Reals]:
     columns: dict[str, Reals] = {}
 
     def add(name: str, values: Reals) -> None:
-        key, copy = name, 2
-        while key in columns:
-            key, copy = f"{name}#{copy}", copy + 1
-        columns[key] = values + 0.0  # no negative zeros
+        _add(columns, name, values)
 
     add(driver_of(solution.problem), solution.positions)
     add("margin", solution.margin)
@@ -75,6 +72,27 @@ def csv_columns(solution: Solution) -> dict[str, Reals]:
         for segment in solution.segments(kind):
             add(f"{kind.value}.{segment.name}.exact", segment.exact)
             add(f"{kind.value}.{segment.name}.read", segment.read)
+    return columns
+
+
+def _add(columns: dict[str, Reals], name: str, values: Reals) -> None:
+    key, copy = name, 2
+    while key in columns:
+        key, copy = f"{name}#{copy}", copy + 1
+    columns[key] = values + 0.0  # no negative zeros
+
+
+def csv_columns(solution: Solution) -> dict[str, Reals]:
+    """Return all columns by name: those of the motion, and of the forces where there are loads.
+
+    See `motion_columns` and `forcecolumns.force_columns`.
+    """
+    columns = motion_columns(solution)
+    if solution.problem.dynamics is not None:
+        from planmethod.note.forcecolumns import force_columns
+
+        for name, values in force_columns(solution):
+            _add(columns, name, values)
     return columns
 
 
@@ -106,23 +124,30 @@ def large_table(
     ----------
     positions : ndarray of shape (n,)
     gaps : Gaps
-        Positions whose cells stay empty.
+        Positions whose cells, or those of the forces, stay empty.
     partial : bool
         A last column ``reason`` says why cells are empty.
     """
     scales = common_scales(problem, positions, gaps)
-    nothing = Solution(problem, positions=[], ruler=ruler, scales=scales)
-    names = list(csv_columns(nothing))[1:]
+    drawn = with_force_scale(problem, positions, gaps)
+
+    def solved(asked: Reals) -> Solution:
+        return Solution(drawn, positions=asked.tolist(), ruler=ruler, scales=scales)
+
+    nothing = solved(positions[:0])
+    names, still = list(csv_columns(nothing))[1:], len(motion_columns(nothing))
 
     def made() -> Iterator[Rows]:
         for part in blocks(len(positions)):
-            here = positions[part]
-            able = gaps.reason[part] < 0
-            solution = Solution(problem, positions=here[able].tolist(), ruler=ruler, scales=scales)
-            cells = list(csv_columns(solution).values())[1:] if able.any() else []
-            spread = [_spread(values, able) for values in cells]
-            spread = spread or [[""] * len(here)] * len(names)
-            yield _rows(part, here, spread, gaps if partial else None)
+            here, moving, able = positions[part], gaps.moving[part], gaps.reason[part] < 0
+            cells: list[list[Any]] = []
+            if able.any():
+                cells = [_spread(v, able) for v in csv_columns(solved(here[able])).values()]
+            if (moving & ~able).any():  # the motion there, without the forces
+                moved = motion_columns(solved(here[moving])).values()
+                cells[:still] = [_spread(v, moving) for v in moved]
+            empty = [[""] * len(here)] * (1 + len(names) - len(cells))
+            yield _rows(part, here, [*cells, *empty][1:], gaps if partial else None)
 
     return Table(problem, _header(problem, names, partial), len(positions), made)
 

@@ -103,7 +103,7 @@ class DrawnForces:
 
     @property
     def balance(self) -> Reals:
-        """What balances the driver by the force plans as the ruler gives it, N·m or N."""
+        """What balances the driver by the force plans, as the ruler gives it, N·m or N."""
         return self._by_hand["plans"]
 
     @property
@@ -111,7 +111,7 @@ class DrawnForces:
         """The same by the force plans and by the lever; None where the driver stands."""
         if "lever" not in self._by_hand:
             return None
-        return Balances(self._by_hand["plans"], self._by_hand["lever"])
+        return Balances(self.balance, self._by_hand["lever"])
 
     @property
     def discrepancy_sigma(self) -> Reals | None:

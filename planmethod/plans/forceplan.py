@@ -15,13 +15,13 @@ from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
+from planmethod.plans.impossible import FORCE_PREFIX
 from planmethod.plans.leads import Kinematics
 from planmethod.plans.loads import Applied, LoadKind
 from planmethod.plans.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.resultant import Shift, free_letter
 from planmethod.plans.solution import Solution
 
-PREFIX = "f:"
 SCALE = "mu_F"
 
 DOWN = -90.0
@@ -55,6 +55,18 @@ class Given:
     couple: NumberName | None
 
 
+def numbers_of(one: Applied) -> tuple[Number, ...]:
+    """Return what a load is known by: its couple, N·m, or its direction, degrees, and size, N.
+
+    Numbers of a load that is the same in every position, else arrays of shape (n,).
+    """
+    if one.point is None:
+        return (one.couple if one.steady is None else one.steady.real,)
+    force = one.force if one.steady is None else one.steady
+    turned = DOWN if one.kind is LoadKind.WEIGHT else np.degrees(np.angle(force))
+    return turned, np.abs(force)
+
+
 @dataclass(frozen=True, slots=True)
 class Reaction:
     """What one link of a joint does to the other (реакция в кинематической паре).
@@ -83,7 +95,8 @@ class Board:
 
     ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
     groups that hang on it do to it. ``symbols`` are the letters of the couples; ``shifts`` are the
-    forces of inertia, by link, that stand for their couples as well.
+    forces of inertia, by link, that stand for their couples as well. ``changing`` are loads that
+    differ from position to position, by name, with the known numbers that hold them.
     """
 
     draft: Draft
@@ -97,6 +110,7 @@ class Board:
     symbols: dict[NumberName, str] = field(default_factory=dict)
     shifts: dict[str, Shift] = field(default_factory=dict)
     starts: list[PointName] = field(default_factory=list)
+    changing: list[tuple[str, tuple[NumberName, ...]]] = field(default_factory=list)
     scale: NumberName = field(init=False)
     pole: PointName = field(init=False)
     _count: int = 0
@@ -105,15 +119,10 @@ class Board:
         self.scale = self.draft.b.known(SCALE)
         self.pole = self.start()
 
-    @classmethod
-    def of(cls, solution: Solution) -> Board:
-        """Return a board that goes on from the kinematics of a solution, which stays as it is."""
-        return cls(solution.construction.draft.copy(), solution.construction.kinematics)
-
     def name(self, hint: str) -> str:
         """Return a name that nothing has."""
         self._count += 1
-        return f"{PREFIX}{hint}{self._count}"
+        return f"{FORCE_PREFIX}{hint}{self._count}"
 
     def known(self, hint: str, value: Number) -> NumberName:
         """Take numbers of all positions as known."""
@@ -166,7 +175,11 @@ class Board:
             inertia = self.known("J", dynamics.masses[one.link].inertia)
             turning = self.kin.epsilon[one.link]
             return self.draft.b.compute(self.name("M"), (inertia, 1), (turning, 1), factor=-1.0)
-        return self.known("M", one.couple)
+        (size,) = numbers_of(one)
+        couple = self.known("M", size)
+        if one.steady is None:
+            self.changing.append((one.name, (couple,)))
+        return couple
 
     def _mass(self, solution: Solution, one: Applied) -> NumberName:
         dynamics = solution.problem.dynamics
@@ -200,11 +213,10 @@ class Board:
         return at
 
     def _laid_off(self, one: Applied) -> tuple[PointName, PointName]:
-        size = np.abs(one.force)
-        turned: Number = DOWN
-        if one.kind is not LoadKind.WEIGHT:
-            turned = np.degrees(np.angle(one.force))
+        turned, size = numbers_of(one)
         angle, newtons = self.known("angle", turned), self.known("F", size)
+        if one.steady is None:
+            self.changing.append((one.name, (angle, newtons)))
         b = self.draft.b
         line = b.at_angle(self.pole, None, angle)
         length = b.compute(self.name("l"), (newtons, 1), (self.scale, -1))

@@ -28,6 +28,9 @@ from planmethod.construct.steps import (
 from planmethod.plans.draft import Draft
 from planmethod.problem.model import Problem
 
+FORCE_PREFIX = "f:"
+"""What the names of the points and numbers of the force plans begin with."""
+
 
 def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]:
     """Return for each position the number of the first step that fails, or -1.
@@ -110,6 +113,11 @@ def _without_length(
 
 
 def _sentence(step: Step, where: str, unit: str, real: Any, point: Any) -> str:
+    if step.out.startswith(FORCE_PREFIX):
+        return (
+            f"Cannot close the force plan at {where}: the mechanism stands in a dead position, "
+            "where no forces balance the loads. Ask another position."
+        )
     match step:
         case MeetCircles(out, a, r, b, q, _):
             gap, one, two = abs(point(b) - point(a)), real(r), real(q)

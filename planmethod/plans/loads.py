@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.construct.arithmetic import Number
 from planmethod.errors import Fault, ProblemError
-from planmethod.plans.solution import Complexes, Reals, Solution
+from planmethod.plans.build import Construction
+from planmethod.plans.solution import Complexes, LinkMotion, PointMotion, Reals
 from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import (
     Against,
@@ -26,6 +29,7 @@ from planmethod.problem.load_records import (
     Table,
     Turning,
 )
+from planmethod.problem.model import Problem
 
 STILL = 1e-10
 """Share of the largest speed of a position below which a point or a link stands."""
@@ -38,6 +42,33 @@ TURN = 360.0
 _AHEAD = {Moving.UP: 1j, Moving.DOWN: -1j, Moving.LEFT: -1 + 0j, Moving.RIGHT: 1 + 0j}
 
 Mask = npt.NDArray[np.bool_]
+
+
+class Moved(Protocol):
+    """What loads need to know of the motion; a `Solution` knows it.
+
+    ``positions`` is of shape (n,), as are the arrays of ``points`` and ``links``.
+    """
+
+    @property
+    def problem(self) -> Problem:
+        """The problem."""
+
+    @property
+    def positions(self) -> Reals:
+        """Positions of the driver, degrees or m."""
+
+    @property
+    def construction(self) -> Construction:
+        """Its construction: what can move at all."""
+
+    @property
+    def points(self) -> Mapping[str, PointMotion]:
+        """Motion of every named point."""
+
+    @property
+    def links(self) -> Mapping[str, LinkMotion]:
+        """Motion of every moving link."""
 
 
 class LoadKind(Enum):
@@ -65,6 +96,8 @@ class Applied:
     couple : ndarray of shape (n,), N·m
         Counter-clockwise positive; zero for a force.
     kind : LoadKind
+    steady : complex or None
+        The force or couple where it is the same in every position.
     """
 
     name: str
@@ -73,9 +106,10 @@ class Applied:
     force: Complexes
     couple: Reals
     kind: LoadKind
+    steady: complex | None = None
 
 
-def applied(solution: Solution) -> tuple[Applied, ...]:
+def applied(solution: Moved) -> tuple[Applied, ...]:
     """Return all that acts on the links beside the reactions, link by link.
 
     A link has its weight, the main vector of its inertia forces Φ = -m·a_S (главный вектор сил
@@ -99,23 +133,53 @@ def applied(solution: Solution) -> tuple[Applied, ...]:
     return tuple(found)
 
 
+def changing(solution: Moved) -> dict[str, Applied]:
+    """Return the external loads that differ from position to position, by name.
+
+    Raises
+    ------
+    ProblemError
+        As of `applied`.
+    """
+    dynamics = solution.problem.dynamics
+    assert dynamics is not None, "who has no loads has none that change"
+    links = solution.problem.mechanism.links
+    found = (one for link in links for one in _external(solution, dynamics, link))
+    return {one.name: one for one in found if one.steady is None}
+
+
+def needs_motion(load: Load | Couple) -> bool:
+    """Whether a load is known only where the motion is, not by the driver's position alone."""
+    phase = load.phase
+    if isinstance(load.sense, Against):
+        return True
+    if phase is not None and (phase.moving is not None or phase.turning is not None):
+        return True
+    return isinstance(load.size, Table) and load.size.over in (Over.X, Over.Y)
+
+
 def _force(
-    solution: Solution, name: str, link: str, point: str, force: Complexes | complex, kind: LoadKind
+    solution: Moved, name: str, link: str, point: str, force: Number, kind: LoadKind
 ) -> Applied:
     shape = solution.positions.shape
     whole = np.array(np.broadcast_to(force, shape), dtype=complex)
-    return Applied(name, link, point, whole, np.zeros(shape), kind)
+    return Applied(name, link, point, whole, np.zeros(shape), kind, _steady(force))
 
 
-def _couple(solution: Solution, name: str, link: str, couple: Reals, kind: LoadKind) -> Applied:
-    zero = np.zeros(solution.positions.shape, dtype=complex)
-    return Applied(name, link, None, zero, couple, kind)
+def _couple(solution: Moved, name: str, link: str, couple: Number, kind: LoadKind) -> Applied:
+    shape = solution.positions.shape
+    whole = np.array(np.broadcast_to(couple, shape), dtype=float)
+    return Applied(name, link, None, np.zeros(shape, dtype=complex), whole, kind, _steady(couple))
+
+
+def _steady(value: Number) -> complex | None:
+    return complex(value) if np.ndim(value) == 0 else None
 
 
 # Weight and inertia ------------------------------------------------------------------------------
 
 
-def _of_mass(solution: Solution, gravity: float, link: str, mass: Mass) -> Iterator[Applied]:
+def _of_mass(solution: Moved, gravity: float, link: str, mass: Mass) -> Iterator[Applied]:
     centre = mass.centre
     if mass.mass and gravity and centre is not None:
         weight = complex(0.0, -mass.mass * gravity)
@@ -128,26 +192,26 @@ def _of_mass(solution: Solution, gravity: float, link: str, mass: Mass) -> Itera
         yield _couple(solution, f"M_{{Φ{link}}}", link, couple, LoadKind.INERTIA_COUPLE)
 
 
-def _stands(solution: Solution) -> bool:
+def _stands(solution: Moved) -> bool:
     """Whether the driver stands, and all links with it."""
     drive = solution.problem.drive
     return drive.rate == 0 and drive.acceleration == 0
 
 
-def _may_accelerate(solution: Solution, link: str, point: str) -> bool:
+def _may_accelerate(solution: Moved, link: str, point: str) -> bool:
     drive, plan = solution.problem.drive, solution.construction.kinematics.acceleration
     even = link == drive.link and not drive.is_crank and drive.acceleration == 0
     return not even and not _stands(solution) and plan.point[link, point] != plan.pole
 
 
-def _may_turn_unevenly(solution: Solution, link: str) -> bool:
+def _may_turn_unevenly(solution: Moved, link: str) -> bool:
     return not _stands(solution) and link in solution.construction.kinematics.epsilon
 
 
 # External loads ----------------------------------------------------------------------------------
 
 
-def _external(solution: Solution, dynamics: Dynamics, link: str) -> Iterator[Applied]:
+def _external(solution: Moved, dynamics: Dynamics, link: str) -> Iterator[Applied]:
     for index, load in enumerate(dynamics.loads):
         if load.link != link or _is_nothing(solution, load):
             continue
@@ -155,7 +219,7 @@ def _external(solution: Solution, dynamics: Dynamics, link: str) -> Iterator[App
         if load.phase is not None:
             size = np.where(_acts(solution, load, load.phase), size, 0.0)
         if isinstance(load, Load):
-            force = np.asarray(size * _direction(solution, load), dtype=complex)
+            force = size * _direction(solution, load)
             yield _force(solution, load.name, link, load.at, force, LoadKind.EXTERNAL)
         else:
             if load.sense is not None:
@@ -163,7 +227,7 @@ def _external(solution: Solution, dynamics: Dynamics, link: str) -> Iterator[App
             yield _couple(solution, load.name, link, size, LoadKind.EXTERNAL)
 
 
-def _is_nothing(solution: Solution, load: Load | Couple) -> bool:
+def _is_nothing(solution: Moved, load: Load | Couple) -> bool:
     """Whether a load is zero by nature: of size zero, or against what never moves."""
     if load.size == 0:
         return True
@@ -173,7 +237,7 @@ def _is_nothing(solution: Solution, load: Load | Couple) -> bool:
     return _stands(solution) or not turns
 
 
-def _direction(solution: Solution, load: Load) -> Complexes | complex:
+def _direction(solution: Moved, load: Load) -> Complexes | complex:
     """Return the unit vector of a force; zero where it resists a point that stands."""
     if isinstance(load.sense, Fixed):
         return rotation(load.sense.angle)
@@ -183,7 +247,7 @@ def _direction(solution: Solution, load: Load) -> Complexes | complex:
     return np.where(moves, -velocity / np.where(moves, speed, 1.0), 0.0)
 
 
-def _turning(solution: Solution, link: str) -> Reals:
+def _turning(solution: Moved, link: str) -> Reals:
     """Return the sense of a link's rotation: 1, -1, or 0 where it does not turn."""
     omega = solution.links[link].omega
     bodies = [solution.problem.bodies[name] for name in solution.problem.mechanism.links]
@@ -193,13 +257,13 @@ def _turning(solution: Solution, link: str) -> Reals:
     return np.where(np.abs(omega) > STILL * largest, np.sign(omega), 0.0)
 
 
-def _largest_speed(solution: Solution) -> Reals:
+def _largest_speed(solution: Moved) -> Reals:
     """Return the largest speed of a named point in each position, m/s."""
     speeds = [np.abs(motion.velocity) for motion in solution.points.values()]
     return np.asarray(np.max(speeds, axis=0), dtype=float)
 
 
-def _acts(solution: Solution, load: Load | Couple, phase: Phase) -> Mask:
+def _acts(solution: Moved, load: Load | Couple, phase: Phase) -> Mask:
     """Whether a load acts, position by position."""
     acts = np.ones(solution.positions.shape, dtype=bool)
     if phase.phi:
@@ -229,11 +293,11 @@ def _from(phi: Reals, start: float) -> Reals:
 # Tables ------------------------------------------------------------------------------------------
 
 
-def _size(solution: Solution, load: Load | Couple, index: int) -> Reals:
+def _size(solution: Moved, load: Load | Couple, index: int) -> Reals | float:
     """Return the size of a load in every position, N or N·m."""
     size = load.size
     if not isinstance(size, Table):
-        return np.full(solution.positions.shape, size)
+        return size
     match size.over:
         case Over.POSITION:
             what = "force" if isinstance(load, Load) else "couple"
@@ -268,7 +332,7 @@ def _read(table: Table, at: Reals) -> Reals:
     return np.asarray(values[np.maximum(row, 0)], dtype=float)
 
 
-def _numbers(solution: Solution, path: str) -> npt.NDArray[np.intp]:
+def _numbers(solution: Moved, path: str) -> npt.NDArray[np.intp]:
     """Tell which positions of the file the asked ones are.
 
     Raises

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -57,10 +57,13 @@ class Gaps:
         -1 where there are results, else an index into ``told``.
     told : tuple of str
         Why, for the first position of each kind; in the order of these positions.
+    unforced : int
+        The last kinds, so many, leave the motion as it is: only forces do not exist there.
     """
 
     reason: Codes
     told: tuple[str, ...]
+    unforced: int = 0
 
     @classmethod
     def of(cls, codes: Codes, tell: Callable[[int], str]) -> Gaps:
@@ -84,6 +87,11 @@ class Gaps:
     def count(self) -> int:
         """Positions without results."""
         return int(np.count_nonzero(self.reason >= 0))
+
+    @property
+    def moving(self) -> npt.NDArray[np.bool_]:
+        """Positions where the motion exists, ndarray of shape (n,)."""
+        return (self.reason < 0) | (self.reason >= len(self.told) - self.unforced)
 
     def more(self, count: int) -> str:
         """Return how many positions share the lot of one that was told."""
@@ -119,7 +127,7 @@ class Gaps:
         reason = self.reason.copy()
         inside = other.reason >= 0
         reason[at[inside]] = other.reason[inside] + len(self.told)
-        return Gaps(reason, (*self.told, *other.told))
+        return Gaps(reason, (*self.told, *other.told), other.unforced)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +162,9 @@ def evenly(places: Places, most: int = SAMPLE) -> Places:
     return places[np.linspace(0, len(places) - 1, most).round().astype(np.intp)]
 
 
-def examine(problem: Problem, positions: Reals, *, numbers: Places | None = None) -> Examined:
+def examine(
+    problem: Problem, positions: Reals, *, numbers: Places | None = None, forces: bool = False
+) -> Examined:
     """Check every position as `verify` does and estimate its error, block by block.
 
     Parameters
@@ -162,6 +172,8 @@ def examine(problem: Problem, positions: Reals, *, numbers: Places | None = None
     positions : ndarray of shape (n,)
     numbers : ndarray of shape (n,), optional
         Numbers of the positions, from 0, where they are a part of others.
+    forces : bool
+        Look at the force plans, too.
 
     Raises
     ------
@@ -172,6 +184,7 @@ def examine(problem: Problem, positions: Reals, *, numbers: Places | None = None
     count = len(positions)
     numbers = np.arange(count) if numbers is None else numbers
     codes, estimate = np.full(count, -1, np.int16), np.zeros(count)
+    unforced = np.full(count, -1, np.int16)
     for part in blocks(count):
         left = np.arange(part.start, part.stop)
         solution = Solution(problem, positions=_listed(positions[left]))
@@ -193,14 +206,19 @@ def examine(problem: Problem, positions: Reals, *, numbers: Places | None = None
             verify(solution)
         except SelfCheckError as error:
             raise SelfCheckError(_renumbered(str(error), numbers[left])) from error
+        if forces:
+            unforced[left] = solution.statics.failing
 
     def tell(index: int) -> str:
-        return why(problem, float(positions[index]), int(numbers[index]))
+        return why(problem, float(positions[index]), int(numbers[index]), forces=forces)
 
     estimate[codes >= 0] = 0.0
     gaps = Gaps.of(codes, tell)
     kinds = sorted(set(gaps.reason[codes == _SPOILT].tolist()))
     doubts = _doubts(problem, positions, numbers, estimate)
+    if forces:
+        other = Gaps.of(unforced, tell)
+        gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.told)))
     return Examined(gaps, tuple(doubts), tuple(gaps.sentences[k] for k in kinds))
 
 
@@ -220,11 +238,19 @@ def impossible_steps(solution: Solution) -> Codes:
     return np.full(solution.positions.shape, -1, np.int16)
 
 
-def why(problem: Problem, position: float, number: int) -> str:
-    """Return why one position has no results; its number, from 0, is for the message."""
+def why(problem: Problem, position: float, number: int, *, forces: bool = False) -> str:
+    """Return why one position has no results; its number, from 0, is for the message.
+
+    Parameters
+    ----------
+    forces : bool
+        The forces are among the results.
+    """
     alone = Solution(problem, positions=[position])
     try:
         verify(alone)
+        if forces:
+            _ = alone.statics.si
     except AssemblyError as error:
         return _renumbered(str(error), np.array([number]))
     # Alone it can just be assembled: arrays round otherwise than single numbers do.
@@ -255,7 +281,7 @@ def _doubts(problem: Problem, positions: Reals, numbers: Places, estimate: Reals
 
 def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:
     """Return the scales of the plans in all positions, chosen by a thousand of them at most."""
-    some = evenly(np.flatnonzero(gaps.reason < 0))
+    some = evenly(np.flatnonzero(gaps.moving))
     if not some.size:
         units = {"mu_l": "m", "mu_v": "m/s", "mu_a": "m/s²"}
         return {
@@ -263,3 +289,14 @@ def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKi
             for kind, (symbol, unit) in zip(PlanKind, units.items(), strict=True)
         }
     return Solution(problem, positions=_listed(positions[some])).scales
+
+
+def with_force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> Problem:
+    """Return a problem that asks for one scale of forces, chosen as `common_scales` chooses."""
+    some = evenly(np.flatnonzero(gaps.reason < 0))
+    if problem.dynamics is None or problem.scales.mu_F is not None:
+        return problem
+    scale = 1.0
+    if some.size:
+        scale = Solution(problem, positions=_listed(positions[some])).statics.scale.per_mm
+    return replace(problem, scales=replace(problem.scales, mu_F=scale))

@@ -6,9 +6,10 @@ of the drawings, whoever reads them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,10 +21,11 @@ from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
 from planmethod.errors import AssemblyError
+from planmethod.plans.draft import Draft
 from planmethod.plans.drawnforces import DrawnForces
 from planmethod.plans.forceplan import SCALE, Board, Force, Reaction
-from planmethod.plans.impossible import failing
-from planmethod.plans.kinetostatics import drive_forces, group_forces
+from planmethod.plans.impossible import explain, failing
+from planmethod.plans.kinetostatics import Driving, drive_forces, group_forces
 from planmethod.plans.lever import Lever, hang
 from planmethod.plans.loads import Applied, applied
 from planmethod.plans.polygons import ForcePlan
@@ -55,6 +57,42 @@ class JointForce:
     moment: Reals
 
 
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """Force plans of a problem as steps that go on from its kinematics (планы сил).
+
+    ``lever`` is None where the driver stands.
+    """
+
+    board: Board
+    driving: Driving
+    lever: Lever | None
+
+
+def plan_forces(
+    solution: Solution,
+    draft: Draft,
+    loads: Iterable[Applied],
+    single: Mapping[str, Applied] = MappingProxyType({}),
+) -> Planned:
+    """Plan the forces of a solution on a draft of its construction, from the last group on.
+
+    Parameters
+    ----------
+    draft : Draft
+        Is gone on with.
+    loads : iterable of Applied
+        What acts on the links beside the reactions.
+    single : mapping of str to Applied
+        Couples that the force of inertia of their link stands for as well, by link.
+    """
+    board = Board(draft, solution.construction.kinematics)
+    board.load(solution, loads, single)
+    for group in reversed(solution.structure.groups):
+        group_forces(board, group)
+    return Planned(board, drive_forces(board), hang(board))
+
+
 class Statics:
     """Force analysis of a solution (силовой расчёт).
 
@@ -71,17 +109,13 @@ class Statics:
 
     def __init__(self, solution: Solution) -> None:
         self.solution = solution
-        self.board = Board.of(solution)
         loads = applied(solution)
-        single: dict[str, Applied] = {}
+        single: Mapping[str, Applied] = {}
         self.kept: tuple[Kept, ...] = ()
         if solution.problem.dynamics is not None and solution.problem.dynamics.resultant:
             single, self.kept = singled(solution, loads)
-        self.board.load(solution, loads, single)
-        for group in reversed(solution.structure.groups):
-            group_forces(self.board, group)
-        self.driving = drive_forces(self.board)
-        self.hung: Lever | None = hang(self.board)
+        planned = plan_forces(solution, solution.construction.draft.copy(), loads, single)
+        self.board, self.driving, self.hung = planned.board, planned.driving, planned.lever
         self.program: Program = self.board.draft.b.program().needed_for(self._asked())
 
     def _asked(self) -> list[Name]:
@@ -115,17 +149,6 @@ class Statics:
         return {**self.solution.data(scales, chosen), **loads}
 
     @cached_property
-    def _in_newtons(self) -> Trace:
-        self.solution.si  # noqa: B018 - an impossible position must be told first
-        return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
-
-    @cached_property
-    def closes(self) -> npt.NDArray[np.bool_]:
-        """Whether the force plans close, ndarray of bool of shape (n,)."""
-        count = len(self.solution.positions)
-        return np.asarray(failing(self.program, self._in_newtons, count) < 0)
-
-    @cached_property
     def si(self) -> Trace:
         """Exact reading: what is a millimetre of a force plan is here a newton.
 
@@ -134,16 +157,28 @@ class Statics:
         AssemblyError
             Where a force plan does not close.
         """
-        bad = np.flatnonzero(~self.closes)
-        if bad.size:
-            index = int(bad[0])
-            unit = "phi" if self.solution.problem.drive.is_crank else "s"
-            where = f"position {index + 1} ({unit} = {self.solution.positions[index] + 0.0:.12g})"
+        if not self.closes.all():
+            problem, at = self.solution.problem, self.solution.positions
+            draft = self.board.draft
             raise AssemblyError(
-                f"Cannot close the force plan at {where}: the mechanism stands in a dead position, "
-                "where no forces balance the loads. Ask another position."
+                explain(problem, draft, self.program, self._si, at, unit_scales=True)
             )
-        return self._in_newtons
+        return self._si
+
+    @cached_property
+    def _si(self) -> Trace:
+        self.solution.si  # noqa: B018 - an impossible position must be told first
+        return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
+
+    @cached_property
+    def failing(self) -> npt.NDArray[np.int64]:
+        """Number of the first step that fails in each position, or -1; shape (n,)."""
+        return failing(self.program, self._si, len(self.solution.positions))
+
+    @property
+    def closes(self) -> npt.NDArray[np.bool_]:
+        """Whether the force plans close, shape (n,)."""
+        return np.asarray(self.failing < 0)
 
     def _vector(self, force: Force) -> Complexes:
         return self.solution.complexes(self.si, force.head) - self.solution.complexes(

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,15 +11,18 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.compiled.blocks import Blocks
 from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
-from planmethod.construct.compiled.symbolic import Symbol, Written, write
-from planmethod.construct.compiled.tape import Ref
+from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import PlanMethodError
 from planmethod.plans.assembly import drive_data
-from planmethod.plans.impossible import explain, failing
-from planmethod.plans.results import NUMBERS, Result, ResultKind, results_of
+from planmethod.plans.impossible import FORCE_PREFIX, explain, failing
+from planmethod.plans.results import FORCES, Result, ResultKind, Results, results_for
 from planmethod.plans.solution import Solution
+from planmethod.plans.sweeprows import Row, rows_of
 from planmethod.problem.model import Problem
+
+if TYPE_CHECKING:
+    from planmethod.plans.loadcolumns import LoadColumns
 
 Array = npt.NDArray[Any]
 
@@ -30,22 +32,6 @@ FEW = 40
 
 class SweepError(PlanMethodError, ValueError):
     """Parameters or variants that one sweep cannot hold."""
-
-
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One row of a sweep's output.
-
-    Attributes
-    ----------
-    name : str
-        ``B.x``, ``B.vy``, ``2.phi_deg``, ``2.cos``, ``2.omega``: the columns of ``solve --csv``.
-    label : str
-        The result it belongs to, as it is asked for: ``B``, ``v_B``, ``phi_2``.
-    """
-
-    name: str
-    label: str
 
 
 class Sweep:
@@ -58,20 +44,26 @@ class Sweep:
     ----------
     problem : Problem
     asked : iterable of str, optional
-        Labels of results (``v_E``, ``omega_3``), or ``positions``, ``velocities``,
-        ``accelerations``, ``units``; everything when absent.
+        Labels of results (``v_E``, ``omega_3``, ``F_B_2/1``), or ``positions``, ``velocities``,
+        ``accelerations``, ``forces``, ``units``; everything of the motion when absent.
     varied : sequence of str
         Known numbers that `run` will be given: ``l_BC``, ``omega_1``; see `parameters`. They are
         numbers of the construction: a third point keeps its coordinates along and across its link
         (``x_D``, ``y_D``) when a length of the link is varied, and a length must stay positive.
     dtype : dtype
         float64; float32 is for pictures only.
+    forces : bool
+        Where nothing is asked by name: everything of the forces, too.
 
     Attributes
     ----------
     rows : tuple of Row
     parameters : dict
-        Every known number of the program and its value, SI and degrees.
+        Every known number of the motion and its value, SI and degrees.
+    forces : bool
+        Forces are among the results.
+    loads : LoadColumns or None
+        Loads that must be told for every position.
     steps : int
         Steps of the program that are needed.
 
@@ -87,20 +79,25 @@ class Sweep:
         *,
         varied: Sequence[str] = (),
         dtype: npt.DTypeLike = np.float64,
+        forces: bool = False,
     ) -> None:
         self.problem = problem
         if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
             raise SweepError(f"a sweep is float64 or float32, not {np.dtype(dtype).name}")
-        asked = (asked,) if isinstance(asked, str) else asked
+        asked = (asked,) if isinstance(asked, str) else None if asked is None else tuple(asked)
         varied = (varied,) if isinstance(varied, str) else varied
-        construction = Solution(problem, positions=[]).construction
-        results = results_of(construction)
+        solution = Solution(problem, positions=[])
+        results = results_for(solution, asked, forces=forces)
         chosen = results.choose(asked)
-        self.program = results.program.needed_for([result.name for result in chosen])
+        self.forces = any(result.kind in FORCES for result in chosen)
+        self.loads = self._changing(solution, results)
+        # Loads against a motion are known only where all steps of that motion exist.
+        moved = _motion(results) if self.loads is not None and self.loads.need_motion else []
+        self.program = results.program.needed_for([r.name for r in (*chosen, *moved)])
         self.steps = len(self.program.steps)
         self.driver = "phi" if problem.drive.is_crank else "s"
-        self._draft = construction.draft
-        data = drive_data(problem, construction.draft, np.zeros(1))
+        self._draft = results.draft
+        data = drive_data(problem, results.draft, np.zeros(1))
         data.update(results.numbers)
         self.constants: dict[str, complex | float] = {
             name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
@@ -110,16 +107,32 @@ class Sweep:
         self.parameters: dict[str, float] = {
             name: value
             for name, value in self.constants.items()
-            if isinstance(value, float) and name not in ("mu_l", "mu_v", "mu_a")
+            if isinstance(value, float) and not name.startswith(("mu_", FORCE_PREFIX))
         }
         self._check(varied)
         self.varied = tuple(varied)
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
-        written = write(self.program, fixed, (self.driver, *self.varied))
-        self.rows, refs, depends = _rows(chosen, written, construction.draft.origin)
+        given = () if self.loads is None else self.loads.names
+        written = write(self.program, fixed, (self.driver, *self.varied, *given))
+        self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved)
         self._refs, self._written = refs, written
         self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
         self._straight: Straight | None = None
+
+    def _changing(self, solution: Solution, results: Results) -> LoadColumns | None:
+        """Return the loads that must be told for every position; None if there are none."""
+        if not (self.forces and results.changing):
+            return None
+        from planmethod.plans.loadcolumns import LoadColumns
+
+        motion: list[Sweep] = []
+
+        def swept(positions: Array) -> dict[str, Array]:
+            if not motion:
+                motion.append(Sweep(self.problem))
+            return motion[0].table(positions)
+
+        return LoadColumns(self.problem, solution.construction, results.changing, swept)
 
     @property
     def operations(self) -> int:
@@ -131,6 +144,11 @@ class Sweep:
         if unknown:
             known = ", ".join(sorted(self.parameters))
             raise SweepError(f"no parameter {', '.join(unknown)} to vary. Known: {known}.")
+        if varied and self.forces:
+            raise SweepError(
+                "parameters are varied for results of the motion only: ask for no forces, or sweep "
+                "every value alone"
+            )
 
     def run(
         self,
@@ -166,7 +184,7 @@ class Sweep:
         angle = np.asarray(positions, dtype=self._blocks.dtype)
         alone = not self.varied and not parameters and angle.ndim == 1
         if alone and out is None and failed is None and len(angle) <= FEW:
-            found = self._in_line(angle, [], len(angle))
+            found = self._in_line(angle, self._loaded(angle), len(angle))
             if found is not None:
                 return found
         parameters = parameters or {}
@@ -176,12 +194,15 @@ class Sweep:
         shape = self._shape(angle, extra, out, failed)
         if out is None:
             quick = len(shape) == 1 and shape[0] <= FEW and failed is None
-            if quick and (found := self._in_line(angle, extra, shape[0])) is not None:
-                return found
+            if quick:
+                found = self._in_line(angle, [*extra, *self._loaded(angle)], shape[0])
+                if found is not None:
+                    return found
             out = np.empty((len(self.rows), *shape), self._blocks.dtype)
         if len(shape) == 1:
             columns = [np.broadcast_to(value, shape) if value.ndim else value for value in extra]
-            self._blocks.run([np.broadcast_to(angle, shape), *columns], out, failed)
+            here = np.broadcast_to(angle, shape)
+            self._blocks.run([here, *columns, *self._loaded(here)], out, failed)
             return out
         wide = [np.broadcast_to(value, (shape[0], (value.shape or (1,))[-1])) for value in extra]
         for i in range(shape[0]):
@@ -190,8 +211,15 @@ class Sweep:
                 for value in wide
             ]
             here = np.broadcast_to(angle, shape)[i]
+            columns += self._loaded(here)
             self._blocks.run([here, *columns], out[:, i], None if failed is None else failed[i])
         return out
+
+    def _loaded(self, positions: Array) -> list[Array]:
+        """Return the columns of the loads that differ from position to position."""
+        if self.loads is None:
+            return []
+        return [column.astype(self._blocks.dtype) for column in self.loads.at(positions)]
 
     def _shape(
         self, angle: Array, extra: list[Array], out: Array | None, failed: Array | None
@@ -264,7 +292,10 @@ class Sweep:
         if not np.isfinite(position):
             return f"Position {number} is not a number ({position})."
         at = np.array([position], dtype=float)
-        trace = evaluate(self.program, {**self.constants, self.driver: at}, Float64())
+        data: dict[str, Any] = {**self.constants, self.driver: at}
+        if self.loads is not None:
+            data.update(zip(self.loads.names, self.loads.at(at), strict=True))
+        trace = evaluate(self.program, data, Float64())
         if failing(self.program, trace, 1)[0] < 0:
             return ""
         said = explain(self.problem, self._draft, self.program, trace, at, unit_scales=True)
@@ -292,6 +323,8 @@ def sweep_variants(
     labels = None if asked is None else tuple(asked)
     each = [Sweep(problem, labels) for problem in problems]
     first = each[0]
+    if any(sweep.forces for sweep in each):
+        raise SweepError("variants are swept together without forces: sweep each alone")
     for other in each[1:]:
         if other.program != first.program:
             raise SweepError(
@@ -321,47 +354,7 @@ def _named(problem: Problem) -> str:
     return problem.name + (f" ({problem.variant})" if problem.variant else "")
 
 
-SUFFIX: Mapping[ResultKind, tuple[str, ...]] = {
-    ResultKind.PLACE: ("x", "y"),
-    ResultKind.VELOCITY: ("vx", "vy"),
-    ResultKind.ACCELERATION: ("ax", "ay"),
-    ResultKind.DIRECTION: ("phi_deg",),
-    ResultKind.UNIT: ("cos", "sin"),
-    ResultKind.OMEGA: ("omega",),
-    ResultKind.EPSILON: ("epsilon",),
-    ResultKind.SLIDING: (),
-}
-
-
-def _rows(
-    chosen: Sequence[Result], written: Written, origin: complex
-) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
-    rows: list[Row] = []
-    refs: list[Ref] = []
-    depends: list[frozenset[int]] = []
-    for result in chosen:
-        parts = list(_parts(result, written))
-        if result.kind is ResultKind.PLACE:
-            here = zip(parts, (origin.real, origin.imag), strict=True)
-            parts = [written.tape.add(part, at) for part, at in here]
-        suffixes = SUFFIX[result.kind]
-        names = [f"{result.of}.{suffix}" for suffix in suffixes] or [result.label]
-        rows += [Row(name, result.label) for name in names]
-        refs += parts
-        depends += [written.depends[result.name]] * len(parts)
-    return tuple(rows), refs, depends
-
-
-def _parts(result: Result, written: Written) -> Iterator[Ref]:
-    """Yield the numbers of the tape that a result consists of."""
-    value, tape = written.value[result.name], written.tape
-    if isinstance(value, tuple):
-        along: Symbol = value[1]
-        if result.kind is ResultKind.DIRECTION:
-            x, y = along.re, 0.0 if along.im is None else along.im
-            yield tape.make("degrees", tape.make("atan2", y, x))
-            return
-        value = along / abs(along)
-    yield value.re
-    if result.kind not in NUMBERS:
-        yield 0.0 if value.im is None else value.im
+def _motion(results: Results) -> list[Result]:
+    """Return the results that loads may depend on: places, velocities, rotations."""
+    kinds = (ResultKind.PLACE, ResultKind.VELOCITY, ResultKind.OMEGA)
+    return [result for result in results.all if result.kind in kinds]

@@ -46,7 +46,7 @@ class Swept:
     ) -> None:
         labels = None if asked is None else tuple(asked)
         self.problem, self.positions = problem, positions
-        self.sweep = Sweep(problem, labels)
+        self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None)
         gaps = Gaps.of(self._failed(), self._why)
         some = evenly(np.flatnonzero(gaps.reason < 0))
         looked = examine(problem, positions[some], numbers=some)

@@ -17,7 +17,8 @@ from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError
 from planmethod.plans.results import UnknownResultError
 from planmethod.plans.solution import Solution
-from planmethod.plans.sweep import FEW, Row, Sweep, SweepError, sweep_variants
+from planmethod.plans.sweep import FEW, Sweep, SweepError, sweep_variants
+from planmethod.plans.sweeprows import Row
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 

@@ -284,7 +284,9 @@ def write(
             if guard is not None:
                 mine |= {len(guards)}
                 guards.append(guard)
-        env[step.out], depends[step.out] = value, mine
+        # A sum of no terms is a plain number.
+        env[step.out] = value if isinstance(value, Symbol | tuple) else ar.lift(value)
+        depends[step.out] = mine
         _note_lengths(step, env, ar)
     return Written(ar.tape, env, tuple(guards), depends, inputs)
 
