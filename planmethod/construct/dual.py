@@ -90,6 +90,15 @@ def as_dual(value: Number) -> Dual:
     return value if isinstance(value, Dual) else Dual(value)
 
 
+def angle(value: Number) -> Number:
+    """Return the angle of a complex number, radians, with its slope if it is a dual one."""
+    if not isinstance(value, Dual):
+        return np.angle(value)
+    size = np.where(value.value == 0, np.nan, value.value)
+    slope = None if value.slope is None else (value.slope / size).imag
+    return Dual(np.angle(value.value), slope)
+
+
 def _sum(one: Slope, two: Slope) -> Slope:
     if one is None or two is None:
         return two if one is None else one

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from planmethod.note.numbers import finite_or_none, plain
-from planmethod.note.plaintext import fixed, found, spoken, table, wrap
-from planmethod.note.sigmas import sigma_text
+from planmethod.note.plaintext import fixed, found, wrap
+from planmethod.note.sigmas import Sigmas
 from planmethod.note.wording import Wording
+from planmethod.plans.drawnforces import (
+    BALANCE,
+    LEVER,
+    DrawnForces,
+    angle_label,
+    moment_label,
+    size_label,
+)
 from planmethod.plans.solution import Solution
-from planmethod.plans.statics import JointForce
+from planmethod.plans.statics import JointForce, Statics
 
 NOTHING = 1e-12
 """Share of the largest force of a position below which a reaction is nothing, and has no angle."""
@@ -22,6 +29,39 @@ def _angle(force: complex, largest: float) -> float | None:
     if abs(force) <= NOTHING * largest:
         return None
     return plain(np.degrees(np.angle(force)) % 360.0)
+
+
+def _sigma(drawn: DrawnForces, label: str, index: int) -> float | None:
+    return finite_or_none(drawn.spreads[label].sigma[index])
+
+
+def _drawn(
+    drawn: DrawnForces, joint: JointForce, index: int, *, still: bool
+) -> dict[str, float | None]:
+    """Return what the ruler gives of a reaction, and the drafting errors of what is told of it.
+
+    Of one that is ``still``, being nothing, there is no direction.
+    """
+    size, moment = size_label(joint), moment_label(joint)
+    prismatic = moment in drawn.items
+    return {
+        "read": plain(drawn.read(size)[index]),
+        "sigma": _sigma(drawn, size, index),
+        "sigma_angle_deg": None if still else _sigma(drawn, angle_label(joint), index),
+        "read_moment": finite_or_none(drawn.read(moment)[index]) if prismatic else 0.0,
+        "sigma_moment": _sigma(drawn, moment, index) if prismatic else 0.0,
+    }
+
+
+def _told_labels(statics: Statics, index: int) -> list[str]:
+    """Return the labels of all drafting errors that are told of a position."""
+    largest = statics.largest(index)
+    nothing = {
+        angle_label(joint)
+        for joint in statics.reactions
+        if _angle(complex(joint.force[index]), largest) is None
+    }
+    return [label for label in statics.drawn.items if label not in nothing]
 
 
 def forces_record(solution: Solution, index: int) -> dict[str, Any]:
@@ -34,8 +74,9 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     statics = solution.statics
     drawn, largest = statics.drawn, statics.largest(index)
 
-    def told(number: int, joint: JointForce) -> dict[str, Any]:
+    def told(joint: JointForce) -> dict[str, Any]:
         force, at = complex(joint.force[index]), complex(joint.at[index])
+        angle = _angle(force, largest)
         return {
             "joint": joint.joint,
             "on": joint.on,
@@ -43,19 +84,25 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             "fx": plain(force.real),
             "fy": plain(force.imag),
             "f": abs(force),
-            "angle_deg": _angle(force, largest),
+            "angle_deg": angle,
             "at": [plain(at.real), plain(at.imag)],
             "moment": plain(joint.moment[index]),
-            "read": plain(drawn.read(number)[index]),
-            "sigma": finite_or_none(drawn.sigma(number)[index]),
+            **_drawn(drawn, joint, index, still=angle is None),
         }
 
     quantity = "moment" if solution.problem.drive.is_crank else "force"
     balance = float(statics.balance[index])
     record: dict[str, Any] = {
-        "reactions": [told(k, joint) for k, joint in enumerate(statics.reactions)],
-        "driving": {quantity: plain(balance)},
+        "reactions": [told(joint) for joint in statics.reactions],
+        "driving": {
+            quantity: plain(balance),
+            "read": finite_or_none(drawn.read(BALANCE)[index]),
+            "sigma": _sigma(drawn, BALANCE, index),
+        },
         "mu": statics.scale.per_mm,
+        "monte_carlo": [
+            label for label in _told_labels(statics, index) if drawn.spreads[label].drawn[index]
+        ],
     }
     if statics.lever is not None:
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
@@ -65,7 +112,12 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             quantity: plain(lever),
             "difference": lever - balance,
             "sigma": finite_or_none(drawn.discrepancy_sigma[index]),
-            "hand": {"plans": plans, "lever": hung, "difference": hung - plans},
+            "hand": {
+                "plans": plans,
+                "lever": hung,
+                "sigma_lever": _sigma(drawn, LEVER, index),
+                "difference": hung - plans,
+            },
         }
     return record
 
@@ -87,33 +139,37 @@ def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
 
 
 def forces_tables(
-    solution: Solution, words: Wording, index: int, *, sigma: Sequence[str] | None = None
+    solution: Solution, words: Wording, index: int, sigmas: Sigmas | None = None
 ) -> list[str]:
     """Return the table of reactions of one position, and how the lever compares.
 
-    ``sigma`` is the header with the column of the drafting errors, where they are asked for.
+    ``sigmas`` are the cells of the drafting errors; without them there are none.
     """
+    sigmas = sigmas or Sigmas(solution, words, asked=False)
     statics = solution.statics
-    largest = statics.largest(index)
+    drawn, largest = statics.drawn, statics.largest(index)
     rows = []
-    for number, joint in enumerate(statics.reactions):
+    for joint in statics.reactions:
         force = complex(joint.force[index])
         angle = _angle(force, largest)
         size = 0.0 if angle is None else abs(force)
         moment = float(joint.moment[index])
-        off = float(statics.drawn.sigma(number)[index]) if sigma is not None else 0.0
+        still = abs(moment) <= NOTHING * largest
         rows.append(
             [
                 joint.joint,
                 f"{joint.on}←{joint.by}",
                 found(size, words),
-                found(float(statics.drawn.read(number)[index]), words),
-                *([spoken(sigma_text(off), words)] if sigma is not None else []),
+                found(float(drawn.read(size_label(joint))[index]), words),
+                *sigmas.cell(size_label(joint), index, drawn),
                 "—" if angle is None else fixed(angle, words),
-                "—" if abs(moment) <= NOTHING * largest else found(moment, words),
+                *sigmas.cell(None if angle is None else angle_label(joint), index, drawn),
+                "—" if still else found(moment, words),
+                *sigmas.cell(None if still else moment_label(joint), index, drawn),
             ]
         )
-    lines = [words.table_forces, *table(sigma or words.columns_forces, rows, left=2)]
+    header = sigmas.header(words.columns_forces, 3, 4, 5)
+    lines = [words.table_forces, *sigmas.table(header, rows, left=2)]
     crank = solution.problem.drive.is_crank
     unit = words.units["N·m"] if crank else words.units["N"]
     balance = words.balance_moment if crank else words.balance_force

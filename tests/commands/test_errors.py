@@ -21,7 +21,7 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
 from planmethod.note.tables import result_tables
-from planmethod.plans.drafting import UnknownItemError
+from planmethod.plans.errors import UnknownItemError
 from planmethod.plans.solution import Solution
 from planmethod.plans.sweep import Sweep, SweepError
 from planmethod.problem import load, loads
