@@ -15,9 +15,19 @@ from planmethod.render.block import Block, Column
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.pack import EDGE
 from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.reactionerrors import (
+    angle_column,
+    balance_columns,
+    moment_column,
+    size_columns,
+    sizes_as_long,
+    with_note,
+)
 from planmethod.render.sheets.views import shown_position
 from planmethod.render.symbols import angle_of
 from planmethod.render.tables import Cell, TableColumn, table_block
+
+EXACT = " (точные значения)"
 
 
 def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -34,6 +44,8 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     still = [abs(moment) <= NOTHING * reading.peak_moment for moment in moments]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
     turning = alike([0.0 if nil else abs(m) for m, nil in zip(moments, still, strict=True)])
+    sigma = manner.extras.sigma
+    shown = sizes_as_long(reading, shown) if sigma else shown
     angles = [russian(f"{_angle(complex(one.force[index])):.1f}") for one in reactions]
     columns = [
         TableColumn(
@@ -41,9 +53,11 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         ),
         TableColumn("F_{ij}", tuple(reaction_symbol(one.on, one.by) for one in reactions)),
         TableColumn("F_{ij}, Н", tuple(map(russian, shown))),
+        *(size_columns(reading) if sigma else []),
         TableColumn(
             "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
         ),
+        *([angle_column(reading, none)] if sigma else []),
     ]
     if not all(still):
         cells = tuple(
@@ -51,9 +65,15 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
             for text, moment, nil in zip(turning, moments, still, strict=True)
         )
         columns.append(TableColumn("M_{ij}, Н·м", cells))
-    title = manner.entry.title or "Реакции в кинематических парах (точные значения)"
+        columns += [moment_column(reading, still)] if sigma else []
+    title = manner.entry.title or ("Реакции в кинематических парах" + ("" if sigma else EXACT))
     table = table_block(columns, height, width=width, units="none", title=title)
-    return Column([table, _balances(reading, height, width)], gap=4.0)
+    balances = _balances(reading)
+    if not sigma:
+        return Column([table, table_block(balances, height, width=width, units="none")], gap=4.0)
+    balances = balance_columns(reading, balances)
+    tables = Column([table, table_block(balances, height, width=width, units="none")], gap=4.0)
+    return with_note(reading, tables, [*columns, *balances], height)
 
 
 def _angle(force: complex) -> float:
@@ -62,8 +82,8 @@ def _angle(force: complex) -> float:
     return turn + 0.0
 
 
-def _balances(reading: ForceReading, height: float, width: float) -> Block:
-    """Return the table of what balances the driver, by both methods."""
+def _balances(reading: ForceReading) -> list[TableColumn]:
+    """Return the columns of what balances the driver, by both methods."""
     symbol = reading.balancing_symbol
     unit = UNITS_RU["N·m" if reading.statics.driving.moment is not None else "N"]
     exact = float(reading.statics.balance[reading.index])
@@ -76,10 +96,9 @@ def _balances(reading: ForceReading, height: float, width: float) -> Block:
             return Cell("—")
         return Cell(found(abs(value)), (1 if value > 0 else -1) if sense and value else None)
 
-    columns = [
+    return [
         TableColumn(f"{symbol}, {unit}", (cell(exact),)),
         TableColumn("по планам сил", (cell(plans),)),
         TableColumn("по рычагу", (cell(lever),)),
         TableColumn("расхождение, %", (Cell("—" if share is None else russian(f"{share:.1f}")),)),
     ]
-    return table_block(columns, height, width=width, units="none")
