@@ -16,7 +16,7 @@ from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.steps import Name, PointName
 from planmethod.plans.errors import Errors
-from planmethod.plans.items import Drafted, Flags, Item, ItemKind, Reading, number
+from planmethod.plans.items import RADIAN, Drafted, Flags, Item, ItemKind, Reading, number
 from planmethod.plans.solution import Reals
 
 if TYPE_CHECKING:
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
 """Labels: what balances the driver by the force plans and by the lever, lever minus plans."""
+
+NOTHING_MM = 1e-9
+"""A force so long on its plan is rounding of none, and has no direction."""
 
 
 def size_label(joint: JointForce | Reaction) -> str:
@@ -142,10 +145,9 @@ def _items(statics: Statics) -> Iterator[Item]:
     for reaction in statics.board.reactions:
         force, absent = reaction.force, partial(_absent, statics, reaction.force)
         ends = (force.tail, force.head)
-        size = _size(force, statics.scale.per_mm)
-        yield Item(size_label(reaction), ends, size, ItemKind.LENGTH, absent)
-        turn = _direction(force)
-        yield Item(angle_label(reaction), ends, turn, ItemKind.DIRECTION, absent)
+        size, way = _size(force, statics.scale.per_mm), angle_label(reaction)
+        yield Item(size_label(reaction), ends, size, ItemKind.LENGTH, absent, direction=way)
+        yield Item(way, ends, _direction(force), ItemKind.DIRECTION, absent)
         if reaction.couple is not None:
             yield Item(moment_label(reaction), (reaction.couple,), number(reaction.couple))
     driving, hung = statics.driving, statics.hung
@@ -170,7 +172,7 @@ def _size(force: Force, mu: float) -> Callable[[Reading], Number]:
 def _direction(force: Force) -> Callable[[Reading], Number]:
     def take(reading: Reading) -> Number:
         value = reading.trace.value
-        return angle(value[force.head] - value[force.tail]) * np.degrees(1.0)
+        return angle(value[force.head] - value[force.tail], NOTHING_MM) * RADIAN
 
     return take
 

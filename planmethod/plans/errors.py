@@ -171,6 +171,8 @@ class Errors:
         if item.kind is not ItemKind.NUMBER:
             size = first.values[label] if item.kind is ItemKind.LENGTH else RADIAN
             doubtful |= (sigma > 0) & (size < SHORT * sigma)
+        if item.direction:
+            doubtful |= self.spreads[item.direction].drawn
         if item.absent is not None:
             absent = item.absent()
             sigma[absent], doubtful = 0.0, doubtful & ~absent

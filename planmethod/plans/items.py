@@ -45,6 +45,9 @@ class Item:
     kind : ItemKind
     absent : callable or None
         The positions in which nobody draws what it is taken from: there it has no error.
+    direction : str
+        Label of the direction of a length, if the drawing gives it: where that is not believed, the
+        length is not either, for what is off across a segment then makes it longer.
     """
 
     label: str
@@ -52,6 +55,7 @@ class Item:
     take: Callable[[Reading], Number]
     kind: ItemKind = ItemKind.NUMBER
     absent: Callable[[], Flags] | None = None
+    direction: str = ""
 
 
 class Reading:
