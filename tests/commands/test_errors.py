@@ -102,6 +102,18 @@ def test_the_covariance_as_a_spreadsheet(tmp_path: Path) -> None:
     assert sigma[k] == pytest.approx(wanted)
 
 
+def test_the_covariance_has_the_forces_of_a_loaded_problem() -> None:
+    told = run("solve", str(path_of("press/press")), "--covariance", "-")
+    assert told.exit_code == 0, told.output
+    rows = {row["quantity"]: row for row in csv.DictReader(io.StringIO(told.stdout))}
+    statics = Solution(problem_of("press/press")).statics
+    for label in ("F_1_0", "balance", "difference"):
+        wanted = float(statics.drawn.spreads[label].sigma[0])
+        assert float(rows[label]["sigma"]) == pytest.approx(wanted)
+        # Forces follow from the accelerations, so that they err with them.
+        assert float(rows[label]["a_S3"]) == pytest.approx(float(rows["a_S3"][label])) != 0.0
+
+
 @pytest.mark.parametrize(
     ("args", "said"),
     [

@@ -12,8 +12,9 @@ from loaded import loaded_problem
 from test_ellipses import middle, spread
 from test_error_sheets import number, rounded
 from test_forces_sheet import loaded_template, shown, views
-from worked import problem_of
+from worked import path_of, problem_of
 
+from planmethod import loads
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.record import record
 from planmethod.note.tables import result_tables
@@ -108,6 +109,14 @@ def test_a_driver_that_stands_has_a_dash_for_the_lever() -> None:
     assert columns[2].cells[1].text != "—"
     entry = record(Solution(problem))["positions"][0]["forces"]
     assert "lever" not in entry and entry["driving"]["sigma"] > 0
+
+
+def test_a_problem_without_any_force_has_no_errors_to_show() -> None:
+    text = path_of("linkages/ex3").read_text("utf-8") + "\n[dynamics]\ngravity = false\n"
+    sheets = kinematics_sheets(loads(text, name="free"), layout="forces", errors=True, sigma=True)
+    assert errors_in(sheets) == []
+    assert ellipses_in(sheets[0]) == []
+    assert "*" not in shown(sheets[0])
 
 
 def test_nothing_of_it_without_the_options(monkeypatch: pytest.MonkeyPatch) -> None:
