@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from planmethod.construct.drafting import PROFILES, Profile
-from planmethod.plans.drafting import SHORT
+from planmethod.plans.errors import SHORT
+from planmethod.plans.items import ItemKind
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
 
@@ -51,7 +52,10 @@ def compare(problem: Problem, profile: Profile, *, draws: int = DRAWS) -> Compar
             sigma, values = float(spread.sigma[i]), sheets[label]
             if sigma == 0:
                 continue
-            if drafting.items[label].length and float(np.mean(values)) < SHORT * sigma:
+            if (
+                drafting.items[label].kind is ItemKind.LENGTH
+                and float(np.mean(values)) < SHORT * sigma
+            ):
                 short += 1
             elif spread.drawn[i]:
                 given_up += 1

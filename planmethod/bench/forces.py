@@ -18,6 +18,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.drawnforces import size_label
 from planmethod.plans.forceplan import SCALE
 from planmethod.plans.solution import EVERY, UNIT_SCALES, Solution
 from planmethod.plans.statics import Statics
@@ -138,7 +139,8 @@ def _precise_error(statics: Statics, value: Any) -> float:
 def _hand_error(statics: Statics) -> float:
     """Return the largest error of a reaction's size as the hand has it, of the largest one."""
     sizes = [abs(joint.force[0]) for joint in statics.reactions]
-    gaps = [abs(statics.drawn.read(k)[0] - size) for k, size in enumerate(sizes)]
+    read = [statics.drawn.read(size_label(joint))[0] for joint in statics.reactions]
+    gaps = [abs(one - size) for one, size in zip(read, sizes, strict=True)]
     return float(max(gaps) / max(sizes))
 
 

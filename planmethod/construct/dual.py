@@ -90,6 +90,20 @@ def as_dual(value: Number) -> Dual:
     return value if isinstance(value, Dual) else Dual(value)
 
 
+def angle(value: Number, least: float) -> Number:
+    """Return the angle of a complex number, radians, with its slope if it is a dual one.
+
+    What is not longer than ``least`` has no direction: its angle is NaN.
+    """
+    dual = as_dual(value)
+    solid = np.where(np.abs(dual.value) > least, dual.value, np.nan)
+    turn = np.angle(solid)
+    if dual is not value:
+        return turn
+    with np.errstate(invalid="ignore"):
+        return Dual(turn, None if dual.slope is None else (dual.slope / solid).imag)
+
+
 def _sum(one: Slope, two: Slope) -> Slope:
     if one is None or two is None:
         return two if one is None else one

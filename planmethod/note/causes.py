@@ -33,7 +33,7 @@ from planmethod.note.naming import Names
 from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
 from planmethod.note.sigmas import label_of, marked, rounded_to, sigma_text
 from planmethod.plans.build import measured_segments
-from planmethod.plans.drafting import SHORT
+from planmethod.plans.errors import SHORT
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Solution
 

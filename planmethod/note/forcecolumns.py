@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from planmethod.plans.drawnforces import size_label
 from planmethod.plans.forceresults import force_row, moment_row
 from planmethod.plans.solution import Reals, Solution
 
@@ -28,13 +29,12 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     """
     statics = solution.statics
     drawn = statics.drawn
-    pairs = zip(statics.board.reactions, statics.reactions, strict=True)
-    for number, (planned, joint) in enumerate(pairs):
+    for planned, joint in zip(statics.board.reactions, statics.reactions, strict=True):
         name = force_row(planned)
         yield f"{name}.x", joint.force.real
         yield f"{name}.y", joint.force.imag
         yield name, np.abs(joint.force)
-        yield f"{name}.read", drawn.read(number)
+        yield f"{name}.read", drawn.read(size_label(planned))
         if planned.couple is not None:
             yield moment_row(planned), joint.moment
     quantity = "moment" if solution.problem.drive.is_crank else "force"

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from planmethod.note.numbers import finite_or_none, plain
-from planmethod.note.plaintext import (
-    NO_BREAK,
-    fixed,
-    found,
-    given,
-    plain_text,
-    spoken,
-    table,
-    wrap,
-)
+from planmethod.note.plaintext import NO_BREAK, fixed, found, given, plain_text, wrap
 from planmethod.note.resultants import kept_lines, shift_lines
-from planmethod.note.sigmas import sigma_text
+from planmethod.note.sigmas import Sigmas
 from planmethod.note.wording import Wording
 from planmethod.plans.contact import NOTHING, Contact
+from planmethod.plans.drawnforces import (
+    BALANCE,
+    LEVER,
+    DrawnForces,
+    angle_label,
+    moment_label,
+    size_label,
+)
 from planmethod.plans.solution import Solution
-from planmethod.plans.statics import JointForce
+from planmethod.plans.statics import JointForce, Statics
 
 
 def _angle(force: complex, largest: float) -> float | None:
@@ -53,6 +51,39 @@ def _contact_record(contact: Contact, index: int) -> dict[str, Any]:
     return record
 
 
+def _sigma(drawn: DrawnForces, label: str, index: int) -> float | None:
+    return finite_or_none(drawn.spreads[label].sigma[index])
+
+
+def _drawn(
+    drawn: DrawnForces, joint: JointForce, index: int, *, still: bool
+) -> dict[str, float | None]:
+    """Return what the ruler gives of a reaction, and the drafting errors of what is told of it.
+
+    Of one that is ``still``, being nothing, there is no direction.
+    """
+    size, moment = size_label(joint), moment_label(joint)
+    prismatic = moment in drawn.items
+    return {
+        "read": plain(drawn.read(size)[index]),
+        "sigma": _sigma(drawn, size, index),
+        "sigma_angle_deg": None if still else _sigma(drawn, angle_label(joint), index),
+        "read_moment": finite_or_none(drawn.read(moment)[index]) if prismatic else 0.0,
+        "sigma_moment": _sigma(drawn, moment, index) if prismatic else 0.0,
+    }
+
+
+def _told_labels(statics: Statics, index: int) -> list[str]:
+    """Return the labels of all drafting errors that are told of a position."""
+    largest = statics.largest(index)
+    nothing = {
+        angle_label(joint)
+        for joint in statics.reactions
+        if _angle(complex(joint.force[index]), largest) is None
+    }
+    return [label for label in statics.drawn.items if label not in nothing]
+
+
 def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     """Return reactions, driving and lever of one position as plain data, N and N·m.
 
@@ -66,6 +97,7 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
 
     def told(number: int, joint: JointForce) -> dict[str, Any]:
         force, at = complex(joint.force[index]), complex(joint.at[index])
+        angle = _angle(force, largest)
         contact = statics.contacts.get(number)
         return {
             "joint": joint.joint,
@@ -74,11 +106,10 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             "fx": plain(force.real),
             "fy": plain(force.imag),
             "f": abs(force),
-            "angle_deg": _angle(force, largest),
+            "angle_deg": angle,
             "at": [plain(at.real), plain(at.imag)],
             "moment": plain(joint.moment[index]),
-            "read": plain(drawn.read(number)[index]),
-            "sigma": finite_or_none(drawn.sigma(number)[index]),
+            **_drawn(drawn, joint, index, still=angle is None),
             **(_contact_record(contact, index) if contact is not None else {}),
         }
 
@@ -86,8 +117,15 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     balance = float(statics.balance[index])
     record: dict[str, Any] = {
         "reactions": [told(k, joint) for k, joint in enumerate(statics.reactions)],
-        "driving": {quantity: plain(balance)},
+        "driving": {
+            quantity: plain(balance),
+            "read": finite_or_none(drawn.read(BALANCE)[index]),
+            "sigma": _sigma(drawn, BALANCE, index),
+        },
         "mu": statics.scale.per_mm,
+        "monte_carlo": [
+            label for label in _told_labels(statics, index) if drawn.spreads[label].drawn[index]
+        ],
     }
     if statics.lever is not None:
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
@@ -97,7 +135,12 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             quantity: plain(lever),
             "difference": lever - balance,
             "sigma": finite_or_none(drawn.discrepancy_sigma[index]),
-            "hand": {"plans": plans, "lever": hung, "difference": hung - plans},
+            "hand": {
+                "plans": plans,
+                "lever": hung,
+                "sigma_lever": _sigma(drawn, LEVER, index),
+                "difference": hung - plans,
+            },
         }
     return record
 
@@ -158,34 +201,38 @@ def _edge_notes(solution: Solution, words: Wording, index: int) -> list[str]:
 
 
 def forces_tables(
-    solution: Solution, words: Wording, index: int, *, sigma: Sequence[str] | None = None
+    solution: Solution, words: Wording, index: int, sigmas: Sigmas | None = None
 ) -> list[str]:
     """Return the table of reactions of one position, and how the lever compares.
 
-    ``sigma`` is the header with the column of the drafting errors, where they are asked for.
+    ``sigmas`` are the cells of the drafting errors; without them there are none.
     """
+    sigmas = sigmas or Sigmas(solution, words, asked=False)
     statics = solution.statics
-    largest = statics.largest(index)
+    drawn, largest = statics.drawn, statics.largest(index)
     rows = []
     for number, joint in enumerate(statics.reactions):
         force = complex(joint.force[index])
         angle = _angle(force, largest)
         size = 0.0 if angle is None else abs(force)
         moment = float(joint.moment[index])
-        off = float(statics.drawn.sigma(number)[index]) if sigma is not None else 0.0
+        still = abs(moment) <= NOTHING * largest
         rows.append(
             [
                 joint.joint,
                 f"{joint.on}←{joint.by}",
                 found(size, words),
-                found(float(statics.drawn.read(number)[index]), words),
-                *([spoken(sigma_text(off), words)] if sigma is not None else []),
+                found(float(drawn.read(size_label(joint))[index]), words),
+                *sigmas.cell(size_label(joint), index, drawn),
                 "—" if angle is None else fixed(angle, words),
-                "—" if abs(moment) <= NOTHING * largest else found(moment, words),
+                *sigmas.cell(None if angle is None else angle_label(joint), index, drawn),
+                "—" if still else found(moment, words),
+                *sigmas.cell(None if still else moment_label(joint), index, drawn),
                 _distance(solution, number, index, words),
             ]
         )
-    lines = [words.table_forces, *table(sigma or words.columns_forces, rows, left=2)]
+    header = sigmas.header(words.columns_forces, 3, 4, 5)
+    lines = [words.table_forces, *sigmas.table(header, rows, left=2)]
     lines += _edge_notes(solution, words, index)
     for line in (*shift_lines(statics, words, index), *kept_lines(statics, words)):
         lines += wrap(plain_text(line))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from planmethod.note.plaintext import (
     table,
     wrap,
 )
-from planmethod.note.sigmas import DRAWN, label_of, marked, sigma_text
+from planmethod.note.sigmas import Sigmas, label_of, levelled
 from planmethod.note.wording import Wording, wording
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Segment, Solution
@@ -29,65 +29,6 @@ from planmethod.problem.model import Convention
 
 FEW = 3
 """Most positions that are shown each with tables of its own."""
-
-
-class Sigmas:
-    """Cells of the drafting errors, none where they are not asked for.
-
-    Attributes
-    ----------
-    drawn : bool
-        Some cell that was made has the mark of a sigma found by random draws.
-    """
-
-    def __init__(self, solution: Solution, words: Wording, *, asked: bool = True) -> None:
-        self.solution, self.words, self.asked = solution, words, asked
-        self.drawn = False
-
-    def cell(self, label: str, index: int) -> list[str]:
-        """Return the error of a quantity as a row of one cell, or of none."""
-        if not self.asked:
-            return []
-        sigma, mark = marked(self.solution.drafting, label, index)
-        self.drawn = self.drawn or bool(mark)
-        return [spoken(sigma_text(sigma), self.words) + mark]
-
-    def header(self, header: Sequence[str], *after: int) -> tuple[str, ...]:
-        """Return a header with the columns of the errors behind those of the readings."""
-        wide: list[str] = []
-        for k, text in enumerate(header):
-            wide.append(text)
-            wide += [self.words.sigma] if self.asked and k in after else []
-        return tuple(wide)
-
-    def table(
-        self, header: Sequence[str], rows: Sequence[Sequence[str]], *, left: int = 1
-    ) -> list[str]:
-        """Return an aligned table; the digits of the errors stand under each other."""
-        if not self.asked:
-            return table(header, rows, left=left)
-        columns = [
-            _levelled(column) if head == self.words.sigma else list(column)
-            for head, *column in zip(header, *rows, strict=True)
-        ]
-        return table(header, list(zip(*columns, strict=True)), left=left)
-
-    def notes(self) -> list[str]:
-        """Return what the errors are, and what the mark of some of them means."""
-        if not self.asked:
-            return []
-        name = self.solution.profile.name
-        profile = self.words.profiles.get(name, name)
-        lines = wrap(self.words.sigma_note.format(profile=profile))
-        if self.drawn:
-            lines += wrap(self.words.drawn_note.format(count=self.solution.drafting.draws))
-        return lines
-
-
-def _levelled(cells: Sequence[str]) -> list[str]:
-    """Return cells with room for a mark where another cell of their column has one."""
-    some = any(cell.endswith(DRAWN) for cell in cells)
-    return [cell + " " if some and not cell.endswith(DRAWN) else cell for cell in cells]
 
 
 def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) -> str:
@@ -133,8 +74,7 @@ def _forces(solution: Solution, words: Wording, index: int, sigmas: Sigmas) -> l
         return []
     from planmethod.note.forces import forces_tables
 
-    header = sigmas.header(words.columns_forces, 3) if sigmas.asked else None
-    return ["", *forces_tables(solution, words, index, sigma=header)]
+    return ["", *forces_tables(solution, words, index, sigmas)]
 
 
 def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
@@ -362,7 +302,7 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
         for name in points if symbol in "va" else links:
             label = label_of(symbol, name)
             cells = [sigmas.cell(label, i)[0] for i in range(len(solution.positions))]
-            errors.append([plain_text(f"{symbol}_{{{name}}}"), *_levelled(cells)])
+            errors.append([plain_text(f"{symbol}_{{{name}}}"), *levelled(cells)])
     lines: list[str] = []
     for title, columns in (
         (words.many_places, places),

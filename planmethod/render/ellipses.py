@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import atan2, cos, sin, sqrt, tau
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,10 @@ from planmethod.plans.scaling import extent, own_scale, plan_extent
 from planmethod.plans.solution import Reals, Solution
 from planmethod.render.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.style import PENS
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.plans.errors import Errors
 
 SIGMAS = 2
 """Half axes of an ellipse, in sigmas: it holds 86 % of what is drawn."""
@@ -86,35 +91,67 @@ def ellipse(centre: complex, covariance: Reals, pen: Pen = Pen.THIN) -> Stroke:
 
 @lru_cache(maxsize=512)
 def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
-    """Return the ellipses of a view's moving points in one position.
-
-    What is thinner than the pen is not drawn, nor what is larger than half of the view: there the
-    drawing hardly says where the point is. Dashed are those where first order does not hold.
-    """
+    """Return the ellipses of a view's moving points in one position."""
     common, scheme = solution.scales[kind].per_mm, kind is PlanKind.POSITION
     # A plan near a dead position is drawn smaller, and its ellipses with it.
     per_mm = common if scheme else own_scale(solution, kind, index).per_mm
     share = common / per_mm
     size = extent(solution, kind) if scheme else plan_extent(solution, kind, index)
-    size_mm = max(size) / per_mm
     places = {point: place * share for point, place in _places(solution, kind, index)}
-    found = {point: solution.drafting.ellipse(point, index) * share**2 for point in places}
+    return shown_ellipses(
+        solution.drafting,
+        index,
+        places,
+        max(size) / per_mm,
+        share=share,
+        enlarged=ENLARGED if scheme else (1,),
+    )
+
+
+def shown_ellipses(
+    errors: Errors,
+    index: int,
+    places: Mapping[PointName, complex],
+    size: float,
+    *,
+    share: float = 1.0,
+    enlarged: Sequence[int] = (1,),
+) -> Ellipses:
+    """Return the ellipses around some points of a view in one position.
+
+    What is thinner than the pen is not drawn, nor what is larger than half of the view: there the
+    drawing hardly says where the point is. Dashed are those where first order does not hold.
+
+    Parameters
+    ----------
+    errors : Errors
+    index : int
+        Which position.
+    places : mapping of PointName to complex
+        Where the points are drawn, mm.
+    size : float, mm
+        Of the view.
+    share : float
+        How many times the view is larger than the drawing that ``errors`` are those of.
+    enlarged : sequence of int
+        Enlargements to choose from, the largest first; the last is 1.
+    """
+    found = {point: errors.ellipse(point, index) * share**2 for point in places}
     known = {point: each for point, each in found.items() if np.isfinite(each).all()}
     across = {point: 2 * SIGMAS * half_axes(each)[0] for point, each in known.items()}
-    shown = [point for point in known if across[point] <= READABLE * size_mm]
+    shown = [point for point in known if across[point] <= READABLE * size]
     widest = max((across[point] for point in shown), default=0.0)
-    enlarged = next(k for k in ENLARGED if k == 1 or k * widest <= CLUTTER * size_mm)
-    enlarged = enlarged if scheme else 1
+    times = next(k for k in enlarged if k == 1 or k * widest <= CLUTTER * size)
     strokes: list[Stroke] = []
     for point in shown:
-        if across[point] * enlarged > PENS[Pen.THIN].width:
-            pen = Pen.THIN if _holds(solution, kind, point, index) else Pen.HIDDEN
-            stroke = ellipse(places[point], known[point] * enlarged**2, pen)
+        if across[point] * times > PENS[Pen.THIN].width:
+            pen = Pen.HIDDEN if errors.strained(point)[index] else Pen.THIN
+            stroke = ellipse(places[point], known[point] * times**2, pen)
             if not any(_alike(stroke, other) for other in strokes):
                 strokes.append(stroke)
     return Ellipses(
         tuple(strokes),
-        enlarged,
+        times,
         strained=any(stroke.pen is Pen.HIDDEN for stroke in strokes),
         too_large=len(shown) < len(known),
         undefined=len(known) < len(found),
@@ -135,27 +172,6 @@ def _places(solution: Solution, kind: PlanKind, index: int) -> Iterator[tuple[Po
         yield point, complex(solution.complexes(solution.paper, point)[index])
 
 
-def _holds(solution: Solution, kind: PlanKind, point: PointName, index: int) -> bool:
-    """Tell whether first order holds at a point.
-
-    It does where anything taken from the point is believed. A segment that is not believed only
-    because it is short says nothing of its ends.
-    """
-    from planmethod.plans.drafting import SHORT
-
-    drafting = solution.drafting
-    lengths = {f"{kind.value}.{s.name}": float(s.exact[index]) for s in solution.segments(kind)}
-    failed = False
-    for label, item in drafting.items.items():
-        if point not in item.needs:
-            continue
-        if not drafting.spreads[label].drawn[index]:
-            return True
-        sigma = float(np.sqrt(drafting.covariance([label], index)[0, 0]))
-        failed = failed or not item.length or lengths.get(label, 0.0) >= SHORT * sigma
-    return not failed
-
-
 def _alike(one: Stroke, two: Stroke) -> bool:
     """Tell whether two ellipses would be drawn over each other."""
     return all(abs(p - q) < 0.02 for p, q in zip(one.points, two.points, strict=True))
@@ -163,17 +179,19 @@ def _alike(one: Stroke, two: Stroke) -> bool:
 
 def ellipse_inscription(solution: Solution, kind: PlanKind, indices: Sequence[int]) -> list[str]:
     """Return the lines that tell what the ellipses of a view are."""
-    shown = [error_ellipses(solution, kind, i) for i in indices]
+    return told_ellipses([error_ellipses(solution, kind, i) for i in indices], solution.profile)
+
+
+def told_ellipses(shown: Sequence[Ellipses], profile: Profile) -> list[str]:
+    """Return the lines that tell what some ellipses are, drawn by the hand of a profile."""
     from planmethod.note.wording import wording
 
-    words = wording("ru")
-    name = solution.profile.name
-    profile = words.profiles.get(name, name)
+    hand = wording("ru").profiles.get(profile.name, profile.name)
     if not any(view.strokes or view.too_large or view.undefined for view in shown):
-        return [f"эллипсы погрешности {SIGMAS}σ тоньше линий ({profile})"]
+        return [f"эллипсы погрешности {SIGMAS}σ тоньше линий ({hand})"]
     enlarged = max(view.enlarged for view in shown)
     size = f"{SIGMAS}σ, увеличены {enlarged}:1" if enlarged > 1 else f"{SIGMAS}σ"
-    lines = [f"эллипсы погрешности: {size}, {profile}"]
+    lines = [f"эллипсы погрешности: {size}, {hand}"]
     if any(view.strained for view in shown):
         lines.append("штриховые: первый порядок не верен")
     if any(view.too_large for view in shown):

@@ -334,6 +334,13 @@ def limit_text(limit: float, lang: str) -> str:
     return number_text(round(limit, 2), lang)
 
 
+def unlike(value: float, limit: float, lang: str, decimals: int) -> str:
+    """Return a number with as many decimals, up to three, as tell it from a limit."""
+    while decimals < 3 and round(value, decimals) == round(limit, decimals):
+        decimals += 1
+    return number_text(value, lang, decimals)
+
+
 def _thing(name: str, lang: str) -> str:
     """Return what an inscription lies on (``stroke main``), or a line by itself (``line axis``)."""
     kind, _, rest = name.partition(" ")
@@ -366,19 +373,19 @@ def russian_paper(name: str) -> str:
     return FORMATS[name].cyrillic + (" (книжная)" if name.endswith(":portrait") else "")
 
 
-def _fact(fact: str | float | Segments, lang: str) -> str:
+def _fact(fact: str | float | Segments, limit: float, lang: str) -> str:
     if isinstance(fact, str):
         return russian_paper(fact) if lang == "ru" and fact in FORMATS else fact
     if isinstance(fact, tuple):
         mm = UNITS[lang]["mm"]
-        return ", ".join(f"{name} {number_text(length, lang, 1)} {mm}" for name, length in fact)
+        return ", ".join(f"{name} {unlike(length, limit, lang, 1)} {mm}" for name, length in fact)
     return number_text(fact, lang)
 
 
 def _filled(
     template: str, where: complex, value: float, limit: float, facts: Facts, lang: str
 ) -> str:
-    places = {key: _fact(fact, lang) for key, fact in facts.items()}
+    places = {key: _fact(fact, limit, lang) for key, fact in facts.items()}
     if "thing" in places:
         places["thing"] = _thing(places["thing"], lang)
     places |= {

@@ -21,7 +21,7 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
 from planmethod.note.tables import result_tables
-from planmethod.plans.drafting import UnknownItemError
+from planmethod.plans.errors import UnknownItemError
 from planmethod.plans.solution import Solution
 from planmethod.plans.sweep import Sweep, SweepError
 from planmethod.problem import load, loads
@@ -100,6 +100,18 @@ def test_the_covariance_as_a_spreadsheet(tmp_path: Path) -> None:
     k = labels.index("omega_3")
     wanted = Solution(problem_of("linkages/ex3")).drafting.spreads["omega_3"].sigma[0]
     assert sigma[k] == pytest.approx(wanted)
+
+
+def test_the_covariance_has_the_forces_of_a_loaded_problem() -> None:
+    told = run("solve", str(path_of("press/press")), "--covariance", "-")
+    assert told.exit_code == 0, told.output
+    rows = {row["quantity"]: row for row in csv.DictReader(io.StringIO(told.stdout))}
+    statics = Solution(problem_of("press/press")).statics
+    for label in ("F_1_0", "balance", "difference"):
+        wanted = float(statics.drawn.spreads[label].sigma[0])
+        assert float(rows[label]["sigma"]) == pytest.approx(wanted)
+        # Forces follow from the accelerations, so that they err with them.
+        assert float(rows[label]["a_S3"]) == pytest.approx(float(rows["a_S3"][label])) != 0.0
 
 
 @pytest.mark.parametrize(

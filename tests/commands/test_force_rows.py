@@ -119,8 +119,8 @@ def exact(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
 def read(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
     """Yield the columns of what the ruler gives."""
     drawn = statics.drawn
-    for number, r in enumerate(statics.reactions):
-        yield f"F.{r.joint}.{r.on}-{r.by}.read", drawn.read(number)
+    for r in statics.reactions:
+        yield f"F.{r.joint}.{r.on}-{r.by}.read", drawn.read(f"F_{r.on}_{r.by}")
     quantity = "moment" if statics.solution.problem.drive.is_crank else "force"
     assert drawn.balances is not None
     yield f"driving.{quantity}.read", drawn.balances.plans

@@ -14,7 +14,9 @@ from planmethod.construct.drafting import PROFILES, Counted, Profile, Propagated
 from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Builder, Program
-from planmethod.plans.drafting import SHORT, Drafting, UnknownItemError
+from planmethod.plans.drafting import Drafting
+from planmethod.plans.errors import SHORT, UnknownItemError
+from planmethod.plans.items import ItemKind
 from planmethod.plans.model import PlanKind
 from planmethod.plans.solution import Solution
 from planmethod.problem import load
@@ -37,7 +39,7 @@ def test_first_order_agrees_with_random_sheets(name: str, profile: str) -> None:
     for label, spread in drafting.spreads.items():
         sigma = float(spread.sigma[0])
         values = sheets[label]
-        short = drafting.items[label].length and values.mean() < SHORT * sigma
+        short = drafting.items[label].kind is ItemKind.LENGTH and values.mean() < SHORT * sigma
         if sigma == 0 or short or spread.drawn[0]:
             continue
         compared += 1
@@ -158,7 +160,7 @@ def test_a_hand_that_never_errs_draws_the_exact_plan() -> None:
     counted = Counted(still)
     trace = evaluate(
         solution.construction.program,
-        {**solution.drafting._data(np.array([0]))},
+        {**solution.data(solution.per_mm, np.array([0]))},
         counted,
     )
     assert counted.causes > 80
@@ -166,7 +168,7 @@ def test_a_hand_that_never_errs_draws_the_exact_plan() -> None:
         if point in trace.value:
             exact_place = evaluate(
                 solution.construction.program,
-                {**solution.drafting._data(np.array([0]))},
+                {**solution.data(solution.per_mm, np.array([0]))},
                 Float64(),
             ).value[point]  # type: ignore[index]
             assert trace.value[point] == pytest.approx(exact_place)  # type: ignore[index]

@@ -14,6 +14,7 @@ from newton import solve as newton
 from worked import problem_of
 
 from planmethod.construct.steps import NumberName, PointName
+from planmethod.plans.drawnforces import size_label
 from planmethod.plans.forceplan import Given
 from planmethod.plans.loads import LoadKind
 from planmethod.plans.model import PlanKind
@@ -168,8 +169,8 @@ def test_sigmas_are_finite_and_of_the_same_order(which: int | str) -> None:
     assert one is not None and other is not None
     assert np.all(np.isfinite(other))
     assert np.all(other < 5.0 * one)
-    for k in range(len(shifted.reactions)):
-        assert np.all(np.isfinite(shifted.drawn.sigma(k)))
+    for joint in shifted.reactions:
+        assert np.all(np.isfinite(shifted.drawn.spreads[size_label(joint)].sigma))
 
 
 def test_the_predicted_sigma_is_that_of_random_sheets() -> None:

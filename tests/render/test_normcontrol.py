@@ -288,6 +288,59 @@ def test_a_vector_that_is_nearly_zero_is_called_so() -> None:
     assert told["velocity"].facts["advice"] == "scale"
 
 
+@pytest.mark.parametrize("name", ["press/press", "press/press-stone"])
+def test_force_plans_are_told_the_scale_that_mends_them(name: str) -> None:
+    problem = problem_of(name)
+    (whole,) = controlled_kinematics(problem, layout="forces")
+    (finding,) = whole.findings
+    assert (finding.code, finding.view) == ("PM-D08", "forces")
+    assert finding.action("en").startswith("Write mu_F = 4 into [scales]: ")
+    assert "поместится на А1" in finding.action("ru")
+    mended = replace(problem, scales=replace(problem.scales, mu_F=4.0))
+    (other,) = controlled_kinematics(mended, layout="forces")
+    assert other.findings == () and other.paper == "A1"
+
+
+def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
+    (whole,) = controlled_kinematics(problem_of("press/press"), layout="forces")
+    (finding,) = whole.findings
+    assert 4.995 < finding.value < 5.0
+    assert finding.what("en").startswith("segments shorter than 5 mm: F₃₀ 4.996 mm;")
+    assert "4,996 мм, предел 5 мм" in control_text("press", [whole], "ru")
+
+
+def test_one_scale_is_told_for_all_force_plans() -> None:
+    """At 50 N/mm one plan needs 40 N/mm and another 4: both are told 4, which mends both."""
+    problem = problem_of("press/press")
+    coarse = replace(problem, scales=replace(problem.scales, mu_F=50.0))
+    (whole,) = controlled_kinematics(coarse, layout="forces")
+    values = [round(finding.value, 2) for finding in whole.findings]
+    assert values == [4.15, 0.5]
+    assert all("mu_F = 4 into [scales]" in finding.action("en") for finding in whole.findings)
+    mended = replace(problem, scales=replace(problem.scales, mu_F=4.0))
+    assert controlled_kinematics(mended, layout="forces")[0].findings == ()
+
+
+def test_a_scale_of_forces_is_told_in_the_convention_of_the_file() -> None:
+    problem = problem_of("levers/six-link")
+    coarse = replace(problem, scales=replace(problem.scales, mu_F=250.0))  # N/mm
+    (whole,) = controlled_kinematics(coarse, layout="forces")
+    (finding,) = whole.findings
+    assert finding.value < 5.0
+    assert "mu_F = 0.01 into [scales]" in finding.action("en")  # mm/N
+    assert finding.value * 250.0 * 0.01 >= 5.0 > finding.value * 250.0 * 0.005
+
+
+def test_where_no_scale_of_forces_fits_the_plan_is_to_be_drawn_apart() -> None:
+    """Next to where F_10 of task 12 vanishes: a plan that shows it is six times the sheet."""
+    (whole,) = controlled_kinematics(
+        problem_of("levers/task12"), layout="forces", positions=[303.5]
+    )
+    (finding,) = whole.findings
+    assert finding.facts["advice"] == "own"
+    assert "It needs the scale mu_F = 0.4, but such a plan does not fit A1" in finding.action("en")
+
+
 def test_segments_lie_where_the_plan_is_drawn() -> None:
     for positions in (None, [0.0, 45.0, 90.0]):
         (drawing,) = kinematics_sheets(problem_of("linkages/ex3"), positions=positions)

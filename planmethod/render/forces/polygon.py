@@ -8,6 +8,7 @@ from planmethod.plans.forcereading import ForceReading
 from planmethod.plans.polygons import Edge, Share
 from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen
+from planmethod.render.ellipses import Ellipses
 from planmethod.render.extent import lettered
 from planmethod.render.forces.arrows import MANNER, PLAN_FORCE, Segment, distance
 from planmethod.render.labels import Label
@@ -15,10 +16,19 @@ from planmethod.render.symbols import unit, vector_arrow
 from planmethod.render.typeset import typeset, vector_markup
 
 START = "start of a force plan"
-"""Tag of the disc where the drawing of a plan begins: one for each plan."""
+"""Tag of the disc where the construction of a plan begins: one for each plan."""
+
+NO_ELLIPSES = Ellipses()
 
 _LEAST = 0.3
 """Shortest segment that is drawn, mm."""
+
+
+def start_place(reading: ForceReading, number: int) -> complex:
+    """Return where the construction of a plan begins, mm: the first forces are laid off there."""
+    starts = reading.statics.board.starts
+    ends = (end for edge in reading.plans[number].polygon for end in (edge.tail, edge.head))
+    return reading.end(next(end for end in ends if end in starts))
 
 
 def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
@@ -93,10 +103,12 @@ def _hides(one: Segment, other: Segment) -> bool:
 
 
 @lru_cache(maxsize=64)
-def polygon_picture(reading: ForceReading, number: int, letter_height: float) -> Picture:
+def polygon_picture(
+    reading: ForceReading, number: int, letter_height: float, ellipses: Ellipses = NO_ELLIPSES
+) -> Picture:
     """Return the force plan of a group or of the driver, its first point at the origin, mm."""
     edges, shifts = drawn_edges(reading, number), apart(reading, number)
-    items: list[Item] = []
+    items: list[Item] = list(ellipses.strokes)
     labels: list[Label] = []
     ends = [reading.end(end) for edge in edges for end in (edge.tail, edge.head)] or [0j]
     centre = sum(ends) / len(ends)
@@ -116,5 +128,5 @@ def polygon_picture(reading: ForceReading, number: int, letter_height: float) ->
                 manner=MANNER,
             )
         )
-    items.append(Disc(ends[0], 0.7, Ink.BLACK, tag=START))
-    return lettered(items, labels)
+    items.append(Disc(start_place(reading, number), 0.7, Ink.BLACK, tag=START))
+    return lettered(items, labels, clear=ellipses.grounds)

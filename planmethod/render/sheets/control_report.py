@@ -16,8 +16,8 @@ from planmethod.render.remarks import (
     Severity,
     UnknownRemarkError,
     limit_text,
-    number_text,
     russian_paper,
+    unlike,
 )
 from planmethod.render.sheets.controlled import Controlled
 
@@ -70,7 +70,8 @@ def _lines(finding: Finding, lang: str) -> list[str]:
     if finding.position is not None:
         place += _POSITION[lang].format(number=finding.position)
     if unit:
-        value, limit = number_text(finding.value, lang, 2), limit_text(finding.limit, lang)
+        value = unlike(finding.value, finding.limit, lang, 2)
+        limit = limit_text(finding.limit, lang)
         place += _NUMBERS[lang].format(value=value, limit=limit, unit=unit)
     return [
         f"  {finding.code} {SEVERITIES[lang][finding.severity]}: {place}",

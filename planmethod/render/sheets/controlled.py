@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from planmethod.construct.scale import series_near
 from planmethod.errors import PlanMethodError
 from planmethod.mechanism.structure import analyse
 from planmethod.note.numbers import trimmed
-from planmethod.problem.model import Convention, Problem
+from planmethod.problem.model import Convention, Problem, Scales
 from planmethod.render.drawing import Bounds, Drawing, Span, Text, View
 from planmethod.render.frame import FORMATS
 from planmethod.render.lint import Finding
@@ -23,7 +23,8 @@ from planmethod.render.sheets.structure import structure_sheet
 LARGEST = 20.0
 """A segment that so large a plan shows no better is nothing in that position."""
 
-_KEYS = {"velocity": "mu_v", "acceleration": "mu_a"}
+KEYS = {"velocity": "mu_v", "acceleration": "mu_a", "forces": "mu_F"}
+"""Keys of ``[scales]`` by the kind of view."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,63 +85,142 @@ def controlled_kinematics(
         )
 
     drawings = draw(problem, paper)
-    tried: dict[tuple[str, float], list[Drawing] | None] = {}
-
-    def fits(finding: Finding, key: str, per_mm: float, times: float, view: View) -> bool:
-        """Tell whether the plan, drawn with another scale, has no short segments on this paper."""
-        name = paper_of(drawings[0])
-        if not _has_room(view.box, times, FORMATS[name].inner):
-            return False
-        if (key, per_mm) not in tried:
-            v, a = problem.scales.mu_v, problem.scales.mu_a
-            v, a = (per_mm, a) if key == "mu_v" else (v, per_mm)
-            other = replace(problem, scales=replace(problem.scales, mu_v=v, mu_a=a))
-            try:
-                tried[key, per_mm] = draw(other, name)
-            except PlanMethodError:
-                tried[key, per_mm] = None
-        made = tried[key, per_mm]
-        if made is None or len(made) != len(drawings) or _told(made) != _told(drawings):
-            return False
-        spans = _spans(made, finding)
-        return bool(spans) and min(span.length for span in spans) >= SHORTEST - 1e-6
-
-    def advised(finding: Finding, drawing: Drawing) -> Finding:
-        if finding.code != "PM-D08" or finding.view not in _KEYS:
-            return finding
-        view = next(v for v in drawing.views if v.kind == finding.view)
-        key, inverse = _KEYS[view.kind], problem.scales.convention is Convention.MM_PER_UNIT
-        now = view.per_mm * finding.value / SHORTEST
-        per_mm = 1.0 / series_near(1.0 / now, up=True) if inverse else series_near(now, up=False)
-        written = trimmed(1.0 / per_mm if inverse else per_mm)
-        times = view.per_mm / per_mm
-        fitting = times <= LARGEST and fits(finding, key, per_mm, times, view)
-        advice = {
-            "advice": "scale" if fitting else "own" if times <= LARGEST else "nothing",
-            "key": key,
-            "scale": written,
-            "paper": paper_of(drawing),
-        }
-        return replace(finding, facts={**finding.facts, **advice})
-
+    trial = _Trial(problem, drawings, draw)
     return [
         Controlled(
             drawing,
             paper_of(drawing),
-            tuple(advised(finding, drawing) for finding in inspect(drawing)),
+            tuple(trial.advised(finding) for finding in inspect(drawing)),
         )
         for drawing in drawings
     ]
 
 
-def _has_room(box: Bounds, times: float, inner: Bounds) -> bool:
+class _Trial:
+    """Scales that would make short segments long enough, tried by drawing the sheets with them.
+
+    Parameters
+    ----------
+    problem : Problem
+    drawings : list of Drawing
+        Its sheets as they are.
+    draw : callable
+        Draws a problem on a paper.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        drawings: list[Drawing],
+        draw: Callable[[Problem, str | None], list[Drawing]],
+    ) -> None:
+        self.problem, self.drawings, self.draw = problem, drawings, draw
+        self.paper = paper_of(drawings[0])
+        self._tried: dict[tuple[str, float], list[Drawing] | None] = {}
+
+    def advised(self, finding: Finding) -> Finding:
+        """Return a finding of short segments with the scale that mends it.
+
+        The scale is one for all plans of a kind: where there are several in the position, as force
+        plans are, that one is told that mends them all, else the one for the plan itself.
+        """
+        if finding.code != "PM-D08" or finding.view not in KEYS:
+            return finding
+        key = KEYS[finding.view]
+        views = _views(self.drawings, finding.view)
+        number = next(k for k, view in enumerate(views) if _has(view, finding))
+        own = views[number : number + 1]
+        per_mm, written = self._mending(own[0].per_mm, finding.value)
+        advice = "nothing"
+        if own[0].per_mm / per_mm <= LARGEST:
+            advice = "own"
+            for group, chosen in ((views, slice(None)), (own, slice(number, number + 1))):
+                spans = [span for span in _spans(group, finding) if _mendable(span)]
+                least = min(span.length for span in spans)
+                wanted, text = self._mending(own[0].per_mm, least)
+                names = frozenset(span.name for span in spans)
+                if self._fits(finding, key, wanted, chosen, names):
+                    advice, written = "scale", text
+                    break
+        facts = {"advice": advice, "key": key, "scale": written, "paper": self.paper}
+        return replace(finding, facts={**finding.facts, **facts})
+
+    def _mending(self, per_mm: float, least: float) -> tuple[float, str]:
+        """Return the coarsest scale of the series that makes a segment long enough, and its text.
+
+        The scale is in unit per mm, the text as the file has it.
+        """
+        now = per_mm * least / SHORTEST
+        if self.problem.scales.convention is Convention.MM_PER_UNIT:
+            times = series_near(1.0 / now, up=True)
+            return 1.0 / times, trimmed(times)
+        scale = series_near(now, up=False)
+        return scale, trimmed(scale)
+
+    def _fits(
+        self, finding: Finding, key: str, per_mm: float, chosen: slice, names: frozenset[str]
+    ) -> bool:
+        """Tell whether with another scale the named segments of plans are long enough, and fit."""
+        views = _views(self.drawings, finding.view)
+        inner = FORMATS[self.paper].inner
+        if not all(_has_room(view, view.per_mm / per_mm, inner) for view in views):
+            return False
+        made = self._drawn(key, per_mm)
+        if made is None or len(made) != len(self.drawings) or _told(made) != _told(self.drawings):
+            return False
+        found = _spans(_views(made, finding.view)[chosen], finding)
+        lengths = [span.length for span in found if span.name in names]
+        return bool(lengths) and min(lengths) >= SHORTEST - 1e-6
+
+    def _drawn(self, key: str, per_mm: float) -> list[Drawing] | None:
+        """Return the sheets with another scale, or None where they cannot be drawn."""
+        if (key, per_mm) not in self._tried:
+            scales = _with_scale(self.problem.scales, key, per_mm)
+            try:
+                made = self.draw(replace(self.problem, scales=scales), self.paper)
+            except PlanMethodError:
+                made = None
+            self._tried[key, per_mm] = made
+        return self._tried[key, per_mm]
+
+
+def _with_scale(scales: Scales, key: str, per_mm: float) -> Scales:
+    match key:
+        case "mu_v":
+            return replace(scales, mu_v=per_mm)
+        case "mu_a":
+            return replace(scales, mu_a=per_mm)
+        case _:
+            return replace(scales, mu_F=per_mm)
+
+
+def _views(drawings: Sequence[Drawing], kind: str) -> list[View]:
+    return [view for drawing in drawings for view in drawing.views if view.kind == kind]
+
+
+def _has(view: View, finding: Finding) -> bool:
+    """Tell whether a finding of short segments is of a view."""
+    spans = _spans([view], finding)
+    return any((span.start + span.end) / 2 == finding.where for span in spans)
+
+
+def _mendable(span: Span) -> bool:
+    return span.length * LARGEST >= SHORTEST
+
+
+def _has_room(view: View, times: float, inner: Bounds) -> bool:
     """Tell whether a view so many times larger can be on the paper at all.
 
-    Its letters do not grow with it, so that a view a little too large is still drawn to see.
+    Its letters do not grow with it: of one plan the segments alone are looked at, of many in rows
+    the whole view, which is still drawn to see when it is a little too large.
     """
-    width, height = times * (box[2] - box[0]), times * (box[3] - box[1])
-    room = (inner[2] - inner[0], inner[3] - inner[1])
-    return 0.6 * width <= room[0] and 0.6 * height <= room[1]
+    (left, low, right, high), much = view.box, 0.6
+    if len({span.position for span in view.spans}) == 1:
+        ends = [end for span in view.spans for end in (span.start, span.end)]
+        left, right = min(p.real for p in ends), max(p.real for p in ends)
+        low, high, much = min(p.imag for p in ends), max(p.imag for p in ends), 1.0
+    width, height = much * times * (right - left), much * times * (high - low)
+    return width <= inner[2] - inner[0] and height <= inner[3] - inner[1]
 
 
 def _told(drawings: Sequence[Drawing]) -> int:
@@ -149,12 +229,8 @@ def _told(drawings: Sequence[Drawing]) -> int:
     return sum(text.text.startswith("Расчёт") for text in texts)
 
 
-def _spans(drawings: Sequence[Drawing], finding: Finding) -> list[Span]:
+def _spans(views: Sequence[View], finding: Finding) -> list[Span]:
+    """Return the measured segments of views in the position of a finding."""
     return [
-        span
-        for drawing in drawings
-        for view in drawing.views
-        if view.kind == finding.view
-        for span in view.spans
-        if finding.position in (None, span.position)
+        span for view in views for span in view.spans if finding.position in (None, span.position)
     ]

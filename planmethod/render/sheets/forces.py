@@ -27,10 +27,19 @@ from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
 from planmethod.render.drawing import Disc, Item, Span, View
+from planmethod.render.ellipses import told_ellipses
 from planmethod.render.equations import balance_block, formula_block
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
+from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.leverpicture import lever_picture
-from planmethod.render.forces.polygon import START, apart, drawn_edges, polygon_picture
+from planmethod.render.forces.polygon import (
+    NO_ELLIPSES,
+    START,
+    apart,
+    drawn_edges,
+    polygon_picture,
+    start_place,
+)
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.reactions import reactions_block
 from planmethod.render.sheets.views import Viewed, scale_inscription, shown_position
@@ -62,7 +71,7 @@ class PlanViewed(Viewed):
         reading = self.reading
         edges = drawn_edges(reading, self.number)
         starts = [item.centre for item in items if isinstance(item, Disc) and item.tag == START]
-        shift = starts[0] - reading.end(edges[0].tail) if edges and starts else 0j
+        shift = starts[0] - start_place(reading, self.number)
         known = {edge.symbol for edge in reading.plans[self.number].polygon}
         known -= {edge.symbol for edge in reading.plans[self.number].reactions}
         return View(
@@ -143,7 +152,9 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
     said = [scale_inscription(reading.scale, solution.problem.scales.convention)]
     if any(apart(reading, number)):
         said.append(APART)
-    picture = polygon_picture(reading, number, manner.letter)
+    ellipses = vertex_ellipses(reading, number) if manner.extras.errors else NO_ELLIPSES
+    said += told_ellipses([ellipses], solution.profile) if manner.extras.errors else []
+    picture = polygon_picture(reading, number, manner.letter, ellipses)
     block = _named(picture, f"План сил {whose} {links}", said, manner)
     return PlanViewed(block, solution, PlanKind.POSITION, (reading.index,), reading, number)
 

@@ -28,16 +28,16 @@ def place_columns(reading: ForceReading) -> list[TableColumn]:
     There are cells for all reactions in their order, and no columns where nothing stands in them.
     """
     numbers = range(len(reading.statics.reactions))
-    found = [_guided(reading, number) for number in numbers]
+    found = [guided_at(reading, number) for number in numbers]
     columns = []
     if any(one is not None and one.b is not None for one in found):
         columns.append(TableColumn("l_{ij}, м", tuple(map(_distance, found))))
-    if any(_is_couple(one) for one in found):
+    if any(is_couple(one) for one in found):
         columns.append(TableColumn("M_{ij}, Н·м", tuple(map(_moment, found))))
     return columns
 
 
-def _guided(reading: ForceReading, number: int) -> Guided | None:
+def guided_at(reading: ForceReading, number: int) -> Guided | None:
     """Return the reaction of a guide; None of a hinge."""
     joint = reading.statics.reactions[number]
     one = guides(reading).get(reaction_symbol(joint.on, joint.by))
@@ -50,12 +50,13 @@ def _distance(one: Guided | None) -> str:
     return russian(significant(abs(one.b))) if one.b else "0"
 
 
-def _is_couple(one: Guided | None) -> bool:
+def is_couple(one: Guided | None) -> bool:
+    """Tell whether a guide gives a moment and no force."""
     return one is not None and one.is_none and not one.is_no_couple
 
 
 def _moment(one: Guided | None) -> Cell:
-    if one is None or not _is_couple(one):
+    if one is None or not is_couple(one):
         return Cell(_NONE)
     moment = float(one.contact.joint.moment[one.reading.index])
     return Cell(russian(significant(abs(moment))), 1 if moment > 0 else -1)
@@ -63,7 +64,7 @@ def _moment(one: Guided | None) -> Cell:
 
 def edges_table(reading: ForceReading, height: float, width: float) -> Block | None:
     """Return the table of the reactions at the edges of sliders; None where there are none."""
-    found = [_guided(reading, number) for number in reading.statics.contacts]
+    found = [guided_at(reading, number) for number in reading.statics.contacts]
     bearing = [one for one in found if one is not None and one.edges]
     if not bearing:
         return None

@@ -15,8 +15,18 @@ from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.pack import EDGE
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
+from planmethod.render.sheets.reactionerrors import (
+    angle_column,
+    balance_columns,
+    moment_column,
+    size_columns,
+    sizes_as_long,
+    with_note,
+)
 from planmethod.render.sheets.views import shown_position
 from planmethod.render.tables import Cell, TableColumn, table_block
+
+EXACT = " (точные значения)"
 
 
 def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -30,6 +40,8 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     sizes = [abs(complex(one.force[index])) for one in reactions]
     none = [size <= NOTHING * reading.peak for size in sizes]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
+    sigma = manner.extras.sigma
+    shown = sizes_as_long(reading, shown) if sigma else shown
     angles = [angle_text(complex(one.force[index])) for one in reactions]
     columns = [
         TableColumn(
@@ -37,20 +49,30 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         ),
         TableColumn("F_{ij}", tuple(reaction_symbol(one.on, one.by) for one in reactions)),
         TableColumn("F_{ij}, Н", tuple(map(russian, shown))),
+        *(size_columns(reading) if sigma else []),
         TableColumn(
             "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
         ),
-        *place_columns(reading),
+        *([angle_column(reading, none)] if sigma else []),
     ]
-    title = manner.entry.title or "Реакции в кинематических парах (точные значения)"
+    places = place_columns(reading)
+    if sigma and any(column.head.startswith("M_") for column in places):
+        places.append(moment_column(reading))
+    columns += places
+    title = manner.entry.title or ("Реакции в кинематических парах" + ("" if sigma else EXACT))
     table = table_block(columns, height, width=width, units="none", title=title)
     edges = edges_table(reading, height, width)
     further = [] if edges is None else [edges]
-    return Column([table, *further, _balances(reading, height, width)], gap=4.0)
+    balances = _balances(reading)
+    if sigma:
+        balances = balance_columns(reading, balances)
+    below = table_block(balances, height, width=width, units="none")
+    tables = Column([table, *further, below], gap=4.0)
+    return with_note(reading, tables, [*columns, *balances], height) if sigma else tables
 
 
-def _balances(reading: ForceReading, height: float, width: float) -> Block:
-    """Return the table of what balances the driver, by both methods."""
+def _balances(reading: ForceReading) -> list[TableColumn]:
+    """Return the columns of what balances the driver, by both methods."""
     symbol = reading.balancing_symbol
     unit = UNITS_RU["N·m" if reading.statics.driving.moment is not None else "N"]
     exact = float(reading.statics.balance[reading.index])
@@ -65,10 +87,9 @@ def _balances(reading: ForceReading, height: float, width: float) -> Block:
             RUSSIAN.found(abs(value)), (1 if value > 0 else -1) if sense and value else None
         )
 
-    columns = [
+    return [
         TableColumn(f"{symbol}, {unit}", (cell(exact),)),
         TableColumn("по планам сил", (cell(plans),)),
         TableColumn("по рычагу", (cell(lever),)),
         TableColumn("расхождение, %", (Cell("—" if share is None else russian(f"{share:.1f}")),)),
     ]
-    return table_block(columns, height, width=width, units="none")

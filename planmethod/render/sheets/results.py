@@ -8,7 +8,7 @@ import numpy as np
 
 from planmethod.note.given import asked_links, asked_points, number, solution_peak
 from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
-from planmethod.note.sigmas import DRAWN, label_of, marked, rounded_to, sigma_text
+from planmethod.note.sigmas import DRAWN, as_long, label_of, marked, rounded_to, sigma_text
 from planmethod.plans.solution import Reals, Solution
 from planmethod.render.block import Block, Column, paragraph
 from planmethod.render.frame import STAMP_WIDTH
@@ -27,12 +27,6 @@ def position_text(solution: Solution, index: int) -> str:
 
 def _sense(value: float) -> int:
     return 0 if value == 0 else (1 if value > 0 else -1)
-
-
-def _as_long(text: str, value: float, sigma: float) -> str:
-    """Return an exact value with no fewer decimals than its error has."""
-    longer = rounded_to(value, sigma) if value and sigma else text
-    return longer if len(longer.partition(".")[2]) > len(text.partition(".")[2]) else text
 
 
 def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple[Cell, Cell]:
@@ -73,7 +67,7 @@ def result_columns(
             errors = [marked(solution.drafting, label_of(symbol, name), i) for i in indices]
         cells = []
         for text, value, (error, mark) in zip(texts, shown, errors, strict=True):
-            written = russian(_as_long(text, abs(value), error))
+            written = russian(as_long(text, abs(value), error))
             if error and not alone:
                 written += f" ± {russian(sigma_text(error))}{mark}"
             cells.append(Cell(written, _sense(value) if turns else None))
@@ -125,10 +119,16 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
     )
     if not sigma:
         return table
+    cells = (cell for column in columns for cell in column.cells)
+    drawn = any(cell.text.endswith(DRAWN) for cell in cells)
+    told = errors_text(solution.profile.name, solution.drafting.draws if drawn else None)
+    return Column([table, paragraph(told, min(height, 3.5), table.width)], gap=3.0)
+
+
+def errors_text(profile: str, draws: int | None) -> str:
+    """Return what the errors of a table are; of how many sheets some are that have the mark."""
     from planmethod.note.wording import wording
 
-    words, name = wording("ru"), solution.profile.name
-    said = f"±σ — погрешность построения (СКО), {words.profiles.get(name, name)}."
-    if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
-        said += " " + words.drawn_note.format(count=solution.drafting.draws)
-    return Column([table, paragraph(said, min(height, 3.5), table.width)], gap=3.0)
+    words = wording("ru")
+    said = f"±σ — погрешность построения (СКО), {words.profiles.get(profile, profile)}."
+    return said if draws is None else f"{said} {words.drawn_note.format(count=draws)}"

@@ -1,0 +1,28 @@
+"""Ellipses of the drafting error at the vertices of a force plan (эллипсы погрешности)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from planmethod.construct.steps import PointName
+from planmethod.plans.forcereading import ForceReading
+from planmethod.render.ellipses import Ellipses, shown_ellipses
+from planmethod.render.forces.polygon import apart, drawn_edges
+
+
+@lru_cache(maxsize=64)
+def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
+    """Return the ellipses around the vertices of a force plan.
+
+    They are off from the point where the construction of the plan begins, which may stand anywhere.
+    A vertex from which segments are drawn apart has its ellipse at the end of the first of them.
+    """
+    edges, shifts = drawn_edges(reading, number), apart(reading, number)
+    places: dict[PointName, complex] = {}
+    for ends in ([edge.head for edge in edges], [edge.tail for edge in edges]):
+        for end, shift in zip(ends, shifts, strict=True):
+            places.setdefault(end, reading.end(end) + shift)
+    across = [place.real for place in places.values()]
+    up = [place.imag for place in places.values()]
+    size = max(max(across) - min(across), max(up) - min(up)) if places else 0.0
+    return shown_ellipses(reading.statics.drawn, reading.index, places, size)

@@ -1,0 +1,119 @@
+"""Drafting errors in the table of reactions: what was read, and sigmas (погрешности построения)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planmethod.note.numbers import russian
+from planmethod.note.sigmas import DRAWN, as_long, marked, rounded_to, sigma_text
+from planmethod.plans.drawnforces import (
+    BALANCE,
+    DIFFERENCE,
+    LEVER,
+    angle_label,
+    moment_label,
+    size_label,
+)
+from planmethod.plans.forcereading import ForceReading
+from planmethod.render.block import Block, Column, paragraph
+from planmethod.render.sheets.guides import guided_at, is_couple
+from planmethod.render.sheets.results import errors_text
+from planmethod.render.tables import Cell, TableColumn
+
+NO_ERROR = "—"
+
+
+def sigma_cell(reading: ForceReading, label: str | None) -> str:
+    """Return the error of a quantity in the position, with its mark; a dash of none."""
+    if label is None or label not in reading.statics.drawn.items:
+        return NO_ERROR
+    sigma, mark = marked(reading.statics.drawn, label, reading.index)
+    return russian(sigma_text(sigma)) + mark
+
+
+def read_text(reading: ForceReading, label: str) -> str:
+    """Return what was read on the drawing, to the place of its error, without its sign."""
+    sigma, _ = marked(reading.statics.drawn, label, reading.index)
+    return russian(rounded_to(abs(read_value(reading, label)), sigma))
+
+
+def read_value(reading: ForceReading, label: str) -> float:
+    """Return what was read on the drawing, N or N·m."""
+    return float(reading.statics.drawn.read(label)[reading.index])
+
+
+def sizes_as_long(reading: ForceReading, texts: Sequence[str]) -> list[str]:
+    """Return the sizes of the reactions, each with no fewer decimals than its error has."""
+    errors, index = reading.statics.drawn, reading.index
+    return [
+        as_long(text, abs(complex(one.force[index])), marked(errors, size_label(one), index)[0])
+        for one, text in zip(reading.statics.reactions, texts, strict=True)
+    ]
+
+
+def size_columns(reading: ForceReading) -> list[TableColumn]:
+    """Return the columns of what was read of the sizes of the reactions, and of its errors."""
+    labels = [size_label(one) for one in reading.statics.reactions]
+    return [
+        TableColumn("снято, Н", tuple(read_text(reading, label) for label in labels)),
+        TableColumn("±σ, Н", tuple(sigma_cell(reading, label) for label in labels)),
+    ]
+
+
+def angle_column(reading: ForceReading, none: Sequence[bool]) -> TableColumn:
+    """Return the column of the errors of the directions; ``none`` tells which have no direction."""
+    pairs = zip(reading.statics.reactions, none, strict=True)
+    labels = [None if nil else angle_label(one) for one, nil in pairs]
+    return TableColumn("±σ, °", tuple(sigma_cell(reading, label) for label in labels))
+
+
+def moment_column(reading: ForceReading) -> TableColumn:
+    """Return the column of the errors of the moments that stand in the table: without a force."""
+    found = [guided_at(reading, k) for k in range(len(reading.statics.reactions))]
+    pairs = zip(reading.statics.reactions, found, strict=True)
+    labels = [moment_label(one) if is_couple(guided) else None for one, guided in pairs]
+    return TableColumn("±σ, Н·м", tuple(sigma_cell(reading, label) for label in labels))
+
+
+def balance_columns(reading: ForceReading, columns: Sequence[TableColumn]) -> list[TableColumn]:
+    """Return the table of the balances with a row of errors.
+
+    ``columns``: exact, by the force plans, by the lever, and the discrepancy in per cent of the
+    force plans, in which its error is, too.
+    """
+    exact, plans, lever, share = columns
+    found = [_with_error(reading, *pair) for pair in ((plans, BALANCE), (lever, LEVER))]
+    off = NO_ERROR
+    if share.cells[0].text != NO_ERROR:
+        sigma, mark = marked(reading.statics.drawn, DIFFERENCE, reading.index)
+        part = 100.0 * sigma / abs(read_value(reading, BALANCE))
+        off = russian(sigma_text(part)) + mark
+    return [
+        TableColumn("", ("значение", "±σ")),
+        TableColumn(exact.head, (exact.cells[0], _like(exact, NO_ERROR))),
+        *found,
+        TableColumn(share.head, (share.cells[0], off)),
+    ]
+
+
+def _with_error(reading: ForceReading, column: TableColumn, label: str) -> TableColumn:
+    """Return the column of a balance to the place of its error, and the error."""
+    value = column.cells[0]
+    if label in reading.statics.drawn.items:
+        value = Cell(read_text(reading, label), value.sense)
+    return TableColumn(column.head, (value, _like(column, sigma_cell(reading, label))))
+
+
+def _like(column: TableColumn, text: str) -> Cell:
+    """Return a cell that keeps room for the sign of a sense where the column has one."""
+    return Cell(text, None if column.cells[0].sense is None else 0)
+
+
+def with_note(
+    reading: ForceReading, tables: Column, columns: Sequence[TableColumn], height: float
+) -> Block:
+    """Return tables and what the errors in their columns are."""
+    cells = (cell.text for column in columns for cell in column.cells)
+    draws = reading.statics.drawn.draws if any(text.endswith(DRAWN) for text in cells) else None
+    told = errors_text(reading.solution.profile.name, draws)
+    return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)

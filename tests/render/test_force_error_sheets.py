@@ -1,0 +1,319 @@
+"""The sheet of forces with drafting errors: ellipses at vertices, sigmas in the tables."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from functools import cache
+
+import numpy as np
+import pytest
+from loaded import loaded_problem
+from test_ellipses import middle, spread
+from test_error_sheets import number, rounded
+from test_forces_sheet import loaded_template, shown, views
+from worked import path_of, problem_of
+
+from planmethod import loads
+from planmethod.construct.drafting import PROFILES
+from planmethod.note.record import record
+from planmethod.note.tables import result_tables
+from planmethod.note.wording import wording
+from planmethod.plans.drawnforces import DrawnForces, angle_label, moment_label, size_label
+from planmethod.plans.errors import Errors
+from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.solution import Solution
+from planmethod.render.drawing import Disc, Drawing, Pen, Stroke
+from planmethod.render.ellipses import TAG
+from planmethod.render.forces.ellipses import vertex_ellipses
+from planmethod.render.forces.polygon import START, apart, drawn_edges
+from planmethod.render.normcontrol import inspect
+from planmethod.render.remarks import Severity
+from planmethod.render.sheets.composition.model import Entry, Extras, Manner
+from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.guides import guided_at, is_couple
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.reactionerrors import (
+    NO_ERROR,
+    angle_column,
+    balance_columns,
+    moment_column,
+    size_columns,
+)
+from planmethod.render.sheets.reactions import _balances, reactions_block
+
+LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
+NEAR_DEAD = (230.0, 240.0, 250.0)
+
+
+@cache
+def reading_of(
+    name: str, profile: str = "board", positions: tuple[float, ...] | None = None, index: int = 0
+) -> ForceReading:
+    views_of = composition("forces").views_for("A1", 1)
+    hand = PROFILES[profile]
+    return ForceReading(
+        Solution(problem_of(name), positions=positions, profile=hand, views=views_of), index
+    )
+
+
+def errors_in(sheets: list[Drawing]) -> list[str]:
+    found = [f for sheet in sheets for f in inspect(sheet)]
+    return [f.what("en") for f in found if f.severity is Severity.ERROR]
+
+
+def ellipses_in(sheet: Drawing) -> list[Stroke]:
+    return [item for item in sheet.items if isinstance(item, Stroke) and item.tag == TAG]
+
+
+# Whole sheets -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("name", LOADED)
+def test_the_lint_has_nothing_to_say(name: str, profile: str) -> None:
+    for errors, sigma in ((True, True), (True, False), (False, True)):
+        sheets = kinematics_sheets(
+            problem_of(name), layout="forces", errors=errors, sigma=sigma, profile=PROFILES[profile]
+        )
+        assert errors_in(sheets) == []
+        (sheet,) = sheets
+        text = shown(sheet)
+        assert text.count("эллипсы погрешности") == (len(views(sheet, "forces")) if errors else 0)
+        assert ("погрешность построения" in text) == sigma
+        assert ("(точные значения)" in text) != sigma
+        assert bool(ellipses_in(sheet)) == (errors and profile != "cad") or profile == "cad"
+
+
+@pytest.mark.parametrize("name", ["sine", "swinging-block", "slider-crank", "driving-slider"])
+def test_other_dyads_and_a_driving_slider(name: str) -> None:
+    centre, link, at = {
+        "sine": ("A", "3", "B"),
+        "swinging-block": ("D", "3", "C"),
+        "slider-crank": ("S2", "3", "B"),
+        "driving-slider": ("B", "3", "O"),
+    }[name]
+    sheets = kinematics_sheets(
+        loaded_template(name, centre, link, at), layout="forces", errors=True, sigma=True
+    )
+    assert errors_in(sheets) == []
+    assert ellipses_in(sheets[0])
+
+
+def test_a_driver_that_stands_has_a_dash_for_the_lever() -> None:
+    problem = loaded_template("four-bar", "B", "3", "C", omega="0")
+    sheets = kinematics_sheets(problem, layout="forces", errors=True, sigma=True)
+    assert errors_in(sheets) == []
+    reading = ForceReading(Solution(problem), 0)
+    columns = balance_columns(reading, _balances(reading))
+    assert [cell.text for cell in columns[3].cells] == ["—", "—"]
+    assert [cell.text for cell in columns[4].cells] == ["—", "—"]
+    assert columns[2].cells[1].text != "—"
+    entry = record(Solution(problem))["positions"][0]["forces"]
+    assert "lever" not in entry and entry["driving"]["sigma"] > 0
+
+
+def test_a_problem_without_any_force_has_no_errors_to_show() -> None:
+    text = path_of("linkages/ex3").read_text("utf-8") + "\n[dynamics]\ngravity = false\n"
+    sheets = kinematics_sheets(loads(text, name="free"), layout="forces", errors=True, sigma=True)
+    assert errors_in(sheets) == []
+    assert ellipses_in(sheets[0]) == []
+    assert "*" not in shown(sheets[0])
+
+
+def test_nothing_of_it_without_the_options(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No ellipse and no error of a reaction is asked for; only that of the discrepancy is told."""
+    plain = kinematics_sheets(problem_of("press/press"), layout="forces")
+    asked: list[str] = []
+    found = Errors._spread
+
+    def spy(self: Errors, label: str) -> object:
+        asked.append(label)
+        return found(self, label)
+
+    monkeypatch.setattr(Errors, "_spread", spy)
+    monkeypatch.setattr(DrawnForces, "ellipse", lambda *_: pytest.fail("asked"))
+    again = kinematics_sheets(problem_of("press/press"), layout="forces")
+    assert set(asked) <= {"difference"}
+    assert [sheet.items for sheet in again] == [sheet.items for sheet in plain]
+
+
+# Ellipses -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_every_ellipse_is_that_of_a_vertex(name: str) -> None:
+    reading = reading_of(name)
+    for k in range(len(reading.plans)):
+        edges, shifts = drawn_edges(reading, k), apart(reading, k)
+        drawn = vertex_ellipses(reading, k)
+        assert drawn.enlarged == 1
+        for stroke in drawn.strokes:
+            near = [
+                reading.statics.drawn.ellipse(end, 0)
+                for edge, shift in zip(edges, shifts, strict=True)
+                for end in (edge.tail, edge.head)
+                if abs(reading.end(end) + shift - middle(stroke)) < 1e-6
+            ]
+            assert any(np.allclose(spread(stroke), each, rtol=1e-6, atol=1e-9) for each in near)
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_every_vertex_but_the_first_has_its_ellipse(name: str) -> None:
+    """On a board none is thinner than the pen; each vertex has one, however many segments end."""
+    reading = reading_of(name)
+    for k in range(len(reading.plans)):
+        edges = drawn_edges(reading, k)
+        drawn = vertex_ellipses(reading, k)
+        ends = {end for edge in edges for end in (edge.tail, edge.head)}
+        free = {end for end in ends if not reading.statics.drawn.ellipse(end, 0).any()}
+        assert {reading.end(end) for end in free} <= {
+            reading.end(end) for end in reading.statics.board.starts
+        }
+        assert len(drawn.strokes) <= len(ends) - len(free)
+        if not drawn.too_large:
+            places = {complex(round(reading.end(e).real, 3), round(reading.end(e).imag, 3))
+                      for e in ends - free}  # fmt: skip
+            assert len(drawn.strokes) >= len(places)
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_the_disc_is_where_the_construction_begins(name: str) -> None:
+    """It is the vertex that cannot be off, from which the first force is laid off."""
+    reading = reading_of(name)
+    (sheet,) = kinematics_sheets(problem_of(name), layout="forces", errors=True)
+    discs = [item for item in sheet.items if isinstance(item, Disc) and item.tag == START]
+    assert len(discs) == len(reading.plans)
+    for k, (plan, view, disc) in enumerate(
+        zip(reading.plans, views(sheet, "forces"), discs, strict=True)
+    ):
+        ends = {end for edge in plan.polygon for end in (edge.tail, edge.head)}
+        (start,) = ends & {*reading.statics.board.starts}
+        first = drawn_edges(reading, k)[0]
+        shaft = next(
+            item
+            for item in sheet.items
+            if isinstance(item, Stroke)
+            and item.tag == f"plan-force {first.symbol}"
+            and view.box[0] < item.points[0].real < view.box[2]
+            and view.box[1] < item.points[0].imag < view.box[3]
+        )
+        off = disc.centre - shaft.points[0]
+        assert off == pytest.approx(reading.end(start) - reading.end(first.tail), abs=1e-6)
+
+
+def test_dashed_are_vertices_where_first_order_does_not_hold() -> None:
+    pens = set()
+    for index in range(len(NEAR_DEAD)):
+        reading = reading_of("levers/six-link", "board", NEAR_DEAD, index)
+        strained = reading.solution.drafting.spreads["x_H"].drawn[index]
+        for k in range(len(reading.plans)):
+            drawn = vertex_ellipses(reading, k)
+            assert drawn.strained == any(s.pen is Pen.HIDDEN for s in drawn.strokes)
+            if not strained:
+                assert not drawn.strained
+            pens |= {stroke.pen for stroke in drawn.strokes}
+    assert Pen.HIDDEN in pens
+
+
+def test_what_is_larger_than_half_the_plan_is_told() -> None:
+    (sheet,) = kinematics_sheets(problem_of("levers/six-link"), layout="forces", errors=True)
+    reading = reading_of("levers/six-link")
+    hidden = [vertex_ellipses(reading, k).too_large for k in range(len(reading.plans))]
+    assert shown(sheet).count("эллипсы больше половины плана не показаны") == sum(hidden) == 1
+
+
+# Tables -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_columns_of_the_reactions(name: str) -> None:
+    reading = reading_of(name)
+    drawn, found = reading.statics.drawn, reading.statics.reactions
+    read, error = size_columns(reading)
+    turn = angle_column(reading, [False] * len(found))
+    moment = moment_column(reading)
+    for k, joint in enumerate(found):
+        for column, label in (
+            (error, size_label(joint)),
+            (turn, angle_label(joint)),
+            (moment, moment_label(joint)),
+        ):
+            if column is moment and not is_couple(guided_at(reading, k)):
+                assert column.cells[k].text == NO_ERROR
+                continue
+            text = column.cells[k].text
+            if label not in drawn.items:
+                assert text == "—"
+                continue
+            spread_of = drawn.spreads[label]
+            assert text.endswith("*") == bool(spread_of.drawn[0])
+            sigma = float(spread_of.sigma[0])
+            assert number(text) == (rounded(sigma) if sigma else 0)
+        sigma = float(drawn.spreads[size_label(joint)].sigma[0])
+        unit = Decimal(1).scaleb(rounded(sigma).normalize().adjusted())
+        value = Decimal(float(drawn.read(size_label(joint))[0]))
+        assert abs(number(read.cells[k].text) - value) <= unit / 2
+
+
+def test_the_discrepancy_and_its_error_are_of_one_unit() -> None:
+    reading = reading_of("levers/task12")
+    _, exact, plans, lever, share = balance_columns(reading, _balances(reading))
+    drawn = reading.statics.drawn
+    assert exact.cells[1].text == "—"
+    for column, label in ((plans, "balance"), (lever, "lever")):
+        sigma = float(drawn.spreads[label].sigma[0])
+        assert number(column.cells[1].text) == rounded(sigma)
+        assert float(number(column.cells[0].text)) == pytest.approx(
+            abs(float(drawn.read(label)[0])), abs=0.5 * float(rounded(sigma))
+        )
+    part = 100 * float(drawn.spreads["difference"].sigma[0]) / abs(float(drawn.read("balance")[0]))
+    assert number(share.cells[1].text) == rounded(part)
+
+
+@pytest.mark.parametrize("height", [5.0, 3.5])
+@pytest.mark.parametrize("seed", [0, 2, 5, 9])
+def test_the_table_is_no_wider_than_it_may_be(seed: int, height: float) -> None:
+    problem, _ = loaded_problem(seed)
+    solution = Solution(problem, positions=problem.drive.positions[:1])
+    sizes = composition("forces").sizes_for("A1")
+    entry = Entry("reactions", heights=(height,))
+    block = reactions_block(solution, [0], Manner(entry, sizes, 811.0, Extras(sigma=True)))
+    assert block.width == pytest.approx(185.0)
+
+
+# Terminal and record ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_table_and_record_tell_the_same_errors(name: str) -> None:
+    solution = Solution(problem_of(name))
+    drawn = solution.statics.drawn
+    entry = record(solution)["positions"][0]["forces"]
+    text = result_tables(solution, "en", sigma=True)
+    assert max(map(len, text.splitlines())) <= 100
+    rows = [line.split() for line in text[text.index("Reactions") :].splitlines()]
+    marks = False
+    for joint, told in zip(solution.statics.reactions, entry["reactions"], strict=True):
+        sigma = drawn.spreads[size_label(joint)]
+        assert told["sigma"] == pytest.approx(float(sigma.sigma[0]))
+        still = told["angle_deg"] is None
+        assert (told["sigma_angle_deg"] is None) == still
+        if not still:
+            way = drawn.spreads[angle_label(joint)].sigma[0]
+            assert told["sigma_angle_deg"] == pytest.approx(float(way))
+        revolute = moment_label(joint) not in drawn.items
+        assert (told["sigma_moment"] == 0.0 and told["read_moment"] == 0.0) or not revolute
+        row = next(r for r in rows if r[:2] == [joint.joint, f"{joint.on}←{joint.by}"])
+        assert row[4].endswith("*") == bool(sigma.drawn[0])
+        assert number(row[4].replace(".", ",")) == rounded(float(sigma.sigma[0]))
+        marks = marks or bool(sigma.drawn[0])
+        assert (size_label(joint) in entry["monte_carlo"]) == bool(sigma.drawn[0])
+        rows.remove(row)
+    assert (wording("en").drawn_note.format(count=4000) in text) or not marks
+    assert entry["driving"]["sigma"] == pytest.approx(float(drawn.spreads["balance"].sigma[0]))
+    assert entry["lever"]["hand"]["sigma_lever"] == pytest.approx(
+        float(drawn.spreads["lever"].sigma[0])
+    )
+    plain = result_tables(solution, "en")
+    assert not re.search(r"±", plain)
