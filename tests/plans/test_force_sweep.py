@@ -28,7 +28,7 @@ from planmethod.problem.model import Problem
 Array = npt.NDArray[Any]
 
 FILES = [path for path in every_file() if load(path).dynamics is not None]
-SEEDS = range(120)
+SEEDS = range(60)
 
 CHANGING = """
 [dynamics.links.1]
