@@ -14,6 +14,7 @@ from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ellipses import Ellipses, error_ellipses
 from planmethod.render.extent import lettered
 from planmethod.render.labels import Label
+from planmethod.render.labels.spots import shared_spots
 from planmethod.render.symbols import vector_arrow
 from planmethod.render.typeset import typeset
 
@@ -93,14 +94,8 @@ def _labels(
 ) -> list[Label]:
     """Return the letters; points that coincide on the paper share one inscription."""
     letters = shown_letters(solution.problem, plan)
-    spots: list[tuple[complex, list[str]]] = []
-    for name, own in sorted(letters.items(), key=lambda pair: pair[0] != plan.pole):
-        for place, texts in spots:
-            if abs(place - at[name]) < 0.3:
-                texts += [letter for letter in own if letter not in texts]
-                break
-        else:
-            spots.append((at[name], list(own)))
+    ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
+    spots = shared_spots((at[name], own) for name, own in ordered)
     centre = sum(place for place, _ in spots) / len(spots)
     return [
         Label(

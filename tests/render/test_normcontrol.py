@@ -11,6 +11,7 @@ from worked import ROOT, every_file, problem_of
 
 from planmethod.mechanism.structure import analyse
 from planmethod.problem import load, variant_names
+from planmethod.problem.model import Problem
 from planmethod.render.block import CUT
 from planmethod.render.drawing import (
     Arc,
@@ -288,9 +289,15 @@ def test_a_vector_that_is_nearly_zero_is_called_so() -> None:
     assert told["velocity"].facts["advice"] == "scale"
 
 
+def unscaled(name: str) -> Problem:
+    """Return a problem whose scale of forces is left to the program."""
+    problem = problem_of(name)
+    return replace(problem, scales=replace(problem.scales, mu_F=None))
+
+
 @pytest.mark.parametrize("name", ["press/press", "press/press-stone"])
 def test_force_plans_are_told_the_scale_that_mends_them(name: str) -> None:
-    problem = problem_of(name)
+    problem = unscaled(name)
     (whole,) = controlled_kinematics(problem, layout="forces")
     (finding,) = whole.findings
     assert (finding.code, finding.view) == ("PM-D08", "forces")
@@ -302,7 +309,7 @@ def test_force_plans_are_told_the_scale_that_mends_them(name: str) -> None:
 
 
 def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
-    (whole,) = controlled_kinematics(problem_of("press/press"), layout="forces")
+    (whole,) = controlled_kinematics(unscaled("press/press"), layout="forces")
     (finding,) = whole.findings
     assert 4.995 < finding.value < 5.0
     assert finding.what("en").startswith("segments shorter than 5 mm: F₃₀ 4.996 mm;")

@@ -39,6 +39,7 @@ from planmethod.render.forces.guides import (
 )
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.labels import Label, segment_label
+from planmethod.render.labels.spots import shared_spots
 from planmethod.render.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, revolute, slider
 from planmethod.render.symbols.axes import axis_line
@@ -134,15 +135,7 @@ def _bars(scheme: Scheme) -> list[Segment]:
 def _letters(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]:
     """Return the letters of the points, one for points that coincide, and the links' numbers."""
     height = scheme.letter_height
-    spots: list[tuple[complex, list[str]]] = []
-    for point in scheme.named:
-        place = scheme.at(point)
-        for other, names in spots:
-            if abs(other - place) < 0.3:
-                names.append(point_name(point))
-                break
-        else:
-            spots.append((place, [point_name(point)]))
+    spots = shared_spots((scheme.at(point), [point_name(point)]) for point in scheme.named)
     gap = SIZES.joint / 2 * scheme.factor + 1.0
     labels = []
     for place, names in spots:

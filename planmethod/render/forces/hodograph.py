@@ -17,6 +17,7 @@ from planmethod.render.block import Picture
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.extent import lettered
 from planmethod.render.labels import BUSY, Label
+from planmethod.render.labels.spots import shared_spots
 from planmethod.render.symbols import arrowhead
 from planmethod.render.typeset import typeset
 
@@ -118,14 +119,7 @@ def _axis_letters(items: list[Item], height: float, number: int) -> list[Label]:
 
 def _numbers(ends: Complexes, height: float, number: int) -> list[Label]:
     """Return the numbers of the positions at the ends; ends that coincide share one inscription."""
-    spots: list[tuple[complex, list[str]]] = []
-    for k, end in enumerate(map(complex, ends)):
-        for other, numbers in spots:
-            if abs(other - end) < 0.5:
-                numbers.append(str(k))
-                break
-        else:
-            spots.append((end, [str(k)]))
+    spots = shared_spots(((complex(end), [str(k)]) for k, end in enumerate(ends)), near=0.5)
     middle = sum(end for end, _ in spots) / len(spots)
     return [
         Label(

@@ -21,6 +21,7 @@ from planmethod.render.forces.arrows import (
 )
 from planmethod.render.forces.shifts import Shifted, shift_items
 from planmethod.render.labels import Label
+from planmethod.render.labels.spots import shared_spots
 from planmethod.render.planview import similar_lines
 from planmethod.render.typeset import typeset
 
@@ -41,29 +42,21 @@ def lever_picture(reading: ForceReading, letter_height: float) -> Picture:
         if abs(lever.place(head) - lever.place(tail)) > 0.3
     ]
     items: list[Item] = [Stroke(bar, Pen.THIN, tag=LEVER) for bar in bars]
-    spots: list[tuple[complex, list[str]]] = []
-    for name, own in sorted(
-        shown_letters(solution.problem, plan).items(), key=lambda pair: pair[0] != plan.pole
-    ):
-        place = lever.place(name)
-        for other, letters in spots:
-            if abs(other - place) < 0.3:
-                letters += [letter for letter in own if letter not in letters]
-                break
-        else:
-            spots.append((place, list(own)))
+    letters = shown_letters(solution.problem, plan)
+    ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
+    spots = shared_spots((lever.place(name), own) for name, own in ordered)
     items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
     prefix = f"lever {reading.index}"
     middle = sum(place for place, _ in spots) / len(spots)
     labels = [
         Label(
-            typeset(", ".join(letters), letter_height),
+            typeset(", ".join(own), letter_height),
             place,
             prefer=place - middle,
             gap=1.4,
-            name=f"{prefix}: point {letters[0]}",
+            name=f"{prefix}: point {own[0]}",
         )
-        for place, letters in spots
+        for place, own in spots
     ]
     forces = [Acting(force.symbol, force.at, force.force) for force in lever.forces]
     shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts]

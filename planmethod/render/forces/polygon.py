@@ -32,15 +32,18 @@ def start_place(reading: ForceReading, number: int) -> complex:
 
 
 def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
-    """Return the segments of a force plan that are drawn: polygon, resultants, inner reaction."""
+    """Return the segments of a force plan that are drawn: polygon, resultants, inner reaction.
+
+    Of the resultants and the inner reaction those that no side of the polygon shows.
+    """
     plan = reading.plans[number]
     inner = reading.inner(plan)
-    edges = [*reading.shown(plan), *reading.wholes(plan), *([] if inner is None else [inner])]
+    result: list[Edge] = []
     ends: set[frozenset[complex]] = set()
-    result = []
-    for edge in edges:
+    others = [*reading.wholes(plan), *([] if inner is None else [inner])]
+    for edge, is_side in (*((e, True) for e in reading.shown(plan)), *((e, False) for e in others)):
         places = frozenset(_rounded(reading.end(end)) for end in (edge.tail, edge.head))
-        if abs(reading.vector(edge)) >= _LEAST and places not in ends:
+        if abs(reading.vector(edge)) >= _LEAST and (is_side or places not in ends):
             ends.add(places)
             result.append(edge)
     return result

@@ -19,7 +19,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.plans.solution import Solution
 from planmethod.problem.model import Convention
-from planmethod.render.block import Block, Column, Line, Picture, Row, heading, paragraph
+from planmethod.render.block import Block, Column, Line, Picture, Row
 from planmethod.render.diagram import (
     Abscissae,
     Curve,
@@ -38,12 +38,12 @@ from planmethod.render.forces.hodograph import (
 )
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.cycletable import reactions_table
+from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Viewed, scale_inscription
 from planmethod.render.typeset import typeset
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 
-NBSP = "\u00a0"
 CHORDS = "Нагрузка известна только в положениях: между ними хорды"
 BY_PLANS, BY_LEVER = "по планам сил", "по рычагу Жуковского"
 
@@ -314,15 +314,8 @@ def _largest(solution: Solution, symbol: str, size: float, at: float) -> str:
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" with masses and loads of all positions, and "Определить"."""
     cycle(solution)
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    said = "; ".join(fact.replace(" ", NBSP) for fact in cycle_statement(solution))
-    lines: list[Block] = [
-        paragraph(f"Дано: {said}.", height, width=width),
-        paragraph(f"Определить за цикл: {cycle_wanted(solution)}.", height, width=width),
-    ]
-    if manner.entry.title:
-        lines.insert(0, heading(manner.entry.title, height, width=width))
-    return Column(lines, gap=3.0)
+    asked = f"Определить за цикл: {cycle_wanted(solution)}."
+    return stated(cycle_statement(solution), asked, manner)
 
 
 MAKERS: Mapping[str, Maker] = MappingProxyType(

@@ -42,12 +42,12 @@ from planmethod.render.forces.polygon import (
 )
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.reactions import reactions_block
+from planmethod.render.sheets.texts import stated, unbroken
 from planmethod.render.sheets.views import Viewed, scale_inscription, shown_position
 from planmethod.render.typeset import typeset
 
 NOT_TO_SCALE = "Стрелки сил на схемах не в масштабе"
 APART = "Векторы на одной прямой разнесены"
-NBSP = "\u00a0"
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 
@@ -180,22 +180,15 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" with masses and loads, "Определить", and the computed loads."""
     reading = _reading(solution, indices, manner)
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    facts = "; ".join(fact.replace(" ", NBSP) for fact in statement(reading))
-    lines: list[Block] = [
-        paragraph(f"Дано: {facts}.", height, width=width),
-        paragraph(f"Определить: {wanted(reading)}.", height, width=width),
-    ]
-    if manner.entry.title:
-        lines.insert(0, heading(manner.entry.title, height, width=width))
-    loads = load_lines(reading)
-    if loads:
-        text = "; ".join(line.replace(" ", NBSP) for line in loads)
-        lines.append(paragraph(f"Силы тяжести и инерции: {text}.", height, width=width))
-    words = wording("ru")
-    told = [*shift_lines(reading.statics, words), *kept_lines(reading.statics, words)]
-    lines += [paragraph(text, height, width=width) for text in told]
-    return Column(lines, gap=3.0)
+    loads, words = load_lines(reading), wording("ru")
+    return stated(
+        statement(reading),
+        f"Определить: {wanted(reading)}.",
+        manner,
+        *([f"Силы тяжести и инерции: {unbroken(loads)}."] if loads else []),
+        *shift_lines(reading.statics, words),
+        *kept_lines(reading.statics, words),
+    )
 
 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -216,7 +209,7 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
         balances.append(balance_block(head, terms, height, width=width))
     blocks = [*balances, *moments] if drive else [*moments, *balances]
-    closing = "; ".join(line.replace(" ", NBSP) for line in closing_lines(reading, plan))
+    closing = unbroken(closing_lines(reading, plan))
     blocks.append(paragraph(f"Из плана сил: {closing}.", height, width=width))
     blocks += [formula_block(line, height, width=width) for line in place_lines(reading, plan)]
     return Column(blocks, gap=3.0)

@@ -24,16 +24,23 @@ TITLES = {
 
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" and "Определить"."""
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     facts = given(solution.problem, list(solution.positions))
-    said = "; ".join(fact.replace(" ", NBSP) for fact in facts)
-    lines: list[Block] = [
-        paragraph(f"Дано: {said}.", height, width=width),
-        paragraph(f"Определить: {wanted(solution)}.", height, width=width),
-    ]
+    return stated(facts, f"Определить: {wanted(solution)}.", manner)
+
+
+def stated(facts: Sequence[str], asked: str, manner: Manner, *more: str) -> Column:
+    """Return "Дано" with its facts, what is asked, and further paragraphs."""
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    texts = [f"Дано: {unbroken(facts)}.", asked, *more]
+    lines: list[Block] = [paragraph(text, height, width=width) for text in texts]
     if manner.entry.title:
         lines.insert(0, heading(manner.entry.title, height, width=width))
     return Column(lines, gap=3.0)
+
+
+def unbroken(facts: Sequence[str]) -> str:
+    """Return facts in one line that is broken between them only."""
+    return "; ".join(fact.replace(" ", NBSP) for fact in facts)
 
 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
