@@ -12,9 +12,9 @@ from planmethod.note.given import given, number
 from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, Notation
 from planmethod.note.resultants import shift_symbol
 from planmethod.plans.forceplan import Given
-from planmethod.plans.forcereading import ForceReading
+from planmethod.plans.forcereading import NOTHING, ForceReading
 from planmethod.plans.loads import Applied, LoadKind
-from planmethod.plans.polygons import BALANCING_MOMENT, Edge, ForcePlan, reaction_symbol
+from planmethod.plans.polygons import Edge, ForcePlan, reaction_symbol
 from planmethod.plans.resultant import Shift
 from planmethod.problem.load_records import Dynamics
 from planmethod.problem.model import Convention
@@ -81,16 +81,14 @@ def _external(reading: ForceReading) -> list[Applied]:
 
 def wanted(reading: ForceReading) -> str:
     """Return what is to be found, as one line of symbols."""
-    edges = [edge for plan in reading.plans for edge in (*plan.wholes, *plan.polygon)]
-    edges += [plan.inner for plan in reading.plans if plan.inner is not None]
-    symbols = dict.fromkeys(
-        edge.symbol for edge in edges if edge.known.value < 2 and "^" not in edge.symbol
-    )
-    for contact in reading.statics.contacts.values():
-        symbols[reaction_symbol(contact.joint.on, contact.joint.by, letter="l")] = None
-    if reading.statics.driving.moment is not None:
-        symbols[BALANCING_MOMENT] = None
-    return ", ".join(symbols)
+    statics = reading.statics
+    symbols = [reaction_symbol(joint.on, joint.by) for joint in statics.reactions]
+    for k, contact in statics.contacts.items():
+        # Of a guide that gives a couple alone nobody can ask where its force acts.
+        is_none = abs(statics.reactions[k].force[reading.index]) <= NOTHING * reading.peak
+        letter = "M" if is_none else "l"
+        symbols.append(reaction_symbol(contact.joint.on, contact.joint.by, letter=letter))
+    return ", ".join([*symbols, reading.balancing_symbol])
 
 
 def load_lines(reading: ForceReading) -> list[str]:

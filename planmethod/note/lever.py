@@ -71,7 +71,7 @@ def lever_lines(reading: ForceReading) -> list[str]:
         sigma = expected(reading)
         if sigma is not None:
             off = RUSSIAN.number(sigma_text(sigma))
-            lines.append(f"Построение позволяет ожидать σ = {off} {unit}")
+            lines.append(f"Ожидаемое СКО расхождения σ = {off} {unit}")
     return lines
 
 

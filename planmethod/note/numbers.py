@@ -34,12 +34,24 @@ def significant(value: float, digits: int = 4) -> str:
     if abs(value) < 1e-12:
         return "0"
     power = math.floor(math.log10(abs(value)))
-    rounded = round(value, digits - 1 - power)
+    rounded = half_up(value, digits - 1 - power)
     if rounded != 0:
         power = math.floor(math.log10(abs(rounded)))
     if not -4 <= power <= 6:
         return f"{value:.{digits - 1}e}"
     return f"{rounded:.{max(0, digits - 1 - power)}f}"
+
+
+def half_up(value: float, decimals: int) -> float:
+    """Return a value rounded to so many decimals, a half away from zero.
+
+    What is a half but for the rounding of binary numbers is taken for one: 147.15 gives 147.2.
+    """
+    return round(value * (1.0 + _HALF), decimals)
+
+
+_HALF = 4e-15
+"""Share of a value by which it may be short of a half."""
 
 
 def trimmed(value: float, digits: int = 6) -> str:

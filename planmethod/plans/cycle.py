@@ -39,10 +39,25 @@ Rows = npt.NDArray[np.complex128]
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Part of a curve without a jump or a gap: positions and values, ndarrays of shape (m,)."""
+    """Part of a curve without a jump or a gap: positions and values, ndarrays of shape (m,).
+
+    It may be one position alone, as the dead one in which a resistance is nothing.
+    """
 
     positions: Reals
     values: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """Largest size of a reaction, N, and the driver position where it is.
+
+    ``is_limit``: next to a jump it is only come near to, and may not be there in the position.
+    """
+
+    size: float
+    position: float
+    is_limit: bool
 
 
 class Cycle:
@@ -160,16 +175,17 @@ class Cycle:
         """The curve of what balances the driver, N·m or N (a real number as a complex one)."""
         return list(self._pieces(self._rows[-1]))
 
-    def peak(self, number: int) -> tuple[float, float]:
-        """Return the largest size of a reaction, N, and the driver position where it is."""
+    def peak(self, number: int) -> Peak:
+        """Return the largest size of a reaction and where it is."""
         sizes = np.nan_to_num(np.abs(self._rows[number]), nan=-1.0)
         k = int(np.argmax(sizes))
-        return float(sizes[k]), float(self.positions[k])
+        near = self._jumps[max(k - 1, 0) : k + 1]
+        return Peak(float(sizes[k]), float(self.positions[k]), bool(near.any()))
 
     def is_nothing(self, number: int) -> bool:
         """Tell whether a reaction is nothing beside the largest one, all over."""
         largest = float(self._peaks[0, 0])
-        return self.peak(number)[0] <= NOTHING * largest
+        return self.peak(number).size <= NOTHING * largest
 
     def _pieces(self, row: Complexes) -> Iterator[Piece]:
         ends = np.flatnonzero(self._jumps) + 1
@@ -177,7 +193,7 @@ class Cycle:
             gone = np.isnan(row[part])
             for run in np.split(part, np.flatnonzero(gone)):
                 kept = run[~np.isnan(row[run])]
-                if kept.size > 1:
+                if kept.size:
                     yield Piece(self.positions[kept], row[kept])
 
 

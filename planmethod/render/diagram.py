@@ -14,7 +14,7 @@ from math import ceil, floor
 from planmethod.construct.scale import series_near
 from planmethod.note.numbers import russian, trimmed
 from planmethod.render.block import Picture
-from planmethod.render.drawing import Arc, Item, Pen, Stroke
+from planmethod.render.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.extent import lettered
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.symbols import arrowhead
@@ -29,6 +29,8 @@ _TICK = 1.2  # mm: half of a tick
 _APART = 11.0  # mm: between the numbers of the axis of ordinates
 _HEAD = 4.0  # mm: arrowhead of an axis
 _BESIDE_AXIS = 25.0  # mm: so near the axis of ordinates no curve has its letter if it can
+_BESIDE_NUMBERS = 8.0  # mm: so low a curve has its letter above it
+_DOT = 0.7  # mm: a position that is a part of a curve alone
 _MARK = 1.3  # mm: half of a mark
 
 
@@ -156,7 +158,10 @@ def _ordinate_numbers(up: Ordinates, low: float, high: float, size: float) -> li
 def _curve_items(curve: Curve) -> list[Item]:
     """Return the parts of a curve; thin uprights where it jumps."""
     tag = f"{CURVE} {curve.symbol}"
-    items: list[Item] = [Stroke(part, curve.pen, tag=tag) for part in curve.parts]
+    items: list[Item] = [
+        Stroke(part, curve.pen, tag=tag) if len(part) > 1 else Disc(part[0], _DOT, Ink.BLACK, tag)
+        for part in curve.parts
+    ]
     for before, after in zip(curve.parts, curve.parts[1:], strict=False):
         if abs(after[0].real - before[-1].real) < 0.1 < abs(after[0] - before[-1]):
             items.append(Stroke((before[-1], after[0]), Pen.THIN, tag=tag))
@@ -193,7 +198,8 @@ def _letters(curves: Sequence[Curve], height: float, name: str) -> list[Label]:
         at = max(places, key=alone)
         above = sum(o.imag < at.imag for o in others if abs(o.real - at.real) < 6.0)
         below = sum(o.imag >= at.imag for o in others if abs(o.real - at.real) < 6.0)
-        up = above >= below if others else at.imag >= 0
+        # Along the axis stand the numbers of the positions.
+        up = (above >= below if others else at.imag >= 0) or 0.0 <= at.imag < _BESIDE_NUMBERS
         labels.append(
             Label(
                 typeset(curve.symbol, height),

@@ -193,7 +193,7 @@ def told_ellipses(shown: Sequence[Ellipses], profile: Profile) -> list[str]:
     size = f"{SIGMAS}σ, увеличены {enlarged}:1" if enlarged > 1 else f"{SIGMAS}σ"
     lines = [f"эллипсы погрешности: {size}, {hand}"]
     if any(view.strained for view in shown):
-        lines.append("штриховые: первый порядок не верен")
+        lines.append("штриховые: первый порядок неверен")
     if any(view.too_large for view in shown):
         lines.append("эллипсы больше половины плана не показаны")
     if any(view.undefined for view in shown):

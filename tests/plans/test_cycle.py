@@ -83,6 +83,29 @@ def test_a_step_of_a_table_jumps_and_its_slopes_do_not() -> None:
     assert len(Cycle(task12(step.replace("KIND", "linear"))).balance) == 1
 
 
+def test_a_resistance_that_turns_is_a_position_alone() -> None:
+    """Against the velocity it is nothing in the dead position itself, and large on both sides."""
+    text = f"force = 2000\nagainst = {chr(34)}velocity{chr(34)}"
+    problem = task12(text).problem
+    speed = [
+        complex(exactly(task12(text), phi).points["E"].velocity[0]).imag for phi in (200.0, 300.0)
+    ]
+    assert speed[0] * speed[1] < 0
+    low, high = 200.0, 300.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        sign = complex(Solution(problem, positions=[middle]).points["E"].velocity[0]).imag
+        low, high = (middle, high) if sign * speed[0] > 0 else (low, middle)
+    cycle = Cycle(Solution(problem, positions=[200.0, 240.0, low, 280.0, 300.0]))
+    pieces = [piece for piece in cycle.balance if piece.positions[0] <= low <= piece.positions[-1]]
+    assert len(cycle.balance) in (2, 3) and pieces
+    turning = cycle.balance[1 if len(cycle.balance) == 3 else 0]
+    assert turning.positions[-1] == pytest.approx(low, abs=1e-3)
+    peak = cycle.peak(0)
+    sizes = [abs(v) for piece in cycle.force(0) for v in piece.values]
+    assert peak.size == max(sizes)
+
+
 def test_a_steep_force_is_no_jump() -> None:
     """Task 12 goes near a dead position: its forces rise ten times within thirty degrees."""
     solution = Solution(problem_of("levers/task12"), positions=TURN)

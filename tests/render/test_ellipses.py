@@ -186,7 +186,7 @@ def test_dashed_are_the_points_where_first_order_does_not_hold() -> None:
         pens = {stroke.pen for stroke in view.strokes if abs(middle(stroke) - at) < 1e-6}
         drawn = any(solution.drafting.spreads[f"{axis}_H"].drawn[index] for axis in "xy")
         assert pens == {Pen.HIDDEN if drawn else Pen.THIN}
-        told = "штриховые: первый порядок не верен"
+        told = "штриховые: первый порядок неверен"
         assert (told in ellipse_inscription(solution, PlanKind.POSITION, [index])) == drawn
 
 

@@ -332,7 +332,7 @@ def test_what_is_given_and_the_computed_loads() -> None:
     assert "G_{2} = m_{2}·g = 40·9,81 = 392,4 Н" in load_lines(reading)
     assert "M_{Φ1} = J_{S1}·ε_{1} = 5·80 = 400,0 Н·м" in load_lines(reading)
     assert wanted(reading) == (
-        "F_{42}, F_{50}, F_{21}, F_{30}, F_{10}, F_{45}, F_{23}, l_{42}, l_{50}, M_{ур}"
+        "F_{42}, F_{50}, F_{45}, F_{21}, F_{30}, F_{23}, F_{10}, l_{42}, l_{50}, M_{ур}"
     )
 
 
@@ -397,7 +397,7 @@ def test_a_driving_slider_is_balanced_by_a_force() -> None:
     assert lever is not None and plans * lever > 0
     apart, expected = lever_lines(reading)[-2:]
     assert apart.startswith("Расхождение")
-    assert expected.startswith("Построение позволяет ожидать σ = ")
+    assert expected.startswith("Ожидаемое СКО расхождения σ = ")
     assert expected.endswith(" Н")
     (sheet,) = kinematics_sheets(problem, layout="forces")
     assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []

@@ -239,7 +239,7 @@ def test_formulas_of_the_crosshead() -> None:
         read = float(line.rpartition(" = ")[2].removesuffix(" Н").replace(",", "."))
         assert read == pytest.approx(size, rel=0.05)
     assert "a_{30} = 0,08 м" in statement(at)
-    assert wanted(at) == "F_{21}, F_{30}, F_{10}, F_{23}, l_{30}, M_{ур}"
+    assert wanted(at) == "F_{21}, F_{30}, F_{23}, F_{10}, l_{30}, M_{ур}"
 
 
 def test_a_force_through_the_joint_has_no_distance() -> None:

@@ -103,5 +103,5 @@ FORCE_RU = ForceWording(
     lever_sum="Сумма моментов относительно полюса:",
     compared="По планам сил {symbol} = {plans}, по рычагу {lever}: расхождение {difference} {unit}"
     "{share}.",
-    expected="Построение такой точности позволяет ожидать σ = {sigma} {unit}{share}.",
+    expected="Ожидаемое СКО расхождения при такой точности построения σ = {sigma} {unit}{share}.",
 )

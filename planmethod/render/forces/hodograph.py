@@ -62,7 +62,7 @@ def polar_groups(cycle: Cycle) -> list[list[int]]:
 def opposite(cycle: Cycle, one: int, two: int) -> bool | None:
     """Tell whether two reactions are opposite (True) or equal (False) all over; None if neither."""
     a, b = cycle.joints[one].force, cycle.joints[two].force
-    least = NOTHING * cycle.peak(one)[0]
+    least = NOTHING * cycle.peak(one).size
     if float(np.max(np.abs(a + b))) <= least:
         return True
     return False if float(np.max(np.abs(a - b))) <= least else None
@@ -75,7 +75,7 @@ def hodograph_picture(cycle: Cycle, number: int, per_mm: float, letter_height: f
     parts = [piece.values / per_mm for piece in cycle.force(number)]
     ends: Complexes = joint.force / per_mm
     items = _axes(np.concatenate([[0j], ends, *parts]))
-    for part in parts:
+    for part in (part for part in parts if len(part) > 1):
         items.append(Stroke(tuple(map(complex, part)), Pen.MAIN, tag=f"{HODOGRAPH} {number}"))
     for before, after in pairwise(parts):
         if abs(after[0] - before[-1]) > _LEAST:

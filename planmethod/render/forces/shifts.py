@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from planmethod.note.numbers import russian
+from planmethod.note.numbers import half_up, russian
 from planmethod.note.resultants import force_symbol, shift_symbol
 from planmethod.plans.forcereading import ForceReading
 from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
@@ -53,7 +53,8 @@ def shifts_on(reading: ForceReading, links: Iterable[str]) -> list[Shifted]:
         shift = reading.statics.board.shifts.get(link)
         if shift is not None:
             centre, at = reading.place(shift.centre), reading.place(shift.at)
-            told = f"{shift_symbol(link)} = {russian(f'{abs(at - centre):.1f}')} мм"
+            read = abs(reading.read_number(shift.length))
+            told = f"{shift_symbol(link)} = {russian(f'{half_up(read, 1):.1f}')} мм"
             found.append(Shifted(force_symbol(link), shift.letter, centre, at, told))
     return [one for one in found if one.is_seen]
 

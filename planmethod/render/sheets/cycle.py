@@ -13,8 +13,8 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.cycle import cycle_statement, cycle_wanted
 from planmethod.note.force_formulas import link_names
 from planmethod.note.given import point_name
-from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, russian
-from planmethod.plans.cycle import Cycle, Piece, cycle
+from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, half_up, russian
+from planmethod.plans.cycle import Cycle, Peak, Piece, cycle
 from planmethod.plans.model import PlanKind
 from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.plans.solution import Solution
@@ -264,12 +264,11 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
     for group in polar_groups(forces):
         k = group[0]
         scale = hodograph_scale(forces, k, side)
-        size, at = forces.peak(k)
         symbol = _symbol(forces, k)
         lines = [
             _line(manner, _whose(forces, group)),
             _line(manner, scale_inscription(scale, convention)),
-            _line(manner, _largest(solution, symbol, size, at)),
+            _line(manner, _largest(solution, symbol, forces.peak(k))),
         ]
         picture = hodograph_picture(forces, k, scale.per_mm, manner.letter)
         cells.append(Column([picture, Column(lines, gap=2.5, align="centre")], gap=4.0,
@@ -298,14 +297,16 @@ def _whose(forces: Cycle, group: Sequence[int]) -> str:
     return f"{' = '.join(symbols)} ({word} {', '.join(joints)})"
 
 
-def _largest(solution: Solution, symbol: str, size: float, at: float) -> str:
-    """Return the largest size of a reaction and the position where it is."""
+def _largest(solution: Solution, symbol: str, peak: Peak) -> str:
+    """Return the largest size of a reaction and the position where it is, or comes near to."""
     drive = solution.problem.drive
     letter, _, index = symbol.partition("_")
-    head = f"{letter}_{{{index.strip('{}')} max}} = {RUSSIAN.found(size)} {UNITS_RU['N']}"
+    head = f"{letter}_{{{index.strip('{}')} max}} = {RUSSIAN.found(peak.size)} {UNITS_RU['N']}"
+    sign = "→" if peak.is_limit else "="
     if drive.is_crank:
-        return f"{head} при φ_{{{drive.link}}} = {russian(f'{at % 360.0:.0f}')}°"
-    return f"{head} при s = {RUSSIAN.found(at)} м"
+        degrees = russian(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
+        return f"{head} при φ_{{{drive.link}}} {sign} {degrees}°"
+    return f"{head} при s {sign} {RUSSIAN.found(peak.position)} м"
 
 
 # Texts -------------------------------------------------------------------------------------------

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.numbers import UNITS_RU, alike, russian
+from planmethod.note.given import number
+from planmethod.note.numbers import UNITS_RU, alike, half_up, russian
 from planmethod.plans.cycle import Cycle, cycle
 from planmethod.plans.forcereading import NOTHING
 from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.plans.solution import Reals, Solution
-from planmethod.render.block import Block
+from planmethod.render.block import Block, Column, paragraph
 from planmethod.render.frame import STAMP_WIDTH
 from planmethod.render.pack import EDGE
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text
 from planmethod.render.sheets.results import position_text
+from planmethod.render.sheets.texts import NBSP
+from planmethod.render.sheets.views import scale_inscription
 from planmethod.render.tables import Cell, TableColumn, table_block
 
 
@@ -34,13 +37,23 @@ def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) 
     for k in range(len(forces.joints)):
         columns += _reaction_columns(forces, k, indices)
     columns += _balance_columns(solution, indices)
-    title = manner.entry.title or "Реакции и уравновешивание по положениям"
-    return table_block(columns, height, max_width=width, leading=2, title=title)
+    title = manner.entry.title or "Реакции и уравновешивающий момент по положениям"
+    table = table_block(columns, height, max_width=width, leading=2, title=title)
+    return Column([table, paragraph(_drawn_at(solution), height, table.width)], gap=3.0)
 
 
-def _reaction_columns(forces: Cycle, number: int, indices: Sequence[int]) -> list[TableColumn]:
+def _drawn_at(solution: Solution) -> str:
+    """Return at which scales the plans of all positions are drawn, and how they are read."""
+    convention = solution.problem.scales.convention
+    scales = [*solution.scales.values(), solution.statics.scale]
+    said = "; ".join(scale_inscription(scale, convention).replace(" ", NBSP) for scale in scales)
+    ruler = number(solution.hand.ruler)
+    return f"Планы сил и рычаг: {said}; отрезки сняты с точностью {ruler}{NBSP}мм."
+
+
+def _reaction_columns(forces: Cycle, which: int, indices: Sequence[int]) -> list[TableColumn]:
     """Return size and direction of a reaction, and of a guide its moment about the pin."""
-    joint, statics = forces.joints[number], forces.solution.statics
+    joint, statics = forces.joints[which], forces.solution.statics
     values = [complex(joint.force[i]) for i in indices]
     nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
     sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
@@ -65,27 +78,37 @@ def _reaction_columns(forces: Cycle, number: int, indices: Sequence[int]) -> lis
 
 
 def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableColumn]:
-    """Return the balance: exact, by both methods, their difference and its expected size."""
+    """Return the balance: exact, by both methods, their difference and its expected size.
+
+    The difference is that of the numbers which stand in the table.
+    """
     statics, crank = solution.statics, solution.problem.drive.is_crank
     symbol, unit = (
         (BALANCING_MOMENT, UNITS_RU["N·m"]) if crank else (BALANCING_FORCE, UNITS_RU["N"])
     )
 
-    def column(head: str, values: Reals, *, sense: bool, digits: int = 4) -> TableColumn:
-        chosen = [float(values[i]) for i in indices]
-        texts = alike([abs(v) if sense else v for v in chosen], digits)
-        cells = [
-            Cell(russian(text), (1 if v > 0 else -1 if v < 0 else 0) if sense else None)
-            for text, v in zip(texts, chosen, strict=True)
-        ]
+    def column(head: str, texts: Sequence[str], *, sense: bool) -> TableColumn:
+        cells = []
+        for text in texts:
+            size = text.removeprefix("-") if sense else text
+            turning = 0 if not float(text) else (-1 if text.startswith("-") else 1)
+            cells.append(Cell(russian(size), turning if sense else None))
         return TableColumn(head, tuple(cells), unit=unit)
 
-    columns = [column(symbol, statics.balance, sense=crank)]
+    def chosen(values: Reals) -> list[float]:
+        return [float(values[i]) for i in indices]
+
+    columns = [column(symbol, alike(chosen(statics.balance)), sense=crank)]
     balances, sigma = statics.drawn.balances, statics.drawn.discrepancy_sigma
     if balances is None or sigma is None:
         return columns
-    columns.append(column("планы сил", balances.plans, sense=crank))
-    columns.append(column("рычаг", balances.lever, sense=crank))
-    columns.append(column("Δ", balances.lever - balances.plans, sense=False, digits=2))
-    columns.append(column("σ_{Δ}", sigma, sense=False, digits=2))
+    both = alike([*chosen(balances.plans), *chosen(balances.lever)])
+    plans, lever = both[: len(indices)], both[len(indices) :]
+    decimals = max(len(text.partition(".")[2]) for text in both)
+    apart = [float(two) - float(one) for one, two in zip(plans, lever, strict=True)]
+    differences = [f"{half_up(value, decimals) + 0.0:.{decimals}f}" for value in apart]
+    columns.append(column("планы сил", plans, sense=crank))
+    columns.append(column("рычаг", lever, sense=crank))
+    columns.append(column("Δ", differences, sense=False))
+    columns.append(column("σ_{Δ}", alike(chosen(sigma), 2), sense=False))
     return columns

@@ -15,7 +15,7 @@ from planmethod.note.force_formulas import (
     statement,
     wanted,
 )
-from planmethod.note.force_moments import plan_moments
+from planmethod.note.force_moments import moment_lines
 from planmethod.note.guide_formulas import place_lines
 from planmethod.note.lever import STANDS, lever_lines
 from planmethod.note.plaintext import plain_text
@@ -167,7 +167,7 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
         return heading(f"{title}: {STANDS}", manner.text(manner.sizes.text))
     scale = own_scale(solution, PlanKind.VELOCITY, reading.index)
     said = [
-        "План скоростей повёрнут на 90°",
+        "План скоростей повёрнут на 90° против часовой стрелки",
         scale_inscription(scale, solution.problem.scales.convention),
     ]
     block = _named(lever_picture(reading, manner.letter), title, said, manner)
@@ -196,9 +196,16 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     reading = _reading(solution, indices, manner)
     plan = reading.plans[manner.entry.number]
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    blocks: list[Block] = []
-    drive = plan.links == (solution.problem.drive.link,)
-    moments = [formula_block(line, height, width=width) for line in plan_moments(reading, plan)]
+    before = [one for one in plan.moments if one.force is not None]
+    after = [one for one in plan.moments if one.force is None]
+    moments = [
+        [
+            formula_block(line, height, width=width)
+            for one in some
+            for line in moment_lines(reading, one)
+        ]
+        for some in (before, after)
+    ]
     balances: list[Block] = []
     for balance in plan.balances:
         terms = [
@@ -208,9 +215,9 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         ]
         head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
         balances.append(balance_block(head, terms, height, width=width))
-    blocks = [*balances, *moments] if drive else [*moments, *balances]
     closing = unbroken(closing_lines(reading, plan))
-    blocks.append(paragraph(f"Из плана сил: {closing}.", height, width=width))
+    found = paragraph(f"Из плана сил: {closing}.", height, width=width)
+    blocks = [*moments[0], *balances, found, *moments[1]]
     blocks += [formula_block(line, height, width=width) for line in place_lines(reading, plan)]
     return Column(blocks, gap=3.0)
 
