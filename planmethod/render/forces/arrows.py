@@ -33,6 +33,7 @@ MANNER = replace(BUSY, leader_from=4.5, stranger=25.0)
 _NEAR = 3.0  # mm: nearer two arrows would read as one
 _ON = 1.0  # mm: nearer an arrow lies on a link
 _LEVELS = 4
+_STRANGER = 10.0  # cost of another joint on the way to an arrow, or under it
 
 Segment = tuple[complex, complex]
 
@@ -70,12 +71,18 @@ def distance(place: complex, segment: Segment) -> float:
 
 
 def lay_forces(
-    forces: Sequence[Acting], bars: Sequence[Segment], *, length: float = LENGTH, gap: float = 2.0
+    forces: Sequence[Acting],
+    bars: Sequence[Segment],
+    joints: Sequence[complex] = (),
+    *,
+    length: float = LENGTH,
+    gap: float = 2.0,
 ) -> list[tuple[Acting, Segment]]:
     """Return where the arrow of each force is drawn, its tail and its head.
 
-    ``bars`` are the lines of the links, which arrows rather do not lie on; ``gap`` is the white
-    between an arrow and its point, mm.
+    ``bars`` are the lines of the links, which arrows rather do not lie on; beyond another of the
+    ``joints`` an arrow would read as that joint's. ``gap`` is the white between an arrow and its
+    point, mm.
     """
     placed: list[tuple[Acting, Segment]] = []
     for force in forces:
@@ -88,6 +95,9 @@ def lay_forces(
             inward = (force.at - along * far, force.at - along * near)
             for k, segment in enumerate((outward, inward)):
                 cost = 6.0 * level + 1.0 * k + _crowded(segment, [s for _, s in placed], bars)
+                reach = force.at, force.at + along * (far if k == 0 else -far)
+                others = (joint for joint in joints if abs(joint - force.at) > _NEAR)
+                cost += _STRANGER * sum(distance(joint, reach) < _NEAR for joint in others)
                 tries.append((cost, len(tries), segment))
         placed.append((force, min(tries)[2]))
     return placed

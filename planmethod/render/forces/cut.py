@@ -168,7 +168,8 @@ def _loaded_picture(
 ) -> Picture:
     items = [*_drawn(scheme), *point_items(guided, scheme.factor)]
     bars = [*_bars(scheme), *(shift.line for shift in shifts)]
-    placed = lay_forces(forces, bars, gap=SIZES.joint / 2 * scheme.factor + 0.5)
+    joints = [scheme.at(point) for point in scheme.named]
+    placed = lay_forces(forces, bars, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)
     lines, letters = shift_items(shifts, placed, scheme.letter_height, prefix)
     items += [*lines, *arrows]
