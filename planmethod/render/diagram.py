@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 from math import ceil, floor
 
 from planmethod.construct.scale import series_near
@@ -30,6 +31,7 @@ _APART = 11.0  # mm: between the numbers of the axis of ordinates
 _HEAD = 4.0  # mm: arrowhead of an axis
 _BESIDE_AXIS = 25.0  # mm: so near the axis of ordinates no curve has its letter if it can
 _BESIDE_NUMBERS = 8.0  # mm: so low a curve has its letter above it
+_DASHED = 20.0  # mm: shorter parts of a curve show no dashes
 _DOT = 0.7  # mm: a position that is a part of a curve alone
 _MARK = 1.3  # mm: half of a mark
 
@@ -158,10 +160,15 @@ def _ordinate_numbers(up: Ordinates, low: float, high: float, size: float) -> li
 def _curve_items(curve: Curve) -> list[Item]:
     """Return the parts of a curve; thin uprights where it jumps."""
     tag = f"{CURVE} {curve.symbol}"
-    items: list[Item] = [
-        Stroke(part, curve.pen, tag=tag) if len(part) > 1 else Disc(part[0], _DOT, Ink.BLACK, tag)
-        for part in curve.parts
-    ]
+    items: list[Item] = []
+    for part in curve.parts:
+        length = sum(abs(end - start) for start, end in pairwise(part))
+        if length < _DOT:
+            items.append(Disc(part[0], _DOT, Ink.BLACK, tag))
+        else:
+            # A part too short for dashes is drawn whole.
+            pen = curve.pen if length > _DASHED or curve.pen is Pen.MAIN else Pen.THIN
+            items.append(Stroke(part, pen, tag=tag))
     for before, after in zip(curve.parts, curve.parts[1:], strict=False):
         if abs(after[0].real - before[-1].real) < 0.1 < abs(after[0] - before[-1]):
             items.append(Stroke((before[-1], after[0]), Pen.THIN, tag=tag))

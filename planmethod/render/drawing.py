@@ -120,6 +120,13 @@ class Span:
         return abs(self.end - self.start)
 
 
+VIEW_KINDS = (
+    "position", "velocity", "acceleration", "forces", "balance", "reactions", "hodograph",
+    "structure",
+)  # fmt: skip
+"""Kinds of views: whoever tells of them has a word for each."""
+
+
 @dataclass(frozen=True, slots=True)
 class View:
     """One view of a sheet, for those who look the sheet over (вид).
@@ -127,7 +134,7 @@ class View:
     Attributes
     ----------
     kind : str
-        ``position``, ``velocity``, ``acceleration``, ``forces`` or ``structure``.
+        One of `VIEW_KINDS`.
     box : Bounds, mm
         The picture with its title and inscriptions.
     scale : str

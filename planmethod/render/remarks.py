@@ -14,6 +14,7 @@ from typing import TypeAlias
 
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.paper import FORMATS
+from planmethod.render.remarkwords import thing_text
 
 Segments: TypeAlias = tuple[tuple[str, float], ...]
 """Letters and lengths of segments, mm."""
@@ -283,44 +284,10 @@ SEVERITIES = {
     "en": {_ERROR: "error", _WARNING: "warning"},
 }
 
-PLACES = {
-    "ru": {
-        "position": "план положения",
-        "velocity": "план скоростей",
-        "acceleration": "план ускорений",
-        "forces": "план сил",
-        "structure": "структурные схемы",
-        "stamp": "основная надпись",
-        "": "лист",
-    },
-    "en": {
-        "position": "position plan",
-        "velocity": "velocity plan",
-        "acceleration": "acceleration plan",
-        "forces": "force plan",
-        "structure": "structural schemes",
-        "stamp": "title block",
-        "": "sheet",
-    },
-}
-"""What the views and the rest of a sheet are called."""
-
 UNITS = {
     "ru": {"mm": "мм", "mm²": "мм²", "%": "%", "": ""},
     "en": {"mm": "mm", "mm²": "mm²", "%": "%", "": ""},
 }
-
-_PENS_RU = {
-    "main": "основной",
-    "thin": "тонкой",
-    "frame": "рамки",
-    "axis": "штрихпунктирной",
-    "hidden": "штриховой",
-    "hatch": "штриховки",
-    "pale": "бледной",
-}
-_LINES_RU = {"hidden": "штриховая линия", "axis": "штрихпунктирная линия"}
-_LINES_EN = {"hidden": "a dashed line", "axis": "a dash-dot line"}
 
 
 def number_text(value: float, lang: str, decimals: int | None = None) -> str:
@@ -339,20 +306,6 @@ def unlike(value: float, limit: float, lang: str, decimals: int) -> str:
     while decimals < 3 and round(value, decimals) == round(limit, decimals):
         decimals += 1
     return number_text(value, lang, decimals)
-
-
-def _thing(name: str, lang: str) -> str:
-    """Return what an inscription lies on (``stroke main``), or a line by itself (``line axis``)."""
-    kind, _, rest = name.partition(" ")
-    pen, _, tag = rest.partition(" ")
-    told = f" ({tag})" if tag else ""
-    if kind == "line":
-        return (_LINES_RU if lang == "ru" else _LINES_EN)[pen] + told
-    if lang == "en":
-        return f"a {pen} {kind}".replace("  ", " ") + told
-    if pen:
-        return f"{'линии' if kind == 'stroke' else 'дуге'} ({_PENS_RU[pen]}){told}"
-    return ("закрашенной области" if kind == "fill" else "круге") + told
 
 
 def _said(code: str, lang: str) -> Said:
@@ -387,7 +340,7 @@ def _filled(
 ) -> str:
     places = {key: _fact(fact, limit, lang) for key, fact in facts.items()}
     if "thing" in places:
-        places["thing"] = _thing(places["thing"], lang)
+        places["thing"] = thing_text(places["thing"], lang)
     places |= {
         "place": place_text(where, lang),
         "value": number_text(value, lang, 2),

@@ -14,6 +14,7 @@ from planmethod.problem import load, variant_names
 from planmethod.problem.model import Problem
 from planmethod.render.block import CUT
 from planmethod.render.drawing import (
+    VIEW_KINDS,
     Arc,
     Disc,
     Drawing,
@@ -32,17 +33,18 @@ from planmethod.render.lint import CODES, Finding
 from planmethod.render.normcontrol import inspect, unused_paper
 from planmethod.render.remarks import (
     LANGUAGES,
-    PLACES,
     REMARKS,
     SEVERITIES,
     UNITS,
     Severity,
     UnknownRemarkError,
 )
+from planmethod.render.remarkwords import PLACES, thing_text
 from planmethod.render.sheets.control_report import control_text
 from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
+from planmethod.render.style import PENS
 from planmethod.render.typeset import typeset
 from planmethod.render.unused import CELL, largest_empty
 
@@ -464,3 +466,17 @@ def test_the_structural_sheet_is_looked_at_too() -> None:
     (whole,) = controlled_structure(problem_of("linkages/ex3"), paper="A3")
     assert (whole.paper, whole.findings) == ("A3", ())
     assert [view.kind for view in whole.drawing.views] == ["structure"]
+
+
+# Words --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_view_and_every_pen_has_a_word(lang: str) -> None:
+    assert set(PLACES[lang]) == {*VIEW_KINDS, "stamp", ""}
+    assert len(set(PLACES[lang].values())) == len(PLACES[lang])
+    for pen in Pen:
+        assert thing_text(f"stroke {pen.value} some tag", lang).endswith("(some tag)")
+        if PENS[pen].dashes is not None:
+            assert "(link 2)" in thing_text(f"line {pen.value} link 2", lang)
+    assert thing_text("disc", lang) and thing_text("fill", lang)

@@ -28,6 +28,7 @@ POLE = "hodograph pole"
 
 _BEYOND = 7.0  # mm: the axes go on beyond the curve
 _HEAD = 3.5
+_DASHED = 10.0  # mm: a shorter line shows no dashes
 _LEAST = 0.6  # mm: a shorter vector has no ray
 
 
@@ -80,7 +81,8 @@ def hodograph_picture(cycle: Cycle, number: int, per_mm: float, letter_height: f
     for before, after in pairwise(parts):
         if abs(after[0] - before[-1]) > _LEAST:
             jump = (complex(before[-1]), complex(after[0]))
-            items.append(Stroke(jump, Pen.HIDDEN, tag=f"{HODOGRAPH} {number}"))
+            pen = Pen.HIDDEN if abs(jump[1] - jump[0]) > _DASHED else Pen.THIN
+            items.append(Stroke(jump, pen, tag=f"{HODOGRAPH} {number}"))
     for end in map(complex, ends):
         if abs(end) > _LEAST:
             items.append(Stroke((0j, end), Pen.THIN, tag="hodograph vector"))

@@ -9,7 +9,6 @@ from planmethod.problem.model import Problem
 from planmethod.render.lint import Finding
 from planmethod.render.remarks import (
     LANGUAGES,
-    PLACES,
     REMARKS,
     SEVERITIES,
     UNITS,
@@ -19,6 +18,7 @@ from planmethod.render.remarks import (
     russian_paper,
     unlike,
 )
+from planmethod.render.remarkwords import PLACES
 from planmethod.render.sheets.controlled import Controlled
 
 _SHEET = {"ru": "лист {number} из {count}, {paper}", "en": "sheet {number} of {count}, {paper}"}
