@@ -78,20 +78,22 @@ def moment_text(
     if equation.force is not None:
         return _force_found(reading, equation.force, equation.about, terms, head)
     assert equation.couple is not None
-    if reading.is_no_couple(equation.couple):
+    nothing = reading.is_no_couple(equation.couple)
+    if nothing and terms.are_none:
         return None
-    value = reading.read_number(equation.couple.moment)
+    value = 0.0 if nothing else reading.read_number(equation.couple.moment)
     return terms.told(head, equation.couple.symbol, value, say.units["N·m"])
 
 
 def _force_found(
     reading: ForceReading, edge: Edge, about: PointName, terms: _Terms, head: str
 ) -> MomentText:
-    if reading.is_none(edge):
+    nothing = reading.is_none(edge)
+    if nothing and terms.are_none:
         return MomentText(f"{head} = 0: {edge.symbol} = 0")
     sense = 1.0 if reading.arm(edge, about) > 0 else -1.0
     letters, length, measured = _arm_length(reading, edge, about, terms.say)
-    value, unit = sense * reading.read(edge), terms.say.units["N"]
+    value, unit = 0.0 if nothing else sense * reading.read(edge), terms.say.units["N"]
     return terms.told(head, edge.symbol, value, unit, (letters, length), measured)
 
 
@@ -131,6 +133,11 @@ class _Terms:
         self.forces: list[tuple[str, float, float]] = []
         self.couples: list[tuple[str, float]] = []
 
+    @property
+    def are_none(self) -> bool:
+        """Whether nothing known has a moment."""
+        return not self.forces and not self.couples
+
     def force(self, edge: Edge, size: float, arm: float) -> None:
         """Add a force, N, with its signed arm, mm."""
         if size and arm and not self.reading.is_none(edge):
@@ -152,13 +159,13 @@ class _Terms:
     ) -> MomentText:
         """Return the equation in letters, the arms, and the found value with numbers.
 
-        ``value`` is positive where the unknown turns counter-clockwise; ``arm`` are the letters
-        and the length of its own.
+        ``value`` is positive where the unknown turns counter-clockwise, zero where the known
+        moments cancel; ``arm`` are the letters and the length of its own.
         """
         letters = [(a, f"{name}·{arm_symbol(name)}") for name, _, a in self.forces]
         letters += [(m, name) for name, m in self.couples]
         letters.append((value, "·".join(filter(None, (symbol, arm[0])))))
-        turn = -1.0 if value > 0 else 1.0
+        turn = 1.0 if value < 0 else -1.0
         said = self._numbers(turn)
         if arm[1]:
             said = f"({said})/{arm[1]}" if " " in said else f"{said}/{arm[1]}"
@@ -166,9 +173,19 @@ class _Terms:
             f"{head} = {signed_sum(letters)} = 0",
             tuple(f"{arm_symbol(n)} = {self.say.ruled(abs(a))}" for n, _, a in self.forces),
             measured,
-            f"{symbol} = {said} = {self.say.found(abs(value))} {unit}",
+            f"{symbol} = {said} {self._result(value, unit)}",
             value,
         )
+
+    def _result(self, value: float, unit: str) -> str:
+        """Return what the numbers come to; near to nothing where the exact moments cancel."""
+        if value:
+            return f"= {self.say.found(abs(value))} {unit}"
+        mu_l = self.reading.solution.scales[PlanKind.POSITION].per_mm
+        moments = [size * arm * mu_l for _, size, arm in self.forces]
+        moments += [moment for _, moment in self.couples]
+        cancel = abs(sum(moments)) <= 1e-9 * max(map(abs, moments))
+        return "= 0" if cancel else "≈ 0"
 
     def _numbers(self, turn: float) -> str:
         products = [

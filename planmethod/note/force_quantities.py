@@ -221,6 +221,8 @@ class ForceQuantities:
         link, arm = self.at.arm(sheet.motion, names[0], drive.pivot)
         if link != drive.link:
             raise UnansweredError(Why.NO_LINK)
+        if not arm:
+            raise UnansweredError(Why.NO_ARM)
         return abs(value) / arm
 
     # Lines of action -------------------------------------------------------------------------

@@ -240,7 +240,9 @@ def forces_tables(
     unit = words.units["N·m"] if crank else words.units["N"]
     balance = words.balance_moment if crank else words.balance_force
     lines += wrap(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
-    if statics.lever is not None:
+    if statics.lever is None:
+        lines.append(words.lever_stands)
+    else:
         drawn = statics.drawn
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
         plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])

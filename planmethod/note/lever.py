@@ -16,6 +16,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 
 STANDS = "Начальное звено неподвижно: рычаг не строится."
+NO_WORK = "Нагрузки работы не совершают: {symbol} = 0."
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +56,8 @@ def lever_lines(reading: ForceReading) -> list[str]:
         return [STANDS]
     lever, symbol = LeverReading(reading), reading.balancing_symbol
     unit, found = lever_unit(reading), RUSSIAN.found
+    if not lever.forces and not lever.couples:
+        return [NO_WORK.format(symbol=symbol)]
     lines = [lever_equation(lever)]
     arms = lever_arms(lever)
     if arms:

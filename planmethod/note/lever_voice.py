@@ -130,12 +130,10 @@ class LeverVoice:
         symbol, balances = self.reading.balancing_symbol, both_balances(self.reading)
         value = balances[1]
         assert value is not None and self.reading.statics.lever is not None
-        if not value:
-            return [f"{self.telling.plain(symbol)} = 0."]
         exact = self.telling.exactly(float(self.reading.statics.lever[self.reading.index]))
         unit = lever_unit(self.reading, self.telling.notation)
         end = "."
-        if not self.is_force:
+        if not self.is_force and value:
             end = self.said.directed.format(sense=self.telling.sense(value))
         size = self.telling.notation.found(abs(value))
         result = f"{symbol} = {self._numbers()} = {size} {unit}"

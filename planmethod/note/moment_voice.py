@@ -58,6 +58,8 @@ class MomentVoice:
         lines = self._sum(equation, told)
         if not told.result:
             return [*lines, self.said.no_moments.format(point=point)]
+        if not told.value:
+            return [*lines, f"{self.telling.plain(told.result)}."]
         symbol, sense = self.telling.plain(edge.symbol), self.telling.sense(told.value)
         exact = self.telling.exactly(abs(self.reading.force(edge)))
         turns = self.said.turns.format(symbol=symbol, link=edge.on, point=point, sense=sense)
@@ -72,6 +74,8 @@ class MomentVoice:
 
     def _couple(self, told: MomentText, couple: CoupleOn) -> str:
         """Return a found couple with numbers, its exact value and its sense."""
+        if not told.value:
+            return f"{self.telling.plain(told.result)}."
         exact = self.telling.exactly(self.reading.number(couple.moment))
         sense = self.said.directed.format(sense=self.telling.sense(told.value))
         return f"{self.telling.plain(told.result)}{exact}{sense}"
@@ -94,6 +98,8 @@ class MomentVoice:
             links = ", ".join(equation.links)
             return [said.guide_through.format(link=links, **symbols)]
         lines = [*self._sum(equation, told), self._couple(told, couple)]
+        if not told.value:
+            return [*lines, said.guide_cancelled.format(**symbols)]
         size = guided.read_force
         if guided.is_none or not size:
             sign = "=" if guided.is_none else "≈"

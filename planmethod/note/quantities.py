@@ -56,6 +56,7 @@ class Why(Enum):
     NO_SCALE = "no scale"  # millimetres of a plan whose scale the source does not tell
     NO_POINT = "no point"  # a name that the plans do not have
     NO_LINK = "no link"  # turning of a point about one that no link joins it to
+    NO_ARM = "no arm"  # a force in the axis of the crank cannot balance it
     NO_SLIDING = "no sliding"  # the points are not a prismatic pair's
     ZERO_DIVISOR = "zero divisor"
     NO_FORCES = "no forces"  # the file has neither masses nor loads

@@ -134,8 +134,8 @@ class LeverReading:
         reading, drive = self.reading, self.reading.solution.problem.drive
         driving = reading.statics.driving
         if driving.force is None:
-            moment = reading.read_number(balance)
-            if moment:
+            if self.forces or self.couples:  # where they cancel, too
+                moment = reading.read_number(balance)
                 self.couples.append(self._couple(reading.balancing_symbol, drive.link, moment))
             return
         motion = reading.solution.construction.kinematics.velocity

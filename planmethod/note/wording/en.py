@@ -144,6 +144,7 @@ EN = Wording(
     ),
     balance_moment="Balancing moment on the driving link: {value} {unit}.",
     balance_force="Balancing force on the driving link: {value} {unit}.",
+    lever_stands="The driving link stands: there is no Zhukovsky lever.",
     lever_note=(
         "From the readings: force plans {plans} {unit}, Zhukovsky lever {lever} {unit}, difference "
         "{difference} {unit} ({share}%); the drawing lets expect σ = {sigma} {unit}."

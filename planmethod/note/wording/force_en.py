@@ -53,6 +53,7 @@ FORCE_EN = ForceWording(
     guide_through="The other forces on link {link} have no moment about point {point}, so that "
     "{moment} = 0 and {force} goes through point {point}.",
     guide_couple="{force} {sign} 0: the guide gives a couple of the moment {moment} alone.",
+    guide_cancelled="So {force} goes through point {point}.",
     guide_edges="That is beyond the slider, so two reactions act at its edges:",
     guide_pair="This couple is that of the reactions at the edges of the slider:",
     of_start="the start of the plan",

@@ -63,6 +63,7 @@ class ForceWording:
     guide_at: str
     guide_through: str
     guide_couple: str
+    guide_cancelled: str
     guide_edges: str
     guide_pair: str
 

@@ -130,6 +130,7 @@ class Wording:
     edges_couple: str
     balance_moment: str
     balance_force: str
+    lever_stands: str
     lever_note: str
     resultant_shift: str
     resultant_no_force: str

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from planmethod.construct.scale import Scale
 from planmethod.note.force_formulas import (
     closing_lines,
+    link_names,
     load_lines,
     plan_title,
     statement,
@@ -17,12 +18,13 @@ from planmethod.note.force_formulas import (
 )
 from planmethod.note.force_moments import moment_lines
 from planmethod.note.guide_formulas import place_lines
-from planmethod.note.lever import STANDS, lever_lines
+from planmethod.note.lever import lever_lines
 from planmethod.note.plaintext import plain_text
 from planmethod.note.resultants import kept_lines, shift_lines
 from planmethod.note.wording import wording
 from planmethod.plans.forcereading import ForceReading, force_reading
 from planmethod.plans.model import Known, PlanKind
+from planmethod.plans.polygons import ForcePlan, Share
 from planmethod.plans.scaling import own_scale
 from planmethod.plans.solution import Solution
 from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
@@ -144,18 +146,21 @@ def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> View
     return _scheme(reading, picture, title, manner)
 
 
-def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return a force plan."""
+def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return a force plan; of forces that are all nothing its name alone."""
     reading, number = _reading(solution, indices, manner), manner.entry.number
-    links = "–".join(reading.plans[number].links)
+    links = link_names(reading.plans[number].links)
     whose = "группы звеньев" if len(reading.plans[number].links) > 1 else "звена"
+    title = f"План сил {whose} {links}"
+    if not drawn_edges(reading, number):
+        return heading(f"{title} не строится", manner.text(manner.sizes.text))
     said = [scale_inscription(reading.scale, solution.problem.scales.convention)]
     if any(apart(reading, number)):
         said.append(APART)
     ellipses = vertex_ellipses(reading, number) if manner.extras.errors else NO_ELLIPSES
     said += told_ellipses([ellipses], solution.profile) if manner.extras.errors else []
     picture = polygon_picture(reading, number, manner.letter, ellipses)
-    block = _named(picture, f"План сил {whose} {links}", said, manner)
+    block = _named(picture, title, said, manner)
     return PlanViewed(block, solution, PlanKind.POSITION, (reading.index,), reading, number)
 
 
@@ -164,7 +169,7 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     reading = _reading(solution, indices, manner)
     title = manner.entry.title or "Рычаг Жуковского"
     if reading.statics.hung is None:
-        return heading(f"{title}: {STANDS}", manner.text(manner.sizes.text))
+        return heading(title, manner.title, underline=True)  # why not is told beside it
     scale = own_scale(solution, PlanKind.VELOCITY, reading.index)
     said = [
         "План скоростей повёрнут на 90° против часовой стрелки",
@@ -215,11 +220,18 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         ]
         head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
         balances.append(balance_block(head, terms, height, width=width))
-    closing = unbroken(closing_lines(reading, plan))
-    found = paragraph(f"Из плана сил: {closing}.", height, width=width)
+    found = paragraph(_closing(reading, plan), height, width=width)
     blocks = [*moments[0], *balances, found, *moments[1]]
     blocks += [formula_block(line, height, width=width) for line in place_lines(reading, plan)]
     return Column(blocks, gap=3.0)
+
+
+def _closing(reading: ForceReading, plan: ForcePlan) -> str:
+    """Return what a force plan gives; of one whose forces are all nothing, that there is none."""
+    if drawn_edges(reading, reading.plans.index(plan)):
+        return f"Из плана сил: {unbroken(closing_lines(reading, plan))}."
+    zeros = " = ".join(edge.symbol for edge in plan.reactions if edge.share is Share.WHOLE)
+    return f"Все силы равны нулю, план не строится: {zeros} = 0."
 
 
 def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

@@ -1,0 +1,88 @@
+"""Forces that are nothing, and moments that cancel: told, and no formula left without its end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from planmethod.cli import cli
+from planmethod.note.audit import audit
+from planmethod.note.protocol import protocol
+from planmethod.plans.forcereading import force_reading
+from planmethod.plans.solution import Solution
+from planmethod.problem import loads, template
+from planmethod.problem.model import Problem
+from planmethod.render.drawing import Drawing, Text
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+CANCEL = """
+[dynamics.links.1]
+mass = 2
+centre = "O"
+inertia = 1
+[[loads]]
+name = "M_{1}"
+link = "1"
+couple = 3
+"""
+
+
+def six_link(more: str, **changes: str) -> Problem:
+    text = template("six-link")
+    for key, value in changes.items():
+        assert f"\n{key} = " in text
+        head, _, tail = text.partition(f"\n{key} = ")
+        text = f"{head}\n{key} = {value}\n" + tail.partition("\n")[2]
+    return loads(text + more, name="six-link")
+
+
+def shown(problem: Problem) -> str:
+    (sheet,) = kinematics_sheets(problem, layout="forces")
+    return texts(sheet)
+
+
+def texts(sheet: Drawing) -> str:
+    """Return what stands on a sheet, without spaces."""
+    return "".join(i.text for i in sheet.items if isinstance(i, Text)).replace(" ", "")
+
+
+def test_couples_that_cancel_on_the_crank_are_told() -> None:
+    """M_Φ1 = -1·3 and M_1 = +3 N·m: the moment that balances them is nothing."""
+    problem = six_link(CANCEL, epsilon="3")
+    solution = Solution(problem)
+    assert solution.statics.balance[0] == pytest.approx(0.0, abs=1e-12)
+    told = " ".join(protocol(solution).replace("\u00a0", " ").split())
+    assert "ΣM_O = M₁ + M_ур − M_Φ1 = 0, M_ур = 3,000 − 3,000 = 0." in told
+    assert "+ M_ур·(pa)/l_OA" in told
+    assert "момента относительно точки O не дают" not in told.partition("Рычаг")[0]
+    sheet = shown(problem)
+    assert "Mур=3,000−3,000=0" in sheet
+    assert "Mур·(pa)/l" in sheet  # on the lever, too
+
+
+def test_of_no_forces_there_are_no_plans() -> None:
+    problem = six_link("[dynamics]\n")
+    sheet = shown(problem)
+    assert sheet.count("нестроится") >= 3
+    assert "Всесилыравнынулю" in sheet and "Нагрузкиработынесовершают:Mур=0" in sheet
+    assert "ΣMp" not in sheet
+
+
+def test_a_driver_that_stands_has_no_lever_and_says_so_once(tmp_path: Path) -> None:
+    text = template("six-link").replace("omega = 20", "omega = 0") + "[dynamics]\n"
+    problem = loads(text, name="still")
+    assert force_reading(Solution(problem), 0).statics.hung is None
+    assert shown(problem).count("рычагнестроится") == 1
+    file = tmp_path / "still.toml"
+    file.write_text(text, encoding="utf-8")
+    for lang, said in (("ru", "рычага Жуковского нет"), ("en", "there is no Zhukovsky lever")):
+        assert said in CliRunner().invoke(cli, ["solve", str(file), "--lang", lang]).output
+
+
+@pytest.mark.parametrize("what", ["balance O", "lever O"])
+def test_a_force_in_the_axis_of_the_crank_balances_nothing(what: str) -> None:
+    more = f'{CANCEL}\n[published]\n"q" = {{ value = 1.0, unit = "Н", what = "{what}" }}\n'
+    (entry,) = audit(six_link(more))
+    assert entry.exact is None and entry.why is not None and entry.why.value == "no arm"
