@@ -135,7 +135,7 @@ class _Terms:
 
     @property
     def are_none(self) -> bool:
-        """Whether nothing known has a moment."""
+        """Whether nothing known has a moment, on the paper at least."""
         return not self.forces and not self.couples
 
     def force(self, edge: Edge, size: float, arm: float) -> None:
@@ -173,7 +173,7 @@ class _Terms:
             f"{head} = {signed_sum(letters)} = 0",
             tuple(f"{arm_symbol(n)} = {self.say.ruled(abs(a))}" for n, _, a in self.forces),
             measured,
-            f"{symbol} = {said} {self._result(value, unit)}",
+            f"{symbol} ≈ 0" if self.are_none else f"{symbol} = {said} {self._result(value, unit)}",
             value,
         )
 

@@ -391,8 +391,10 @@ def test_a_load_that_rests_is_said_to_rest() -> None:
 def test_a_reaction_below_the_ruler_is_not_laid_off() -> None:
     problem = worked("press/press").problem
     coarse = replace(problem, scales=replace(problem.scales, mu_F=5.0))
-    text = flat(protocol(Solution(coarse, ruler=100.0)))
-    assert "отрезок короче половины деления линейки" in text
+    for ruler in (10.0, 50.0, 100.0):
+        text = flat(protocol(Solution(coarse, ruler=ruler)))
+        assert ("отрезок короче половины деления линейки" in text) == (ruler > 50.0)
+    assert "M_ур ≈ 0" in text
 
 
 def by_rocker(phi: float) -> Solution:
