@@ -182,8 +182,8 @@ def _judge(
     ]
     able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
     if not able.size:
-        draft, program, trace = both[0]
-        raise AssemblyError(explain(problem, draft, program, trace, positions, unit_scales=True))
+        _, program, trace = both[0]
+        raise AssemblyError(explain(problem, program, trace, positions, unit_scales=True))
     name = "phi" if problem.drive.is_crank else "s"
     found = list(_places(problem, both, int(able[0])))[:-1]
     size = max(abs(point - found[0]) for point in found)

@@ -25,7 +25,6 @@ from planmethod.construct.steps import (
     Touch,
     operands,
 )
-from planmethod.plans.draft import Draft
 from planmethod.problem.model import Problem
 
 FORCE_PREFIX = "f:"
@@ -50,7 +49,6 @@ def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]
 
 def explain(
     problem: Problem,
-    draft: Draft,
     program: Program,
     trace: Trace,
     positions: npt.NDArray[np.float64],

@@ -168,9 +168,8 @@ class Solution:
         trace = self.read(Float64())
         program = self.construction.program
         if (failing(program, trace, len(self.positions)) >= 0).any():
-            draft = self.construction.draft
             raise AssemblyError(
-                explain(self.problem, draft, program, trace, self.positions, unit_scales=True)
+                explain(self.problem, program, trace, self.positions, unit_scales=True)
             )
         return trace
 

@@ -159,10 +159,7 @@ class Statics:
         """
         if not self.closes.all():
             problem, at = self.solution.problem, self.solution.positions
-            draft = self.board.draft
-            raise AssemblyError(
-                explain(problem, draft, self.program, self._si, at, unit_scales=True)
-            )
+            raise AssemblyError(explain(problem, self.program, self._si, at, unit_scales=True))
         return self._si
 
     @cached_property

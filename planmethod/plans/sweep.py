@@ -96,7 +96,6 @@ class Sweep:
         self.program = results.program.needed_for([r.name for r in (*chosen, *moved)])
         self.steps = len(self.program.steps)
         self.driver = "phi" if problem.drive.is_crank else "s"
-        self._draft = results.draft
         data = drive_data(problem, results.draft, np.zeros(1))
         data.update(results.numbers)
         self.constants: dict[str, complex | float] = {
@@ -298,7 +297,7 @@ class Sweep:
         trace = evaluate(self.program, data, Float64())
         if failing(self.program, trace, 1)[0] < 0:
             return ""
-        said = explain(self.problem, self._draft, self.program, trace, at, unit_scales=True)
+        said = explain(self.problem, self.program, trace, at, unit_scales=True)
         return said.replace("position 1 (", f"position {number} (", 1)
 
 

@@ -114,6 +114,7 @@ def diagram_picture(
         items += _curve_items(curve)
     for mark, at in marks:
         items += mark_items(mark, at)
+    every = _every(across.at, 2.0 * size)
     labels = [
         Label(
             typeset(number, size),
@@ -123,9 +124,16 @@ def diagram_picture(
             name=f"{name}: position {k}",
         )
         for k, (x, number) in enumerate(zip(across.at, across.numbers, strict=True))
+        if k % every == 0
     ]
     labels += _letters(curves, letter_height, name)
     return lettered(items, labels)
+
+
+def _every(at: Sequence[float], least: float) -> int:
+    """Return which positions have their numbers: all, or every so many, so far apart at least."""
+    gaps = [abs(end - start) for start, end in pairwise(sorted(at)) if end != start]
+    return max(1, ceil(least / min(gaps, default=least) - 1e-9))
 
 
 def _axes(across: Abscissae, up: Ordinates, low: float, high: float, height: float) -> list[Item]:

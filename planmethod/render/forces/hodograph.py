@@ -26,6 +26,9 @@ HODOGRAPH = "hodograph"
 
 POLE = "hodograph pole"
 
+MOST_NUMBERS = 24
+"""Positions that have their numbers: of more every second one, or third."""
+
 _BEYOND = 7.0  # mm: the axes go on beyond the curve
 _HEAD = 3.5
 _DASHED = 10.0  # mm: a shorter line shows no dashes
@@ -121,7 +124,9 @@ def _axis_letters(items: list[Item], height: float, number: int) -> list[Label]:
 
 def _numbers(ends: Complexes, height: float, number: int) -> list[Label]:
     """Return the numbers of the positions at the ends; ends that coincide share one inscription."""
-    spots = shared_spots(((complex(end), [str(k)]) for k, end in enumerate(ends)), near=0.5)
+    every = -(-len(ends) // MOST_NUMBERS)
+    numbered = ((complex(end), [str(k)]) for k, end in enumerate(ends) if k % every == 0)
+    spots = shared_spots(numbered, near=0.5)
     middle = sum(end for end, _ in spots) / len(spots)
     return [
         Label(
