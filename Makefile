@@ -35,6 +35,8 @@ tables: $(VENV)/.ready
 gallery: $(VENV)/.ready
 	$(BIN)/planmethod sheet --format png --dpi 70 -o docs/gallery problems/linkages/ex3.toml problems/levers/task12.toml
 	$(BIN)/planmethod sheet --format png --dpi 90 -o docs/gallery problems/linkages/ex1.toml
+	$(BIN)/planmethod sheet --layout forces --format png --dpi 45 -o docs/gallery problems/levers/six-link.toml
+	$(BIN)/planmethod sheet --layout forces-cycle --phi 98.918918918919:429:30 --format png --dpi 45 -o docs/gallery problems/press/press.toml
 	$(BIN)/planmethod specimen symbols --format png --dpi 70 -o docs/gallery
 	$(BIN)/planmethod specimen lines --format png --dpi 90 -o docs/gallery
 	$(BIN)/planmethod specimen lettering --format png --dpi 45 -o docs/gallery
