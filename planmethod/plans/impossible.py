@@ -144,7 +144,10 @@ def _sentence(step: Step, where: str, unit: str, real: Any, point: Any) -> str:
             )
         case MeetLines(out, _, _):
             if ":" not in out:
-                return f"Cannot place {out} at {where}: its two guides are parallel."
+                return (
+                    f"Cannot place {out} at {where}: its two guides are parallel. "
+                    "Ask another position, or check their angles."
+                )
             plan = "velocity" if out.startswith("v:") else "acceleration"
             return (
                 f"Cannot close the {plan} plan at {where}: the rays that meet in "

@@ -335,7 +335,10 @@ def test_parallel_guides() -> None:
     problem = loads(text, name="tangent")
     assert place(problem, "C") == pytest.approx(0.2 / np.tan(np.pi / 3) + 0.2j)
     message = refused(problem, [180.0])
-    assert message == ("Cannot place C at position 1 (phi = 180 deg): its two guides are parallel.")
+    assert message == (
+        "Cannot place C at position 1 (phi = 180 deg): its two guides are parallel. "
+        "Ask another position, or check their angles."
+    )
 
 
 def test_a_dead_position_is_told_with_its_reason() -> None:
