@@ -166,8 +166,8 @@ def positions_option(most: int) -> Callable[[F], F]:
         "--phi",
         callback=functools.partial(read_positions, most=most),
         metavar="POSITIONS",
-        help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30, which is "
-        "without its end.",
+        help="Other driver positions, degrees (m for a slider): 20 or 0,30,60 or 0:360:30 "
+        "(without its end).",
     )
 
 
