@@ -28,7 +28,7 @@ from planmethod.render.diagram import (
     diagram_picture,
     mark_items,
 )
-from planmethod.render.drawing import Item, Pen, View
+from planmethod.render.drawing import Pen
 from planmethod.render.extent import ink_bounds
 from planmethod.render.forces.hodograph import (
     hodograph_picture,
@@ -39,7 +39,7 @@ from planmethod.render.forces.hodograph import (
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.cycletable import reactions_table
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Viewed, scale_inscription
+from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription
 from planmethod.render.typeset import typeset
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
@@ -52,25 +52,6 @@ WIDE, HIGH, SIDE = 0.8, 0.3, 0.45
 
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
-
-
-@dataclass(frozen=True)
-class CycleViewed(Viewed):
-    """A diagram among the blocks of a sheet: no segment of it is measured."""
-
-    name: str
-    scale: Scale
-
-    def view(self, items: Sequence[Item], corner: complex) -> View:
-        """Return what is told of the view."""
-        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
-        letter = self.scale.symbol.removeprefix("mu_")
-        return View(self.name, box, f"μ_{{{letter}}}", self.scale.per_mm)
-
-
-def _named(picture: Block, title: str, said: Iterable[Block], manner: Manner) -> Column:
-    lines: list[Block] = [Line(typeset(title, manner.title), underline=True), *said]
-    return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
 
 
 def _line(manner: Manner, text: str) -> Line:
@@ -169,10 +150,8 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
     )
     what = "Уравновешивающий момент" if crank else "Уравновешивающая сила"
     lines = [_scales(manner, convention, scale, frame.scale), *said, *_chords(forces, manner)]
-    block = _named(picture, manner.entry.title or f"{what} {symbol}", lines, manner)
-    return CycleViewed(
-        block, solution, PlanKind.POSITION, tuple(indices), name="balance", scale=scale
-    )
+    block = named(picture, manner.entry.title or f"{what} {symbol}", lines, manner)
+    return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="balance", scale=scale)
 
 
 def _real(value: complex) -> float:
@@ -237,10 +216,8 @@ def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner)
     lines = [_scales(manner, solution.problem.scales.convention, scale, frame.scale)]
     none = [f"{_symbol(forces, k)} = 0" for k in own if k not in numbers]
     lines += [_line(manner, "; ".join(none))] if none else []
-    block = _named(picture, title, [*lines, *_chords(forces, manner)], manner)
-    return CycleViewed(
-        block, solution, PlanKind.POSITION, tuple(indices), name="reactions", scale=scale
-    )
+    block = named(picture, title, [*lines, *_chords(forces, manner)], manner)
+    return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="reactions", scale=scale)
 
 
 def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -> bool:
@@ -277,9 +254,7 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
     rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in range(0, len(cells), step)]
     title = Line(typeset(manner.entry.title or "Годографы реакций", manner.title), underline=True)
     block = Column([title, *rows, *_chords(forces, manner)], gap=7.0, align="centre")
-    return CycleViewed(
-        block, solution, PlanKind.POSITION, tuple(indices), name="hodograph", scale=scale
-    )
+    return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="hodograph", scale=scale)
 
 
 def _symbol(forces: Cycle, number: int) -> str:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TypeAlias
 
-from planmethod.construct.scale import Scale
 from planmethod.note.force_formulas import (
     closing_lines,
     link_names,
@@ -45,7 +44,7 @@ from planmethod.render.forces.polygon import (
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.reactions import reactions_block
 from planmethod.render.sheets.texts import stated, unbroken
-from planmethod.render.sheets.views import Viewed, scale_inscription, shown_position
+from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription, shown_position
 from planmethod.render.typeset import typeset
 
 NOT_TO_SCALE = "Стрелки сил на схемах не в масштабе"
@@ -94,35 +93,19 @@ class PlanViewed(Viewed):
         )
 
 
-@dataclass(frozen=True)
-class SchemeViewed(Viewed):
-    """A scheme or a lever: nothing is measured on it but arms."""
-
-    scale: Scale
-
-    def view(self, items: Sequence[Item], corner: complex) -> View:
-        """Return what is told of the view."""
-        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
-        letter = self.scale.symbol.removeprefix("mu_")
-        return View(self.kind.value, box, f"μ_{{{letter}}}", self.scale.per_mm)
-
-
-def _named(picture: Block, title: str, said: Sequence[str], manner: Manner) -> Block:
-    """Return a picture with its name and what is said under it."""
+def _named(picture: Block, title: str, said: Sequence[str], manner: Manner) -> Column:
     height = manner.text(manner.sizes.text)
-    lines = [Line(typeset(title, manner.title), underline=True)]
-    lines += [Line(typeset(text, height)) for text in said]
-    return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
+    return named(picture, title, [Line(typeset(text, height)) for text in said], manner)
 
 
 def _scheme(
     reading: ForceReading, picture: Block, title: str, manner: Manner, *said: str
-) -> Viewed:
+) -> Scaled:
     solution, kind = reading.solution, PlanKind.POSITION
     scale = solution.scales[kind]
     told = [scale_inscription(scale, solution.problem.scales.convention), *said]
     block = _named(picture, title, told, manner)
-    return SchemeViewed(block, solution, kind, (reading.index,), scale)
+    return Scaled(block, solution, kind, (reading.index,), kind.value, scale)
 
 
 def loads_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -176,7 +159,8 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
         scale_inscription(scale, solution.problem.scales.convention),
     ]
     block = _named(lever_picture(reading, manner.letter), title, said, manner)
-    return SchemeViewed(block, solution, PlanKind.VELOCITY, (reading.index,), scale)
+    kind = PlanKind.VELOCITY
+    return Scaled(block, solution, kind, (reading.index,), kind.value, scale)
 
 
 # Texts -------------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from planmethod.construct.scale import Scale
@@ -90,6 +90,20 @@ class Viewed:
                 for span in plan_spans(self.solution, self.kind, index, pole)
             ),
         )
+
+
+@dataclass(frozen=True)
+class Scaled(Viewed):
+    """A view in a scale of its own on which no segment is measured: a scheme, a diagram."""
+
+    name: str
+    scale: Scale
+
+    def view(self, items: Sequence[Item], corner: complex) -> View:
+        """Return what is told of the view."""
+        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
+        letter = self.scale.symbol.removeprefix("mu_")
+        return View(self.name, box, f"μ_{{{letter}}}", self.scale.per_mm)
 
 
 def plan_spans(solution: Solution, kind: PlanKind, index: int, pole: complex) -> list[Span]:
@@ -180,22 +194,14 @@ def named_view(
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention)]
     said += ellipse_inscription(solution, kind, ellipses) if manner.extras.errors else []
     height = manner.text(manner.sizes.text)
-    block = Column(
-        [
-            picture,
-            Column(
-                [
-                    Line(typeset(title, manner.title), underline=True),
-                    *(Line(typeset(text, height)) for text in said),
-                ],
-                gap=2.5,
-                align="centre",
-            ),
-        ],
-        gap=5.0,
-        align="centre",
-    )
+    block = named(picture, title, [Line(typeset(text, height)) for text in said], manner)
     return Viewed(block, solution, kind, tuple(indices))
+
+
+def named(picture: Block, title: str, said: Iterable[Block], manner: Manner) -> Column:
+    """Return a picture with its name and what is said under it."""
+    lines = [Line(typeset(title, manner.title), underline=True), *said]
+    return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
 
 
 def plan_grid(
