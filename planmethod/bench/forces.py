@@ -45,16 +45,22 @@ def forces_of(statics: Statics, value: Any) -> list[Number]:
 def _error(statics: Statics, found: Sequence[Array]) -> float:
     """Return the largest error of a position in units of its largest force (and moment)."""
     count = len(statics.solution.positions)
-    referee, worst = Precise(RIGHT), 0.0
-    data = statics.data(SI, EVERY)
+    worst = 0.0
     for i in np.unique(np.linspace(0, count - 1, min(count, JUDGED)).astype(int)):
-        lifted = {n: referee.lift(_at(v, int(i))) for n, v in data.items()}
-        right = forces_of(statics, evaluate(statics.program, lifted, referee).value)
+        right = _judged(statics, RIGHT, int(i))
         exact = [complex(plain(value)) for value in right]
         size = max(abs(force) for force in exact[:-1])
         gaps = [abs(complex(row[i]) - v) for row, v in zip(found, exact, strict=True)]
         worst = max(worst, max(gaps[:-1]) / size, gaps[-1] / max(abs(exact[-1]), 1e-9 * size))
     return worst
+
+
+def _judged(statics: Statics, digits: int, index: int = 0) -> list[Number]:
+    """Return the forces of a position as a referee of so many digits has them."""
+    referee = Precise(digits)
+    data = statics.data(SI, EVERY)
+    lifted = {name: referee.lift(_at(value, index)) for name, value in data.items()}
+    return forces_of(statics, evaluate(statics.program, lifted, referee).value)
 
 
 def _at(value: Number, index: int) -> Any:
@@ -103,10 +109,8 @@ def _of_one(problem: Problem) -> list[Reading]:
     solution = Solution(problem, positions=[20.0])
     statics, name = solution.statics, problem.name
 
-    def precisely() -> Any:
-        referee = Precise(50)
-        data = {n: referee.lift(np.ravel(v)[0]) for n, v in statics.data(SI, EVERY).items()}
-        return evaluate(statics.program, data, referee).value
+    def precisely() -> list[Number]:
+        return _judged(statics, 50)
 
     found = [
         Reading(
@@ -127,11 +131,8 @@ def _of_one(problem: Problem) -> list[Reading]:
     return found
 
 
-def _precise_error(statics: Statics, value: Any) -> float:
-    referee = Precise(RIGHT)
-    data = {n: referee.lift(np.ravel(v)[0]) for n, v in statics.data(SI, EVERY).items()}
-    right = forces_of(statics, evaluate(statics.program, data, referee).value)
-    found = forces_of(statics, value)
+def _precise_error(statics: Statics, found: Sequence[Number]) -> float:
+    right = _judged(statics, RIGHT)
     size = max(abs(plain(force)) for force in right[:-1])
     return float(max(abs(plain(a) - plain(b)) for a, b in zip(found, right, strict=True)) / size)
 
