@@ -170,7 +170,7 @@ class ForceVoice:
         return self.telling.base(normal)
 
     def _carry(self, step: Carry) -> list[str]:
-        edge = self._carried(step)
+        edge = self._side(step.origin, step.out)
         source = self._source(step)
         if source is not None:
             other = self.telling.plain(source.force.symbol)
@@ -178,9 +178,6 @@ class ForceVoice:
                 edge, self.said.way_back.format(other=other), back=edge.tail == step.out
             )
         return self._lay(edge, self._way(step), back=edge.tail == step.out)
-
-    def _carried(self, step: Carry) -> Edge:
-        return self._side(step.origin, step.out)
 
     def _side(self, one: PointName, other: PointName) -> Edge:
         """Return the side of the polygon between two points, whichever way it points."""

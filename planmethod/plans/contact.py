@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.construct.arithmetic import unit_vectors
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
@@ -191,4 +192,4 @@ def _directions(solution: Solution, slide: Slide) -> Complexes:
     if slide.host == FRAME:
         return np.full(solution.positions.shape, cis(slide.angle), dtype=complex)
     turned = solution.links[slide.host].phi_deg
-    return np.asarray([cis(float(angle) + slide.angle) for angle in turned])
+    return np.asarray(unit_vectors(turned + slide.angle))
