@@ -11,19 +11,19 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from planmethod.plans.solution import Solution as Solution
-    from planmethod.plans.sweep import Sweep as Sweep
     from planmethod.problem import Problem as Problem
     from planmethod.problem import load as load
     from planmethod.problem import loads as loads
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw
+    from planmethod.solved.many.sweep import Sweep as Sweep
+    from planmethod.solved.solution import Solution as Solution
 
 __all__ = ["Problem", "Solution", "Sweep", "draw", "load", "loads", "solve"]
 
 _HOMES = {
     "Problem": ("planmethod.problem", "Problem"),
-    "Solution": ("planmethod.plans.solution", "Solution"),
-    "Sweep": ("planmethod.plans.sweep", "Sweep"),
+    "Solution": ("planmethod.solved.solution", "Solution"),
+    "Sweep": ("planmethod.solved.many.sweep", "Sweep"),
     "draw": ("planmethod.render.sheets.kinematics", "kinematics_sheets"),
     "load": ("planmethod.problem", "load"),
     "loads": ("planmethod.problem", "loads"),
@@ -52,7 +52,7 @@ def solve(
         When the mechanism cannot be analysed or assembled.
     """
     from planmethod.construct.drafting import PROFILES
-    from planmethod.plans.solution import Solution
+    from planmethod.solved.solution import Solution
 
     return Solution(problem, positions=positions, ruler=ruler, profile=PROFILES[profile])
 

@@ -1,8 +1,8 @@
 """Make the fonts of the package from the skeletons of the letters (by hand; needs the dev extra).
 
-The pen of the lettering goes along every skeleton (`planmethod.render.lettering.skeleton`): shapely
-widens it by half the line thickness, and for each style of GOST 2.304 (types A and B, upright and
-slanted) two files come into ``planmethod/render/fonts/``:
+The pen of the lettering goes along every skeleton (`planmethod.render.ink.lettering.skeleton`):
+shapely widens it by half the line thickness, and for each style of GOST 2.304 (types A and B,
+upright and slanted) two files come into ``planmethod/render/ink/fonts/``:
 
 - ``PlanmethodGOST-B-Slanted.ttf`` and so on: the font, for formats that embed one;
 - ``PlanmethodGOST-B-Slanted.json``: advance, ink bounds and outline of each letter and the pairs
@@ -26,8 +26,8 @@ from shapely import LineString, union_all
 from shapely.geometry import MultiPolygon, Polygon
 from shapely.geometry.polygon import orient
 
-from planmethod.render.lettering import FONTS, STYLES, Style
-from planmethod.render.lettering.skeleton import (
+from planmethod.render.ink.lettering import FONTS, STYLES, Style
+from planmethod.render.ink.lettering.skeleton import (
     Skeleton,
     Strokes,
     letters,

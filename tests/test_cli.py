@@ -17,7 +17,7 @@ from worked import ROOT, path_of
 
 from planmethod.cli import cli
 from planmethod.problem import FAMILIES, load
-from planmethod.render.output import write
+from planmethod.render.backends.output import write
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 VARIANTS = str(path_of("levers/task12-variants"))

@@ -16,9 +16,9 @@ from worked import PROBLEMS, ROOT
 
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
-from planmethod.plans.selfcheck import verify
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
 
 READMES = ("README.md", "README.ru.md")
 ADRS = sorted((ROOT / "docs" / "adr").glob("[0-9]*.md"))

@@ -119,9 +119,9 @@ def test_forces_are_imported_by_their_sheet_alone(
     )
     modules = run(tmp_path, program)
     for name in (
-        "plans.statics",
-        "plans.kinetostatics",
+        "solved.forces.statics",
+        "plans.forces.dyads",
         "render.forces.cut",
-        "note.force_formulas",
+        "note.narrate.forces.formulas",
     ):
         assert (f"planmethod.{name}" in modules) is there

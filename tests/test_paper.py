@@ -6,7 +6,7 @@ import pytest
 
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.paper import FORMATS, Format, paper_format
-from planmethod.plans.scaling import Views
+from planmethod.solved.scaling import Views
 
 LYING = [fmt for fmt in FORMATS.values() if not fmt.stands]
 

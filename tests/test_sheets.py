@@ -14,13 +14,13 @@ from worked import PROBLEMS, ROOT, every_file, path_of, problem_of
 
 from planmethod.bench.generator import random_problem
 from planmethod.errors import ExitCode, LayoutError
-from planmethod.plans.solution import Solution
 from planmethod.problem import load, loads, variant_names
 from planmethod.render.backends import render
-from planmethod.render.drawing import Drawing, Text
-from planmethod.render.frame import FORMATS
-from planmethod.render.lint import lint
+from planmethod.render.control.texts import lint
+from planmethod.render.frame.frame import FORMATS
+from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.solution import Solution
 
 FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from planmethod.construct.drafting import PROFILES, Profile
-from planmethod.plans.errors import SHORT
-from planmethod.plans.items import ItemKind
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
+from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.spread import SHORT
+from planmethod.solved.solution import Solution
 
 DRAWS = 4000
 SEED = 11

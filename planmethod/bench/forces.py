@@ -18,11 +18,11 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.drawnforces import size_label
-from planmethod.plans.forceplan import SCALE
-from planmethod.plans.solution import EVERY, UNIT_SCALES, Solution
-from planmethod.plans.statics import Statics
+from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Problem
+from planmethod.solved.errors.forces import size_label
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 Array = npt.NDArray[Any]
 

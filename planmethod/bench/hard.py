@@ -1,8 +1,8 @@
 """Hard cases of the plan method: at and near what is impossible, and at extreme data.
 
-Every row is solved in float64 and judged by the referee (`planmethod.plans.accuracy`), and asked
-of the package as a user asks it. A row may be good, warned of, or refused with a reason; a number
-that is wrong and not warned of is a fault, wherever it comes from.
+Every row is solved in float64 and judged by the referee (`planmethod.solved.trust.accuracy`), and
+asked of the package as a user asks it. A row may be good, warned of, or refused with a reason; a
+number that is wrong and not warned of is a fault, wherever it comes from.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ import numpy as np
 from planmethod.construct.condition import UNIT_ROUNDOFF
 from planmethod.construct.referee import DIGITS
 from planmethod.errors import PlanMethodError
-from planmethod.plans.accuracy import Examined, Verdict, examine
-from planmethod.plans.results import ResultKind, natural_size
-from planmethod.plans.selfcheck import SelfCheckError, verify, warnings
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.solved.results import ResultKind, natural_size
+from planmethod.solved.selfcheck import SelfCheckError, verify, warnings
+from planmethod.solved.solution import Solution
+from planmethod.solved.trust.accuracy import Examined, Verdict, examine
 
 WRONG = 1e-6
 """Relative error above which a result that nobody warned of is a wrong one."""

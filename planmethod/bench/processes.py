@@ -143,10 +143,10 @@ def memory() -> list[tuple[str, float]]:
         "from planmethod.bench.scenes import slotted\n"
         "from planmethod.bench.speed import turn\n"
         "def sweep(n):\n"
-        "    from planmethod.plans.sweep import Sweep\n"
+        "    from planmethod.solved.many.sweep import Sweep\n"
         "    Sweep(slotted()).run(turn(n))\n"
         "def steps(n):\n"
-        "    from planmethod.plans.solution import Solution\n"
+        "    from planmethod.solved.solution import Solution\n"
         "    Solution(slotted(), positions=turn(n)).points\n"
     )
     tail = f"{PEAK}\nprint(peak)\n"

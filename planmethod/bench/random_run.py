@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from planmethod.bench.generator import random_problem
-from planmethod.plans.accuracy import Examined, examine
-from planmethod.plans.sweep import Sweep
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.trust.accuracy import Examined, examine
 
 POSITIONS = 12
 DIGITS = 40

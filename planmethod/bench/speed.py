@@ -17,10 +17,10 @@ from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
-from planmethod.plans.results import NOTHING, NUMBERS, Result, ResultKind, results_of
-from planmethod.plans.solution import Solution
-from planmethod.plans.sweep import Sweep
 from planmethod.problem.model import Problem
+from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.results import NOTHING, NUMBERS, Result, ResultKind, results_of
+from planmethod.solved.solution import Solution
 
 Array = npt.NDArray[Any]
 

@@ -51,7 +51,7 @@ class Asked:
             A field of the options is unknown.
         """
         from planmethod.problem.model import SheetSettings
-        from planmethod.render.titleblock import check_fields
+        from planmethod.render.frame.titleblock import check_fields
 
         check_fields(self.fields)
         config, options = self._config(), SheetSettings(**self.sheet)  # type: ignore[arg-type]
@@ -81,7 +81,7 @@ def laid_over(config: Config, problem: Problem, options: SheetSettings) -> Probl
 
     The title of the problem outranks one of the config file: it is what the sheets show.
     """
-    from planmethod.render.titleblock import merged
+    from planmethod.render.frame.titleblock import merged
 
     own = {"title": problem.title} if problem.title else {}
     stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp

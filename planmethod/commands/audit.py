@@ -36,8 +36,8 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
-    from planmethod.note.audit import audit as examine
-    from planmethod.note.audit_table import Document
+    from planmethod.note.audit.audit import audit as examine
+    from planmethod.note.audit.table import Document
 
     if file is not None and file.lower().endswith(".toml"):
         raise click.UsageError(f"-o would write over the problem file {file}; name another one")

@@ -64,7 +64,7 @@ def bench(
         click.echo(text, nl=False)
         return
     from planmethod.bench.report import NAME
-    from planmethod.render.output import write
+    from planmethod.render.backends.output import write
 
     for name, data in ((f"{NAME}.md", text.encode()), (f"{NAME}.png", figure)):
         write(out / name, data)

@@ -38,7 +38,7 @@ def layouts(name: str | None, file: Path | None, force: bool) -> None:
         return
     if file.exists() and not force:
         raise click.UsageError(f"{file} exists; name another file or give --force")
-    from planmethod.render.output import write
+    from planmethod.render.backends.output import write
 
     write(file, shipped_text(name).encode())
     click.echo(str(file))

@@ -35,7 +35,7 @@ def new(family: str | None, file: Path | None, show: bool, force: bool) -> None:
     path = file or Path(f"{family}.toml")
     if path.exists() and not force:
         raise click.UsageError(f"{path} exists; name another file or give --force")
-    from planmethod.render.output import write
+    from planmethod.render.backends.output import write
 
     write(path, template(family).encode())
     click.echo(str(path))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 if TYPE_CHECKING:
-    from planmethod.render.drawing import Drawing
+    from planmethod.render.ink.drawing import Drawing
 
 
 def put(text: str, file: str | None) -> None:
@@ -20,7 +20,7 @@ def put(text: str, file: str | None) -> None:
     if file is None or file == "-":
         click.echo(text, nl=not text.endswith("\n"))
         return
-    from planmethod.render.output import write
+    from planmethod.render.backends.output import write
 
     write(Path(file), text.encode())
     click.echo(file)
@@ -32,7 +32,7 @@ def put_parts(parts: Iterable[str], file: str) -> None:
         for part in parts:
             click.echo(part, nl=False)
         return
-    from planmethod.render.output import opened
+    from planmethod.render.backends.output import opened
 
     with opened(file) as target:
         for part in parts:
@@ -57,7 +57,7 @@ def write_drawings(
     """
     from planmethod.render.backends import PAGED, render, render_pages
     from planmethod.render.backends.canvas import Options
-    from planmethod.render.output import write
+    from planmethod.render.backends.output import write
 
     options = Options(dpi=dpi, dxf_text=dxf_text)
     if author is not None:
@@ -80,7 +80,7 @@ def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = N
     """Write sheets as the pages of one PDF."""
     from planmethod.render.backends import render_pages
     from planmethod.render.backends.canvas import Options
-    from planmethod.render.output import write
+    from planmethod.render.backends.output import write
 
     options = Options() if author is None else Options(author=author)
     write(path, render_pages(drawings, options=options))

@@ -16,8 +16,8 @@ from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.options import Positions
-    from planmethod.plans.solution import Solution
     from planmethod.problem.model import Problem
+    from planmethod.solved.solution import Solution
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -130,8 +130,8 @@ def solution_of(
     forces : bool
         The forces must exist, too, where there are loads.
     """
-    from planmethod.plans.selfcheck import verify, warnings
-    from planmethod.plans.solution import Solution
+    from planmethod.solved.selfcheck import verify, warnings
+    from planmethod.solved.solution import Solution
 
     solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=hand)
     try:

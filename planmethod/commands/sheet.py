@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from planmethod.problem.model import Problem
-    from planmethod.render.drawing import Drawing
+    from planmethod.render.ink.drawing import Drawing
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -71,7 +71,7 @@ def sheet(
     dxf_text: Literal["text", "strokes"],
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
-    from planmethod.render.furniture import Furniture
+    from planmethod.render.frame.furniture import Furniture
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.kinematics import kinematics_sheets
 

@@ -25,11 +25,11 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.note.spreadsheet import Table
-    from planmethod.plans.many import Gaps
-    from planmethod.plans.solution import Solution
-    from planmethod.plans.swept import Swept
+    from planmethod.note.records.spreadsheet import Table
     from planmethod.problem.model import Problem
+    from planmethod.solved.many.gaps import Swept
+    from planmethod.solved.many.positions import Gaps
+    from planmethod.solved.solution import Solution
 
 HINT = " To leave such positions empty, give --partial with --csv, --npz or --ask."
 
@@ -144,7 +144,7 @@ def solve(
                 _refuse_huge(made)
                 sweeps.append(made)
             elif csv_file is not None:
-                from planmethod.note.spreadsheet import swept_table
+                from planmethod.note.records.spreadsheet import swept_table
 
                 tables.append(swept_table(made, partial=partial))
             else:
@@ -152,12 +152,12 @@ def solve(
         elif csv_file is not None:
             tables.append(_table(problem, phi, hand.ruler, partial))
         elif as_json:
-            from planmethod.note.record import record
+            from planmethod.note.records.solution import record
 
             solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
             records.append(record(solution))
             if referee is not None:
-                from planmethod.note.referee import referee_record
+                from planmethod.note.tables.referee import referee_record
 
                 judged = referee_record(solution, referee)
                 for entry, verdict in zip(records[-1]["positions"], judged, strict=True):
@@ -165,12 +165,12 @@ def solve(
         elif covariance_file is not None:
             drawn.append(solution_of(problem, phi, hand, hint=HINT))
         else:
-            from planmethod.note.tables import result_tables
+            from planmethod.note.tables.results import result_tables
 
             solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
             click.echo(result_tables(solution, lang, sigma=sigma))
             if referee is not None:
-                from planmethod.note.referee import referee_tables
+                from planmethod.note.tables.referee import referee_tables
 
                 click.echo("\n" + referee_tables(solution, referee, lang))
 
@@ -181,7 +181,7 @@ def solve(
         whole: Any = records[0] if len(records) == 1 else records
         click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
     if drawn and covariance_file is not None:
-        from planmethod.note.covariance import covariance_text
+        from planmethod.note.records.covariance import covariance_text
 
         put_parts([covariance_text(drawn)], covariance_file)
     if tables and csv_file is not None:
@@ -228,8 +228,8 @@ def _asked(problem: Problem, phi: Positions | None) -> Positions:
 
 def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool) -> Table:
     """Return the rows of all results; a large table is checked here and solved when written."""
-    from planmethod.note.spreadsheet import large_table, solved_table
-    from planmethod.plans.many import BLOCK, examine
+    from planmethod.note.records.spreadsheet import large_table, solved_table
+    from planmethod.solved.many.positions import BLOCK, examine
 
     positions = _asked(problem, phi)
     if len(positions) <= BLOCK and not partial:
@@ -252,7 +252,7 @@ def _tell(problem: Problem, gaps: Gaps, doubts: tuple[str, ...], partial: bool) 
 
 
 def _write_text(tables: list[Table], file: str) -> None:
-    from planmethod.note.spreadsheet import csv_text
+    from planmethod.note.records.spreadsheet import csv_text
 
     rows = sum(table.count for table in tables)
     cells = sum(table.count * len(table.header) for table in tables)
@@ -267,8 +267,8 @@ def _write_text(tables: list[Table], file: str) -> None:
 def _sweep(
     problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
 ) -> Swept:
-    from planmethod.plans.results import UnknownResultError
-    from planmethod.plans.swept import Swept
+    from planmethod.solved.many.gaps import Swept
+    from planmethod.solved.results import UnknownResultError
 
     try:
         made = Swept(problem, _asked(problem, phi), ask)
@@ -297,15 +297,15 @@ def _refuse_huge(made: Swept) -> None:
 
 
 def _show(made: Swept, lang: str) -> None:
-    from planmethod.note.spreadsheet import asked_text
+    from planmethod.note.records.spreadsheet import asked_text
 
     click.echo(asked_text(made, lang))
 
 
 def _write_arrays(sweeps: list[Swept], file: str) -> None:
     """Write sweeps into one file; of several the names begin with the variant or the problem."""
-    from planmethod.note.npz import swept_arrays, write_arrays
-    from planmethod.render.output import opened
+    from planmethod.note.records.npz import swept_arrays, write_arrays
+    from planmethod.render.backends.output import opened
 
     prefixes = _prefixes([made.problem for made in sweeps])
     arrays = sum(len(made.names) for made in sweeps)

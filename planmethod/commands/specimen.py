@@ -55,8 +55,8 @@ def specimen(
     SHEET is symbols, lines or lettering; all of them when none is given. The files are
     specimen-symbols.svg and so on. What is on them: docs/symbols.md, docs/lettering.md.
     """
-    from planmethod.render.lettering import lettering as lettered
-    from planmethod.render.lettering import using
+    from planmethod.render.ink.lettering import lettering as lettered
+    from planmethod.render.ink.lettering import using
     from planmethod.render.sheets.specimen import SPECIMENS
 
     for name in sheets:

@@ -55,13 +55,13 @@ def structure(
         if as_json:
             import json
 
-            from planmethod.note.record import structure_record
+            from planmethod.note.records.solution import structure_record
 
             head = {"schema": 1, "problem": problem.name}
             whole = {**head, "structure": structure_record(found)}
             click.echo(json.dumps(whole, ensure_ascii=is_narrow()))
             return
-        from planmethod.note.structure_text import structure_text
+        from planmethod.note.narrate.structure import structure_text
 
         click.echo(structure_text(problem.mechanism, found, lang))
         if settled is not None:

@@ -1,1 +1,1 @@
-"""Plans as programs of steps: positions, velocities, accelerations, and the solved problem."""
+"""Plans as programs of steps: positions, velocities, accelerations, forces (планы)."""

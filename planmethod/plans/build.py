@@ -11,11 +11,11 @@ from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.draft import Choice, Draft
-from planmethod.plans.groups import drive_motion, group_motion
-from planmethod.plans.leads import Kinematics
 from planmethod.plans.model import Plan, PlanKind
-from planmethod.plans.motion import Motion
-from planmethod.plans.position import place_driver, place_frame, place_group
+from planmethod.plans.motion.board import Motion
+from planmethod.plans.motion.dyads import drive_motion, group_motion
+from planmethod.plans.motion.leads import Kinematics
+from planmethod.plans.motion.position import place_driver, place_frame, place_group
 from planmethod.problem.model import Problem
 
 

@@ -8,6 +8,9 @@ from enum import Enum
 
 from planmethod.construct.steps import PointName
 
+FORCE_PREFIX = "f:"
+"""What the names of the points and numbers of the force plans begin with."""
+
 
 class VectorKind(Enum):
     """What a vector of a plan stands for (вид составляющей)."""

@@ -12,7 +12,7 @@ from planmethod.bench import forces
 from planmethod.bench.clock import Timing
 from planmethod.bench.forces_report import forces_section
 from planmethod.bench.speed import turn
-from planmethod.plans.solution import Solution
+from planmethod.solved.solution import Solution
 
 
 def once(act: Callable[[], object], **_: float) -> Timing:

@@ -13,10 +13,10 @@ from planmethod.bench.hard import HardCase, HardRow, Outcome, run
 from planmethod.bench.hard_cases import HARD
 from planmethod.bench.hard_report import summarise, table
 from planmethod.errors import AssemblyError
-from planmethod.plans.doubt import MULTIPLE
-from planmethod.plans.selfcheck import verify
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
+from planmethod.solved.trust.conditioning import MULTIPLE
 
 CASES = {case.name: case for case in HARD}
 

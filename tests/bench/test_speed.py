@@ -13,7 +13,7 @@ from planmethod.bench.clock import Timing
 from planmethod.bench.figure import draw
 from planmethod.bench.peers import ROWS, peers
 from planmethod.bench.scenes import FOURBAR_ROWS, chain, fourbar
-from planmethod.plans.sweep import Sweep
+from planmethod.solved.many.sweep import Sweep
 
 
 def once(act: Callable[[], object], **_: float) -> Timing:

@@ -20,11 +20,11 @@ from worked import ROOT, path_of, problem_of
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
-from planmethod.note.tables import result_tables
-from planmethod.plans.errors import UnknownItemError
-from planmethod.plans.solution import Solution
-from planmethod.plans.sweep import Sweep, SweepError
+from planmethod.note.tables.results import result_tables
 from planmethod.problem import load, loads
+from planmethod.solved.errors.spread import UnknownItemError
+from planmethod.solved.many.sweep import Sweep, SweepError
+from planmethod.solved.solution import Solution
 
 EX3 = str(path_of("linkages/ex3"))
 

@@ -25,11 +25,12 @@ from planmethod.cli import cli
 from planmethod.construct import evaluate
 from planmethod.construct.compiled import symbolic
 from planmethod.construct.steps import MeetLines, Step
-from planmethod.plans import impossible, many
-from planmethod.plans.many import blocks
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import Statics
 from planmethod.problem import load
+from planmethod.solved import impossible
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.many import positions as many
+from planmethod.solved.many.positions import blocks
+from planmethod.solved.solution import Solution
 
 EX1 = str(path_of("linkages/ex1"))
 SIX_LINK = str(path_of("levers/six-link"))
@@ -372,7 +373,7 @@ def test_results_of_the_motion_do_not_plan_forces(asked: str, wanted: bool) -> N
         "try:\n"
         f"    cli(['solve', {TASK12!r}, '--ask', {asked!r}, '--npz', 'a.npz'])\n"
         "except SystemExit as done:\n    assert not done.code, done.code\n"
-        "print(*sorted(name for name in sys.modules if name.startswith('planmethod.plans')))\n"
+        "print(*sorted(name for name in sys.modules if 'forces' in name))\n"
     )
     found = subprocess.run(
         [sys.executable, "-X", "utf8", "-c", program],
@@ -381,6 +382,6 @@ def test_results_of_the_motion_do_not_plan_forces(asked: str, wanted: bool) -> N
         timeout=120,
         check=True,
     )
-    modules = {name.rpartition(".")[2] for name in found.stdout.splitlines()[-1].split()}
-    for name in ("statics", "forceplan", "kinetostatics", "loads", "forceresults"):
+    modules = {name.removeprefix("planmethod.") for name in found.stdout.splitlines()[-1].split()}
+    for name in ("plans.forces.board", "plans.forces.dyads", "solved.forces.statics"):
         assert (name in modules) == wanted, name

@@ -13,7 +13,7 @@ from worked import path_of
 
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
-from planmethod.render.remarks import REMARKS
+from planmethod.render.control.remarks import REMARKS
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 VARIANTS = str(path_of("levers/task12-variants"))

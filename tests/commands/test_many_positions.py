@@ -19,13 +19,13 @@ from worked import DEAD, path_of
 
 from planmethod.cli import COMMANDS, cli
 from planmethod.commands.output import bar
-from planmethod.note.spreadsheet import csv_rows, large_table
-from planmethod.plans import many
-from planmethod.plans.many import BLOCK, SAMPLE, Gaps, blocks, evenly, examine
+from planmethod.note.records.spreadsheet import csv_rows, large_table
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
-from planmethod.plans.sweep import Sweep
 from planmethod.problem import load
+from planmethod.solved.many import positions as many
+from planmethod.solved.many.positions import BLOCK, SAMPLE, Gaps, blocks, evenly, examine
+from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.solution import Solution
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
 SIX_LINK = str(path_of("levers/six-link"))

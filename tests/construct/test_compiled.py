@@ -25,8 +25,8 @@ from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import limit_of
 from planmethod.construct.program import Builder, Program
 from planmethod.construct.steps import Name, NumberName, PointName, Side
-from planmethod.plans.sweep import Sweep
 from planmethod.problem import load, loads
+from planmethod.solved.many.sweep import Sweep
 
 
 @pytest.fixture

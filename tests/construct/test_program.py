@@ -30,7 +30,7 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.errors import ProgramError
-from planmethod.plans.solution import Solution
+from planmethod.solved.solution import Solution
 
 A, B, C = PointName("A"), PointName("B"), PointName("C")
 AB, AC = LineName("AB"), LineName("AC")

@@ -18,9 +18,9 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.jet import Jet, Jets
 from planmethod.construct.program import Builder
 from planmethod.construct.referee import Precise, adjudicate
-from planmethod.plans.assembly import drive_data
-from planmethod.plans.results import ResultKind, results_of
-from planmethod.plans.solution import Solution
+from planmethod.solved.closings import drive_data
+from planmethod.solved.results import ResultKind, results_of
+from planmethod.solved.solution import Solution
 
 SCALES = ("mu_l", "mu_v", "mu_a")
 

@@ -10,8 +10,8 @@ import pytest
 from worked import ROOT, problem_of
 
 from planmethod.mechanism.structure import analyse
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import JointForce, Statics
+from planmethod.solved.forces.statics import JointForce, Statics
+from planmethod.solved.solution import Solution
 
 LIMIT = 1e-9
 

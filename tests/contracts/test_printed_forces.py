@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from worked import ROOT, path_of, problem_of
 
-from planmethod.note.audit import audit
-from planmethod.plans.solution import Solution
+from planmethod.note.audit.audit import audit
 from planmethod.problem.selector import is_force, parse_selector
+from planmethod.solved.solution import Solution
 
 
 @cache

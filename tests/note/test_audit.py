@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from slotted import R, problem_of
 
 from planmethod.cli import cli
-from planmethod.note.audit import (
+from planmethod.note.audit.audit import (
     Audited,
     Verdict,
     audit,
@@ -19,8 +19,8 @@ from planmethod.note.audit import (
     half_digit,
     source_scales,
 )
-from planmethod.note.audit_table import EN, RU, Document
-from planmethod.note.quantities import Why
+from planmethod.note.audit.quantities import Why
+from planmethod.note.audit.table import EN, RU, Document
 from planmethod.problem import load
 from planmethod.problem.model import Problem, Published
 

@@ -8,14 +8,14 @@ import pytest
 from click.testing import CliRunner
 
 from planmethod.cli import cli
-from planmethod.note.audit import audit
-from planmethod.note.protocol import protocol
-from planmethod.plans.forcereading import force_reading
-from planmethod.plans.solution import Solution
+from planmethod.note.audit.audit import audit
+from planmethod.note.narrate.protocol import protocol
 from planmethod.problem import loads, template
 from planmethod.problem.model import Problem
-from planmethod.render.drawing import Drawing, Text
+from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.forces.reading import force_reading
+from planmethod.solved.solution import Solution
 
 CANCEL = """
 [dynamics.links.1]

@@ -13,16 +13,16 @@ from worked import path_of
 
 from planmethod.bench.hard_problems import rocker
 from planmethod.errors import AssemblyError
-from planmethod.note.force_formulas import closing_formula
-from planmethod.note.force_moments import moment_text
-from planmethod.note.lever import lever_equation
+from planmethod.note.narrate.forces.formulas import closing_formula
+from planmethod.note.narrate.forces.lever_lines import lever_equation
+from planmethod.note.narrate.forces.moment_lines import moment_text
+from planmethod.note.narrate.protocol import protocol
 from planmethod.note.plaintext import plain_text
-from planmethod.note.protocol import protocol
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.leverreading import LeverReading
-from planmethod.plans.polygons import reaction_symbol
-from planmethod.plans.solution import Solution
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem import loads
+from planmethod.solved.forces.lever import LeverReading
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 SEEDS = range(30)

@@ -11,13 +11,13 @@ from loaded import with_resultant
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
-from planmethod.note.audit import Audited, Verdict, audit, source_force_scale
-from planmethod.note.audit_table import EN, RU
-from planmethod.note.quantities import Quantities, UnansweredError, Why
-from planmethod.plans.solution import Solution
+from planmethod.note.audit.audit import Audited, Verdict, audit, source_force_scale
+from planmethod.note.audit.quantities import Quantities, UnansweredError, Why
+from planmethod.note.audit.table import EN, RU
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import FORCES, parse_selector
+from planmethod.solved.solution import Solution
 
 LOADS = """
 [dynamics]

@@ -8,8 +8,8 @@ from told import LANGUAGES, assert_readable, drawn, flat, told, worked
 from worked import SIX
 
 from planmethod.construct.steps import Carry, Moment, PointName, Step, Total, makes
-from planmethod.note.naming import Names
-from planmethod.note.protocol import protocol
+from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.protocol import protocol
 from planmethod.note.wording import UnknownLanguageError, wording
 from planmethod.plans.model import PlanKind
 
@@ -172,7 +172,7 @@ def test_sections_are_the_whole_program_in_order() -> None:
 
 
 def test_each_of_many_positions_has_its_own_numbers() -> None:
-    from planmethod.plans.solution import Solution
+    from planmethod.solved.solution import Solution
 
     solution = Solution(worked("linkages/ex1").problem, positions=[10.0, 60.0, 200.0])
     alone = Solution(worked("linkages/ex1").problem, positions=[60.0])

@@ -8,9 +8,9 @@ from math import sqrt
 import pytest
 from slotted import R, problem_of
 
-from planmethod.note.quantities import Quantities, UnansweredError, Why
-from planmethod.plans.solution import Solution
+from planmethod.note.audit.quantities import Quantities, UnansweredError, Why
 from planmethod.problem.selector import QUANTITIES, parse_selector
+from planmethod.solved.solution import Solution
 
 
 @cache

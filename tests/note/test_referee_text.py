@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from worked import problem_of
 
-from planmethod.note.referee import judged, referee_record, referee_tables
-from planmethod.plans.accuracy import examine
-from planmethod.plans.solution import Solution
+from planmethod.note.tables.referee import judged, referee_record, referee_tables
+from planmethod.solved.solution import Solution
+from planmethod.solved.trust.accuracy import examine
 
 
 @pytest.mark.parametrize(

@@ -9,10 +9,10 @@ from told import LANGUAGES, assert_readable, drawn, worked
 from worked import SIX
 
 from planmethod.note.plaintext import WIDTH, columns_text, pad, plain_text, table, width
-from planmethod.note.spreadsheet import csv_rows
-from planmethod.note.tables import result_tables
+from planmethod.note.records.spreadsheet import csv_rows
+from planmethod.note.tables.results import result_tables
 from planmethod.note.wording import UnknownLanguageError
-from planmethod.plans.solution import Solution
+from planmethod.solved.solution import Solution
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)

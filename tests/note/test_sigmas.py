@@ -11,14 +11,14 @@ from told import LANGUAGES, assert_readable, drawn, flat, worked
 from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
-from planmethod.note.causes import Causes
-from planmethod.note.given import asked_links, asked_points
-from planmethod.note.naming import Names
-from planmethod.note.sigmas import rounded_to, sigma_text
-from planmethod.note.tables import result_tables
+from planmethod.note.narrate.given import asked_links, asked_points
+from planmethod.note.narrate.naming import Names
+from planmethod.note.tables.causes import Causes
+from planmethod.note.tables.results import result_tables
+from planmethod.note.tables.sigmas import rounded_to, sigma_text
 from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
+from planmethod.solved.solution import Solution
 
 NEAR_DEAD = [230.0, 240.0, 250.0]
 """Positions of the six-link where its slider cannot be found by first order."""

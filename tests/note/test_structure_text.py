@@ -6,7 +6,7 @@ from worked import SIX
 
 from planmethod.mechanism.model import Mechanism, Revolute
 from planmethod.mechanism.structure import analyse
-from planmethod.note.structure_text import structure_text
+from planmethod.note.narrate.structure import structure_text
 from planmethod.note.wording import UnknownLanguageError
 
 

@@ -50,7 +50,7 @@ def test_russian_is_russian_and_english_is_english() -> None:
 
 def test_every_sentence_of_the_forces_is_said() -> None:
     folder = Path(planmethod.__file__).parent / "note"
-    source = "".join(path.read_text(encoding="utf-8") for path in folder.glob("*.py"))
+    source = "".join(path.read_text(encoding="utf-8") for path in folder.rglob("*.py"))
     for field in fields(ForceWording):
         name = field.name
         other = name == "lang" or name.startswith("side_")  # these are put together

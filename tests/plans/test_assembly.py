@@ -10,9 +10,9 @@ import pytest
 from worked import problem_of
 
 from planmethod.errors import AssemblyError, ExitCode, ProblemError, StructureError
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
 from planmethod.problem.model import Problem, Rule, Where
+from planmethod.solved.solution import Solution
 
 FOUR_BAR = """
 title = "Четырёхзвенник"

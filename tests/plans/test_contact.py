@@ -14,11 +14,11 @@ from newton import solve as newton
 from worked import path_of
 
 from planmethod.bench.generator import Pose, random_problem
-from planmethod.plans.contact import across, distance, edge_forces
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import Statics
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.contact import across, distance, edge_forces
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Solution
 
 SEEDS = range(120)
 LIMIT = 1e-9

@@ -9,9 +9,9 @@ from worked import path_of, problem_of
 
 from planmethod import loads
 from planmethod.errors import PlanMethodError
-from planmethod.plans.course import Course
-from planmethod.plans.cycle import Cycle
-from planmethod.plans.solution import Solution
+from planmethod.solved.forces.cycle import Cycle
+from planmethod.solved.solution import Solution
+from planmethod.solved.travel import Course
 
 TURN = [30.0 * k for k in range(12)]
 RESISTANCE = "force = 2000 # Н\nangle = -90"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from planmethod.errors import AssemblyError, ProblemError
-from planmethod.plans.doubt import doubt
-from planmethod.plans.selfcheck import verify, warnings
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
+from planmethod.solved.selfcheck import verify, warnings
+from planmethod.solved.solution import Solution
+from planmethod.solved.trust.conditioning import doubt
 
 PARALLELOGRAM = """
 [frame]

@@ -14,12 +14,12 @@ from planmethod.construct.drafting import PROFILES, Counted, Profile, Propagated
 from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Builder, Program
-from planmethod.plans.drafting import Drafting
-from planmethod.plans.errors import SHORT, UnknownItemError
-from planmethod.plans.items import ItemKind
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
 from planmethod.problem import load
+from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.motion import Drafting
+from planmethod.solved.errors.spread import SHORT, UnknownItemError
+from planmethod.solved.solution import Solution
 
 DRAWS = 4000
 

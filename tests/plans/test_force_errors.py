@@ -15,7 +15,8 @@ from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.dual import Dual, angle
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.steps import PointName
-from planmethod.plans.drawnforces import (
+from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.forces import (
     BALANCE,
     DIFFERENCE,
     LEVER,
@@ -24,9 +25,8 @@ from planmethod.plans.drawnforces import (
     moment_label,
     size_label,
 )
-from planmethod.plans.items import ItemKind
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import Statics
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 NEAR_DEAD = (230.0, 240.0, 250.0)

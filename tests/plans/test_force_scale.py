@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from worked import path_of, problem_of
 
-from planmethod.note.record import record
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import PLAN_BOX
+from planmethod.note.records.solution import record
 from planmethod.problem import loads
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import PLAN_BOX
+from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 

@@ -17,13 +17,13 @@ from worked import DEAD, every_file, path_of
 from planmethod.bench.generator import KINDS
 from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError, ProblemError
-from planmethod.plans.results import UnknownResultError
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import Statics
-from planmethod.plans.sweep import FEW, Sweep, SweepError, sweep_variants
-from planmethod.plans.swept import CHUNK, Swept
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.many.gaps import CHUNK, Swept
+from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
+from planmethod.solved.results import UnknownResultError
+from planmethod.solved.solution import Solution
 
 Array = npt.NDArray[Any]
 

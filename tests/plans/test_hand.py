@@ -16,8 +16,8 @@ from worked import SIX, exact_values, problem_of
 from planmethod.bench.generator import random_problem
 from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
+from planmethod.solved.solution import Solution
 
 
 @cache

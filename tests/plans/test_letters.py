@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from worked import path_of
 
-from planmethod.note.record import record
-from planmethod.plans.motion import letter, mark
-from planmethod.plans.solution import Solution
+from planmethod.note.records.solution import record
+from planmethod.plans.motion.board import letter, mark
 from planmethod.problem import loads
+from planmethod.solved.solution import Solution
 
 
 def test_points_have_small_letters_and_their_indices() -> None:

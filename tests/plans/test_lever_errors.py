@@ -7,9 +7,9 @@ import pytest
 from worked import problem_of
 
 from planmethod.construct.drafting import PROFILES
-from planmethod.plans.drawnforces import size_label
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import Statics
+from planmethod.solved.errors.forces import size_label
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Solution
 
 TWELVE = {
     "levers/task12": [5.0 + 30.0 * k for k in range(12)],

@@ -14,10 +14,11 @@ import pytest
 from worked import problem_of
 
 from planmethod.errors import ProblemError
-from planmethod.plans.loads import Applied, LoadKind, applied
-from planmethod.plans.solution import Solution
+from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.loads import applied
+from planmethod.solved.solution import Solution
 
 CRANK = """
 [frame]

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from worked import problem_of
 
+from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
 from planmethod.plans.model import Known, PlanKind
-from planmethod.plans.polygons import Edge, Share, reaction_symbol
-from planmethod.plans.solution import Reals, Solution
-from planmethod.plans.statics import Statics
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Reals, Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press")
 TURN = {"levers/six-link": (140, 150, 160), "levers/task12": tuple(range(5, 365, 45))}

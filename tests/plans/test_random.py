@@ -16,10 +16,10 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import MeetCircles, MeetLineCircle, MeetLines, PointName, Touch
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind, VectorKind
-from planmethod.plans.selfcheck import verify
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
 
 SEEDS = range(200)
 UNIT_SCALES = {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0}

@@ -14,14 +14,14 @@ from newton import solve as newton
 from worked import problem_of
 
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.drawnforces import size_label
-from planmethod.plans.forceplan import Given
-from planmethod.plans.loads import LoadKind
+from planmethod.plans.forces.board import Given
+from planmethod.plans.forces.loads import LoadKind, Shift
 from planmethod.plans.model import PlanKind
-from planmethod.plans.resultant import Shift, Why
-from planmethod.plans.solution import Complexes, Reals, Solution
-from planmethod.plans.statics import Statics
 from planmethod.problem import loads
+from planmethod.solved.errors.forces import size_label
+from planmethod.solved.forces.resultants import Why
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Complexes, Reals, Solution
 
 SEEDS = range(200)
 LIMIT = 1e-9

@@ -8,8 +8,8 @@ import pytest
 from worked import path_of
 
 from planmethod.errors import ProblemError
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
+from planmethod.solved.solution import Solution
 
 
 def test_a_rule_cannot_compare_with_a_point_of_a_later_group() -> None:

@@ -29,11 +29,12 @@ from worked import problem_of
 
 from planmethod.bench.generator import KINDS
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.loads import Applied, LoadKind, applied
-from planmethod.plans.solution import Solution
-from planmethod.plans.statics import Statics
+from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.problem.load_records import Couple, Dynamics, Fixed, Load
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.loads import applied
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Solution
 
 SEEDS = range(200)
 LIMIT = 1e-9

@@ -22,13 +22,14 @@ from planmethod.construct.program import Program
 from planmethod.construct.referee import Precise
 from planmethod.construct.steps import Name, PointName
 from planmethod.errors import AssemblyError
-from planmethod.plans.doubt import MULTIPLE
-from planmethod.plans.doubt import SCALES as KINEMATIC_SCALES
-from planmethod.plans.forceplan import DOWN, SCALE
-from planmethod.plans.solution import UNIT_SCALES, Solution
-from planmethod.plans.statics import Statics
+from planmethod.plans.forces.board import SCALE
+from planmethod.plans.forces.loads import DOWN
 from planmethod.problem import loads
 from planmethod.problem.model import Slide
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import UNIT_SCALES, Solution
+from planmethod.solved.trust.conditioning import MULTIPLE
+from planmethod.solved.trust.conditioning import SCALES as KINEMATIC_SCALES
 
 WORKED = ("levers/six-link", "levers/task12", "press/press")
 SEEDS = range(0, 200, 10)

@@ -15,12 +15,12 @@ from worked import DEAD, every_file, path_of
 from planmethod.bench.generator import random_problem
 from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError
-from planmethod.plans.results import UnknownResultError
-from planmethod.plans.solution import Solution
-from planmethod.plans.sweep import FEW, Sweep, SweepError, sweep_variants
-from planmethod.plans.sweeprows import Row
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
+from planmethod.solved.many.rows import Row
+from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
+from planmethod.solved.results import UnknownResultError
+from planmethod.solved.solution import Solution
 
 FILES = [path.stem for path in every_file()]
 SEEDS = range(60)

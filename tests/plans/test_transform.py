@@ -14,10 +14,10 @@ from worked import SIX, problem_of
 
 from planmethod.bench.generator import random_problem
 from planmethod.plans.model import PlanKind
-from planmethod.plans.selfcheck import verify
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
 from planmethod.problem.model import Problem, Rule, Where
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
 
 AWAY = (0.0, 4.0, 133.0, -6.0)
 """Positions of the crank from the file's, degrees; all six mechanisms reach them."""

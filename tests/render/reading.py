@@ -16,7 +16,7 @@ from io import StringIO
 from math import cos, hypot, pi, radians, sin, tau
 from typing import Any
 
-from planmethod.render.lettering import in_use
+from planmethod.render.ink.lettering import in_use
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"

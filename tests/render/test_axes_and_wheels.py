@@ -9,8 +9,8 @@ from math import isclose, pi, tau
 import pytest
 from shapely import LineString, Point, Polygon
 
-from planmethod.render.drawing import Arc, Disc, Ink, Item, Pen, Stroke
-from planmethod.render.style import PENS, arc_spans, stroke_lines
+from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.style import PENS, arc_spans, stroke_lines
 from planmethod.render.symbols import GROUND, SIZES
 from planmethod.render.symbols.axes import (
     axis_line,

@@ -30,10 +30,10 @@ from planmethod.errors import OutputError, PlanMethodError
 from planmethod.render.backends import BACKENDS, Options, render, replay
 from planmethod.render.backends.curves import arc_curves
 from planmethod.render.backends.null import NullCanvas
-from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Item, Pen, Stroke, Text
-from planmethod.render.lettering import in_use
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.style import PENS, arc_spans, stroke_lines, sweep
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.render.style import PENS, arc_spans, stroke_lines, sweep
 
 NEAR = 0.01  # mm
 FORMATS = tuple(BACKENDS)
@@ -412,7 +412,7 @@ def test_a_format_imports_only_what_it_uses(fmt: str, absent: set[str]) -> None:
     code = (
         "import sys\n"
         "from planmethod.render.backends import render\n"
-        "from planmethod.render.drawing import Arc, Drawing, Text\n"
+        "from planmethod.render.ink.drawing import Arc, Drawing, Text\n"
         f"render(Drawing(210, 297, items=[Text(9 + 9j, 'Ж', 5), Arc(0j, 9)]), {fmt!r})\n"
         "print(*sys.modules)"
     )

@@ -14,14 +14,13 @@ from worked import ROOT, SIX, path_of, problem_of
 
 from planmethod.errors import CompositionError, ExitCode, LayoutError
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
-from planmethod.render.block import Block, Column, heading
-from planmethod.render.drawing import Drawing, Text, View
-from planmethod.render.extent import ink_bounds
-from planmethod.render.frame import FORMATS
-from planmethod.render.furniture import Room
-from planmethod.render.lint import lint
+from planmethod.render.control.texts import lint
+from planmethod.render.frame.frame import FORMATS
+from planmethod.render.frame.furniture import Room
+from planmethod.render.ink.drawing import Drawing, Text, View
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.layout.block import Block, Column, heading
 from planmethod.render.sheets import blocks as kinds
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition import entries, reader
@@ -30,6 +29,7 @@ from planmethod.render.sheets.composition.reader import composition, read_compos
 from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.pages import Paper, pages_of
+from planmethod.solved.solution import Solution
 
 FAULTY = sorted((Path(__file__).parent / "faulty_layouts").glob("*.toml"))
 TURN = [30.0 * k for k in range(12)]

@@ -14,16 +14,16 @@ from worked import path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.errors import LayoutError, PlanMethodError, ProblemError
-from planmethod.plans.cycle import Cycle
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
-from planmethod.render.diagram import AXIS, CURVE
-from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Stroke, Text, View
+from planmethod.render.control.remarks import Severity
+from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.hodograph import HODOGRAPH, POLE, polar_groups
-from planmethod.render.normcontrol import inspect
-from planmethod.render.remarks import Severity
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text, View
+from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.sheets.cycle import CHORDS
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.forces.cycle import Cycle
+from planmethod.solved.solution import Solution
 
 TURN = tuple(30.0 * k for k in range(12))
 PRESS = tuple(98.918918918919 + phi for phi in TURN)

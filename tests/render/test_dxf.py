@@ -22,22 +22,22 @@ from worked import PROBLEMS, ROOT, SIX, every_file, path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.mechanism.structure import analyse
-from planmethod.plans.forcereading import force_reading
 from planmethod.plans.model import PlanKind, VectorKind
-from planmethod.plans.scaling import own_scale
-from planmethod.plans.solution import Solution
 from planmethod.problem import load
 from planmethod.render.backends import Options, render
 from planmethod.render.backends.dxf import LINE_TYPES
 from planmethod.render.backends.layers import LAYERS, layer_of
-from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.forces.polygon import drawn_edges
-from planmethod.render.lettering import in_use
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.style import PENS, sweep
 from planmethod.render.sheets import kinematics
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
-from planmethod.render.style import PENS, sweep
 from planmethod.render.symbols import arrowhead, revolute, turn_arrow, vector_arrow
+from planmethod.solved.forces.reading import force_reading
+from planmethod.solved.scaling import own_scale
+from planmethod.solved.solution import Solution
 
 NEAR = 0.01  # mm
 FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}

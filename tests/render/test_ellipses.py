@@ -15,10 +15,9 @@ from worked import SIX, problem_of
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import PlanKind
-from planmethod.plans.scaling import own_scale
-from planmethod.plans.solution import Solution
-from planmethod.render.drawing import Pen, Stroke, Text
-from planmethod.render.ellipses import (
+from planmethod.render.ink.drawing import Pen, Stroke, Text
+from planmethod.render.ink.typeset import text_corners
+from planmethod.render.pictures.ellipses import (
     SIGMAS,
     TAG,
     ellipse,
@@ -26,9 +25,10 @@ from planmethod.render.ellipses import (
     error_ellipses,
     half_axes,
 )
-from planmethod.render.planview import plan_picture
-from planmethod.render.schemeview import scheme_picture
-from planmethod.render.typeset import text_corners
+from planmethod.render.pictures.planview import plan_picture
+from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.solved.scaling import own_scale
+from planmethod.solved.solution import Solution
 
 FINITE = st.floats(-20.0, 20.0, allow_nan=False)
 

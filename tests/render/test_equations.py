@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import Known, Vector, VectorEquation, VectorKind
-from planmethod.render.block import Lines, texts
-from planmethod.render.drawing import Item, Stroke, Text
-from planmethod.render.equations import EquationBlock, equation_block, formula_block
-from planmethod.render.lettering import in_use
-from planmethod.render.lint import lint
-from planmethod.render.typeset import PART_OF, typeset
+from planmethod.render.control.texts import lint
+from planmethod.render.ink.drawing import Item, Stroke, Text
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.typeset import PART_OF, typeset
+from planmethod.render.layout.block import Lines, texts
+from planmethod.render.layout.equations import EquationBlock, equation_block, formula_block
 
 
 def vector(symbol: str, known: Known = Known.ONE, note: str = "") -> Vector:

@@ -12,14 +12,14 @@ from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import LayoutError
-from planmethod.note.given import asked_links, asked_points
-from planmethod.plans.scaling import Views
-from planmethod.plans.solution import Solution
-from planmethod.render.drawing import Drawing, Stroke
-from planmethod.render.ellipses import TAG
-from planmethod.render.frame import FORMATS
+from planmethod.note.narrate.given import asked_links, asked_points
+from planmethod.render.frame.frame import FORMATS
+from planmethod.render.ink.drawing import Drawing, Stroke
+from planmethod.render.pictures.ellipses import TAG
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.results import result_columns
+from planmethod.solved.scaling import Views
+from planmethod.solved.solution import Solution
 
 
 def count_ellipses(sheet: Drawing) -> int:

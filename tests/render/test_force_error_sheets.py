@@ -16,19 +16,15 @@ from worked import path_of, problem_of
 
 from planmethod import loads
 from planmethod.construct.drafting import PROFILES
-from planmethod.note.record import record
-from planmethod.note.tables import result_tables
+from planmethod.note.records.solution import record
+from planmethod.note.tables.results import result_tables
 from planmethod.note.wording import wording
-from planmethod.plans.drawnforces import DrawnForces, angle_label, moment_label, size_label
-from planmethod.plans.errors import Errors
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.solution import Solution
-from planmethod.render.drawing import Disc, Drawing, Pen, Stroke
-from planmethod.render.ellipses import TAG
+from planmethod.render.control.remarks import Severity
+from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.polygon import START, apart, drawn_edges
-from planmethod.render.normcontrol import inspect
-from planmethod.render.remarks import Severity
+from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke
+from planmethod.render.pictures.ellipses import TAG
 from planmethod.render.sheets.composition.model import Entry, Extras, Manner
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.guides import guided_at, is_couple
@@ -41,6 +37,10 @@ from planmethod.render.sheets.reactionerrors import (
     size_columns,
 )
 from planmethod.render.sheets.reactions import _balances, reactions_block
+from planmethod.solved.errors.forces import DrawnForces, angle_label, moment_label, size_label
+from planmethod.solved.errors.spread import Errors
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 NEAR_DEAD = (230.0, 240.0, 250.0)

@@ -18,25 +18,30 @@ from worked import path_of, problem_of
 from planmethod import loads
 from planmethod.cli import cli
 from planmethod.errors import ExitCode, ProblemError
-from planmethod.note.force_formulas import load_lines, statement, wanted
-from planmethod.note.force_moments import plan_moments
-from planmethod.note.lever import STANDS, both_balances, difference, lever_lines
+from planmethod.note.narrate.forces.formulas import load_lines, statement, wanted
+from planmethod.note.narrate.forces.lever_lines import (
+    STANDS,
+    both_balances,
+    difference,
+    lever_lines,
+)
+from planmethod.note.narrate.forces.moment_lines import plan_moments
 from planmethod.note.numbers import alike, russian, significant
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.leverreading import LeverReading
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import Known
-from planmethod.plans.polygons import reaction_symbol
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
-from planmethod.render.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
-from planmethod.render.equations import balance_block
+from planmethod.render.control.remarks import Severity
+from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.arrows import Acting, distance, lay_forces
 from planmethod.render.forces.polygon import drawn_edges
-from planmethod.render.normcontrol import inspect
-from planmethod.render.remarks import Severity
+from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
+from planmethod.render.layout.equations import balance_block
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.forces import APART
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.forces.lever import LeverReading
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press")
 

@@ -13,22 +13,22 @@ from worked import ROOT
 from planmethod.errors import LayoutError
 from planmethod.problem.keys import SHEET as READER_SHEET_KEYS
 from planmethod.problem.keys import STAMP as READER_KEYS
-from planmethod.render.block import CUT, fit, texts
-from planmethod.render.clearance import overlap
-from planmethod.render.drawing import Item, Pen, Stroke, Text
-from planmethod.render.extent import ink_bounds
-from planmethod.render.forms import FORM_1, FORM_2, FORM_2A, Form
-from planmethod.render.frame import (
+from planmethod.render.control.texts import lint
+from planmethod.render.frame.clearance import overlap
+from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
+from planmethod.render.frame.frame import (
     FORMATS,
     MARGIN_NOTE,
     STAMP_FIELDS,
     sheet_frame,
     title_block,
 )
-from planmethod.render.furniture import FORMS, Furniture
-from planmethod.render.lettering import OutlineLettering, using
-from planmethod.render.lint import lint
-from planmethod.render.titleblock import ALIASES, SHARED, merged
+from planmethod.render.frame.furniture import FORMS, Furniture
+from planmethod.render.frame.titleblock import ALIASES, SHARED, merged
+from planmethod.render.ink.drawing import Item, Pen, Stroke, Text
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.lettering import OutlineLettering, using
+from planmethod.render.layout.block import CUT, fit, texts
 
 FIELDS = {
     "designation": "ТММ.КП.12.03.00.000",

@@ -11,19 +11,19 @@ from test_forces_sheet import arrows, computed, couples, shown, turned, views
 from worked import path_of
 
 from planmethod import loads
-from planmethod.note.force_formulas import statement, wanted
-from planmethod.note.guide_formulas import place_lines
-from planmethod.plans.forcereading import ForceReading
+from planmethod.note.narrate.forces.formulas import statement, wanted
+from planmethod.note.narrate.forces.guides import place_lines
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
-from planmethod.render.drawing import Disc, Drawing, Fill, Item, Stroke, View
+from planmethod.render.control.remarks import Severity
+from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.cut import inner_picture
 from planmethod.render.forces.guides import DIMENSION, FAR, POINT, drawn_length
-from planmethod.render.normcontrol import inspect
-from planmethod.render.remarks import Severity
+from planmethod.render.ink.drawing import Disc, Drawing, Fill, Item, Stroke, View
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
 
 LOADS = """
 [dynamics]

@@ -9,7 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, box
 
-from planmethod.render.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, Text
+from planmethod.render.control.texts import lint
+from planmethod.render.ink.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, Text
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import (
     CROWDED,
     UNDER_LABEL,
@@ -19,9 +21,7 @@ from planmethod.render.labels import (
     segment_label,
 )
 from planmethod.render.labels.candidates import inside
-from planmethod.render.lint import lint
 from planmethod.render.symbols import revolute, slider
-from planmethod.render.typeset import typeset
 
 BOUNDS = (0.0, 0.0, 200.0, 150.0)
 

@@ -13,7 +13,7 @@ import pytest
 from shapely import LineString, MultiPolygon, Polygon, union_all
 
 from planmethod.errors import LayoutError
-from planmethod.render.lettering import (
+from planmethod.render.ink.lettering import (
     FONTS,
     STYLES,
     Lettering,
@@ -22,9 +22,9 @@ from planmethod.render.lettering import (
     missing,
     using,
 )
-from planmethod.render.lettering.proportions import TYPES
-from planmethod.render.lettering.skeleton import letters, parsed, skeleton
-from planmethod.render.typeset import line_step, typeset
+from planmethod.render.ink.lettering.proportions import TYPES
+from planmethod.render.ink.lettering.skeleton import letters, parsed, skeleton
+from planmethod.render.ink.typeset import line_step, typeset
 
 RUSSIAN = "".join(map(chr, range(0x410, 0x450))) + "Ёё"
 NEEDED = (

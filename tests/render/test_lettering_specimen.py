@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from planmethod.render.drawing import Stroke, Text
-from planmethod.render.lettering import STYLES, in_use, lettering, using
-from planmethod.render.lint import GRID, lint
+from planmethod.render.control.texts import GRID, lint
+from planmethod.render.ink.drawing import Stroke, Text
+from planmethod.render.ink.lettering import STYLES, in_use, lettering, using
 from planmethod.render.sheets.specimen.lettering import (
     ALPHABETS,
     HEIGHT,

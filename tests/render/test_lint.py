@@ -2,12 +2,12 @@ from __future__ import annotations
 
 import pytest
 
-from planmethod.render.block import CUT
-from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
-from planmethod.render.frame import MARGIN_NOTE, STAMP
+from planmethod.render.control.texts import CODES, lint
+from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import UNDER_LABEL
-from planmethod.render.lint import CODES, lint
-from planmethod.render.typeset import typeset
+from planmethod.render.layout.block import CUT
 
 INNER = (20.0, 5.0, 200.0, 150.0)
 AT = 50 + 50j

@@ -12,8 +12,21 @@ from worked import ROOT, every_file, problem_of
 from planmethod.mechanism.structure import analyse
 from planmethod.problem import load, variant_names
 from planmethod.problem.model import Problem
-from planmethod.render.block import CUT
-from planmethod.render.drawing import (
+from planmethod.render.control.remarks import (
+    LANGUAGES,
+    REMARKS,
+    SEVERITIES,
+    UNITS,
+    Severity,
+    UnknownRemarkError,
+)
+from planmethod.render.control.sheet import inspect, unused_paper
+from planmethod.render.control.texts import CODES, Finding
+from planmethod.render.control.unused import CELL, largest_empty
+from planmethod.render.control.words import PLACES, thing_text
+from planmethod.render.frame.frame import FORMATS, STAMP, sheet_frame
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.ink.drawing import (
     VIEW_KINDS,
     Arc,
     Disc,
@@ -27,26 +40,13 @@ from planmethod.render.drawing import (
     Text,
     View,
 )
-from planmethod.render.frame import FORMATS, STAMP, sheet_frame
-from planmethod.render.furniture import Furniture
-from planmethod.render.lint import CODES, Finding
-from planmethod.render.normcontrol import inspect, unused_paper
-from planmethod.render.remarks import (
-    LANGUAGES,
-    REMARKS,
-    SEVERITIES,
-    UNITS,
-    Severity,
-    UnknownRemarkError,
-)
-from planmethod.render.remarkwords import PLACES, thing_text
+from planmethod.render.ink.style import PENS
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import CUT
 from planmethod.render.sheets.control_report import control_text
 from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
-from planmethod.render.style import PENS
-from planmethod.render.typeset import typeset
-from planmethod.render.unused import CELL, largest_empty
 
 A4 = FORMATS["A4"]
 BOX = (40.0, 100.0, 160.0, 220.0)
@@ -422,7 +422,7 @@ def test_a_line_that_ends_in_a_gap_is_told(monkeypatch: pytest.MonkeyPatch) -> N
     line, arc = Stroke((AT, AT + 20), Pen.HIDDEN), Arc(AT, 20.0, 0.0, 1.0, pen=Pen.HIDDEN)
     assert codes(sheet(line)) == codes(sheet(arc)) == []
     monkeypatch.setattr(
-        "planmethod.render.style.dash_spans",
+        "planmethod.render.ink.style.dash_spans",
         lambda length, dashes, closed=False: ((0.0, 4.0), (5.5, length - 1.0)),
     )
     for item in (line, arc):

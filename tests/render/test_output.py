@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from planmethod.errors import ExitCode, OutputError
-from planmethod.render.output import write
+from planmethod.render.backends.output import write
 
 
 def names(folder: Path) -> list[str]:

@@ -10,7 +10,7 @@ from reading import read_pdf
 
 from planmethod.errors import OutputError, PlanMethodError
 from planmethod.render.backends import BACKENDS, PAGED, Options, render, render_pages
-from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 
 ITEMS = (
     Stroke((10 + 10j, 60 + 10j), Pen.THIN),

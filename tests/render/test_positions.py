@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 from worked import DEAD, SIX, problem_of
 
-from planmethod.plans.scaling import Views
-from planmethod.plans.solution import Solution
 from planmethod.problem import loads
-from planmethod.render.block import Picture
-from planmethod.render.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
+from planmethod.render.control.texts import lint, writings_of
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
 from planmethod.render.labels import UNDER_LABEL
-from planmethod.render.lint import lint, writings_of
-from planmethod.render.paths import TRAJECTORY, Paths
-from planmethod.render.positions import PRIMES, Positions, bold_position, written
-from planmethod.render.schemeview import scheme_picture
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.paths import TRAJECTORY, Paths
+from planmethod.render.pictures.positions import PRIMES, Positions, bold_position, written
+from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.scaling import Views
+from planmethod.solved.solution import Solution
 
 ALL_ROUND = [30.0 * k for k in range(12)]
 SOME = [150.0 + 10.0 * k for k in range(12)]  # the six-link mechanism does not go all round

@@ -12,19 +12,19 @@ from loaded import with_resultant
 from test_forces_sheet import arrows, computed, couples, shown, views, within
 from worked import problem_of
 
-from planmethod.note.force_formulas import load_lines
-from planmethod.note.force_moments import plan_moments
-from planmethod.note.lever import lever_lines
-from planmethod.note.quantities import Quantities
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.leverreading import LeverReading
-from planmethod.plans.solution import Solution
+from planmethod.note.audit.quantities import Quantities
+from planmethod.note.narrate.forces.formulas import load_lines
+from planmethod.note.narrate.forces.lever_lines import lever_lines
+from planmethod.note.narrate.forces.moment_lines import plan_moments
 from planmethod.problem.selector import parse_selector
-from planmethod.render.drawing import Drawing, Item, Stroke, View
-from planmethod.render.normcontrol import inspect
-from planmethod.render.remarks import Severity
+from planmethod.render.control.remarks import Severity
+from planmethod.render.control.sheet import inspect
+from planmethod.render.ink.drawing import Drawing, Item, Stroke, View
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.forces.lever import LeverReading
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
 
 SHIFTED = {"levers/six-link": "2", "press/press": "3"}
 """Worked problems, and the link whose force is shifted."""

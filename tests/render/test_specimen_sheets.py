@@ -8,9 +8,10 @@ from itertools import pairwise
 import pytest
 
 from planmethod.errors import LayoutError
-from planmethod.render.drawing import Arc, Drawing, Fill, Pen, Stroke, Text
-from planmethod.render.extent import ink_bounds
-from planmethod.render.normcontrol import inspect
+from planmethod.render.control.sheet import inspect
+from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Stroke, Text
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.style import ARROW, PENS, stroke_lines
 from planmethod.render.sheets.specimen import SPECIMENS
 from planmethod.render.sheets.specimen.cells import Cell, drawn_cell
 from planmethod.render.sheets.specimen.lines import (
@@ -23,7 +24,6 @@ from planmethod.render.sheets.specimen.lines import (
     sample,
 )
 from planmethod.render.sheets.specimen.symbols import COURSE, HEIGHT, WIDTH, symbol_cells
-from planmethod.render.style import ARROW, PENS, stroke_lines
 from planmethod.render.symbols import GROUND, SIZES
 
 

@@ -13,7 +13,10 @@ from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.problem import load
 from planmethod.problem.model import Drive, Problem
-from planmethod.render.chains import (
+from planmethod.render.control.texts import lint
+from planmethod.render.frame.frame import STAMP, Format, paper_format
+from planmethod.render.ink.drawing import Arc, Drawing, Pen, Stroke, Text
+from planmethod.render.pictures.chains import (
     Far,
     driver_chain,
     group_chain,
@@ -21,13 +24,10 @@ from planmethod.render.chains import (
     mechanism_chain,
     textbook_places,
 )
-from planmethod.render.drawing import Arc, Drawing, Pen, Stroke, Text
-from planmethod.render.embedding import Bar, Net, embed
-from planmethod.render.frame import STAMP, Format, paper_format
-from planmethod.render.lint import lint
+from planmethod.render.pictures.embedding import Bar, Net, embed
+from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
 from planmethod.render.sheets.structure import TITLE, structure_sheet
 from planmethod.render.sheets.structure_texts import formulas, group_caption
-from planmethod.render.structural import driver_picture, group_picture, mechanism_picture
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 

@@ -8,8 +8,8 @@ from math import pi, tau
 
 import pytest
 
-from planmethod.render.drawing import Arc, Pen, Stroke
-from planmethod.render.style import (
+from planmethod.render.ink.drawing import Arc, Pen, Stroke
+from planmethod.render.ink.style import (
     HEIGHTS,
     PENS,
     Dashes,

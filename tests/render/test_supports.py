@@ -12,13 +12,13 @@ from shapely.geometry.base import BaseGeometry
 from worked import SIX, problem_of
 
 from planmethod.errors import AssemblyError
-from planmethod.plans.solution import Solution
-from planmethod.render.drawing import Arc, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.scheme import Scheme
-from planmethod.render.schemeview import scheme_picture
-from planmethod.render.style import PENS
-from planmethod.render.supports import free_sides, stand
+from planmethod.render.ink.drawing import Arc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.style import PENS
+from planmethod.render.pictures.scheme import Scheme
+from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.pictures.supports import free_sides, stand
 from planmethod.render.symbols import GROUND, SIZES, fixed_pivots, foot_of, slider
+from planmethod.solved.solution import Solution
 
 UNREACHED = {("levers/six-link", 40.0), ("levers/six-link", 75.0)}
 """Positions in which a mechanism cannot be assembled."""

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from shapely import LineString, Point, Polygon
 
 from planmethod.render import symbols
-from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.style import ARROW, PENS, stroke_lines, sweep
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.style import ARROW, PENS, stroke_lines, sweep
 from planmethod.render.symbols import SIZES
 
 angles = st.floats(-180, 180)

@@ -5,12 +5,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planmethod.errors import LayoutError
-from planmethod.render.block import Column, Picture, Row, Spacer, heading, paragraph, texts
-from planmethod.render.drawing import Arc, Fill, Item, Pen, Stroke, Text
-from planmethod.render.lettering import in_use
-from planmethod.render.lint import lint
-from planmethod.render.tables import Cell, TableColumn, table_block
-from planmethod.render.typeset import typeset
+from planmethod.render.control.texts import lint
+from planmethod.render.ink.drawing import Arc, Fill, Item, Pen, Stroke, Text
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Column, Picture, Row, Spacer, heading, paragraph, texts
+from planmethod.render.layout.tables import Cell, TableColumn, table_block
 
 COLUMNS = (
     TableColumn("№", ("1", "2")),

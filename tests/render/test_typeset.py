@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planmethod.errors import LayoutError
-from planmethod.render.drawing import Pen, Stroke, Text
-from planmethod.render.lettering import in_use
-from planmethod.render.typeset import (
+from planmethod.render.ink.drawing import Pen, Stroke, Text
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.typeset import (
     PART_OF,
     escape,
     index_height,

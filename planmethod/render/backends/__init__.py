@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from planmethod.errors import OutputError
 from planmethod.render.backends.canvas import Canvas, Options, draw_sheet, replay
-from planmethod.render.drawing import Drawing
+from planmethod.render.ink.drawing import Drawing
 
 __all__ = ["BACKENDS", "PAGED", "Canvas", "Options", "render", "render_pages", "replay"]
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Literal, Protocol, assert_never
 
 from planmethod.errors import PlanMethodError
-from planmethod.render.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
-from planmethod.render.lettering import OutlineLettering
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
+from planmethod.render.ink.lettering import OutlineLettering
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

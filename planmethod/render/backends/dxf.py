@@ -30,9 +30,9 @@ from planmethod.render.backends.layers import (
     layer_of_area,
     layer_of_text,
 )
-from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import OutlineLettering
-from planmethod.render.style import ARROW, PENS, PenStyle, sweep
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.style import ARROW, PENS, PenStyle, sweep
 
 _LIBRARY: Any = ezdxf  # its types are of the parts only
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from planmethod.render.drawing import Pen
+from planmethod.render.ink.drawing import Pen
 
 VECTORS, ARROWS = "PLAN_VECTORS", "PLAN_ARROWS"
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from planmethod.render.backends.canvas import Options
-from planmethod.render.drawing import Arc, Disc, Fill, Stroke, Text
-from planmethod.render.lettering import OutlineLettering
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Stroke, Text
+from planmethod.render.ink.lettering import OutlineLettering
 
 
 class NullCanvas:

@@ -15,9 +15,9 @@ from reportlab.pdfgen.canvas import Canvas as Pdf
 
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.curves import arc_curves
-from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import OutlineLettering
-from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
 _MM = 72.0 / 25.4
 _CAPS = {"butt": 0, "round": 1}

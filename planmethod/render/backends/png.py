@@ -20,9 +20,9 @@ from PIL.PngImagePlugin import PngInfo
 from planmethod.errors import OutputError
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.curves import arc_curves
-from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import OutlineLettering
-from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
 _LARGEST = 16_384  # pixels a side: an A0 sheet at 350 dots to the inch, about a gigabyte at work
 _CODES: dict[str, Any] = {"M": Path.MOVETO, "L": Path.LINETO, "Z": Path.CLOSEPOLY}

@@ -14,9 +14,9 @@ from typing import Any
 import svgwrite
 
 from planmethod.render.backends.canvas import Options
-from planmethod.render.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
-from planmethod.render.lettering import OutlineLettering
-from planmethod.render.style import PENS, arc_spans, closes, stroke_lines
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.ink.lettering import OutlineLettering
+from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
 _INKS = {Ink.BLACK: "#000000", Ink.WHITE: "#ffffff"}
 # XML 1.0 cannot hold these, not even as references.

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from planmethod.plans.draft import cis
-from planmethod.render.drawing import Arc, Disc, Fill, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.symbols import arc_points, turn_arrow, unit, vector_arrow
-from planmethod.render.typeset import typeset, vector_markup
 
 LENGTH = 22.0
 """Length of the arrow of a force on a link, mm: the same for all, whatever the force."""

@@ -12,14 +12,9 @@ from itertools import combinations
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.note.given import point_name
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.guidereading import guides
-from planmethod.plans.polygons import CoupleOn, Edge, Share
+from planmethod.note.narrate.given import point_name
+from planmethod.plans.forces.polygons import CoupleOn, Edge, Share
 from planmethod.problem.model import Slide
-from planmethod.render.block import Picture
-from planmethod.render.drawing import Disc, Ink, Item
-from planmethod.render.extent import lettered
 from planmethod.render.forces.arrows import (
     Acting,
     Segment,
@@ -38,12 +33,17 @@ from planmethod.render.forces.guides import (
     pressed,
 )
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
+from planmethod.render.ink.drawing import Disc, Ink, Item
+from planmethod.render.ink.extent import lettered
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.labels.spots import shared_spots
-from planmethod.render.scheme import Scheme
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, revolute, slider
 from planmethod.render.symbols.axes import axis_line
-from planmethod.render.typeset import typeset
+from planmethod.solved.forces.guides import guides
+from planmethod.solved.forces.reading import ForceReading
 
 _AXIS = 26.0
 """Length of a cut guide's axis to both sides of the slider's pin, before ``factor``, mm."""

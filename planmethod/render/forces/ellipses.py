@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import lru_cache
 
 from planmethod.construct.steps import PointName
-from planmethod.plans.forcereading import ForceReading
-from planmethod.render.ellipses import Ellipses, shown_ellipses
 from planmethod.render.forces.polygon import apart, drawn_edges
+from planmethod.render.pictures.ellipses import Ellipses, shown_ellipses
+from planmethod.solved.forces.reading import ForceReading
 
 
 @lru_cache(maxsize=64)

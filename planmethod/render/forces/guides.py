@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.guidereading import Guided, guides
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Slide
-from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.forces.arrows import Acting, Segment, distance
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.symbols import SIZES, arrowhead, unit
-from planmethod.render.typeset import typeset
+from planmethod.solved.forces.guides import Guided, guides
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
 
 FAR = 45.0
 """Distance from its joint up to which a reaction is drawn where it acts, mm."""

@@ -8,18 +8,18 @@ from itertools import pairwise
 import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
-from planmethod.plans.cycle import Cycle
-from planmethod.plans.forceplan import SCALE
-from planmethod.plans.forcereading import NOTHING
-from planmethod.plans.solution import Complexes
+from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Convention
-from planmethod.render.block import Picture
-from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.extent import lettered
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.extent import lettered
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.spots import shared_spots
+from planmethod.render.layout.block import Picture
 from planmethod.render.symbols import arrowhead
-from planmethod.render.typeset import typeset
+from planmethod.solved.forces.cycle import Cycle
+from planmethod.solved.forces.reading import NOTHING
+from planmethod.solved.solution import Complexes
 
 HODOGRAPH = "hodograph"
 """Tag of the curve; of the pole it is `POLE`."""

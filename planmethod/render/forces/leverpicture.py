@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from planmethod.note.letters import shown_letters
-from planmethod.note.resultants import force_symbol
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.leverreading import HungCouple, LeverReading
+from planmethod.note.narrate.forces.resultants import force_symbol
+from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import PlanKind
-from planmethod.render.block import Picture
-from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.extent import lettered
 from planmethod.render.forces.arrows import (
     Acting,
     Turning,
@@ -20,10 +15,15 @@ from planmethod.render.forces.arrows import (
     lay_forces,
 )
 from planmethod.render.forces.shifts import Shifted, shift_items
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.extent import lettered
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.labels.spots import shared_spots
-from planmethod.render.planview import similar_lines
-from planmethod.render.typeset import typeset
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.planview import similar_lines
+from planmethod.solved.forces.lever import HungCouple, LeverReading
+from planmethod.solved.forces.reading import ForceReading
 
 LEVER = "lever"
 """Tag of the lines of the lever."""

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.polygons import Edge, Share
-from planmethod.render.block import Picture
-from planmethod.render.drawing import Disc, Ink, Item, Pen
-from planmethod.render.ellipses import Ellipses
-from planmethod.render.extent import lettered
+from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.render.forces.arrows import MANNER, PLAN_FORCE, Segment, distance
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen
+from planmethod.render.ink.extent import lettered
+from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import Label
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.ellipses import Ellipses
 from planmethod.render.symbols import unit, vector_arrow
-from planmethod.render.typeset import typeset, vector_markup
+from planmethod.solved.forces.reading import ForceReading
 
 START = "start of a force plan"
 """Tag of the disc where the construction of a plan begins: one for each plan."""

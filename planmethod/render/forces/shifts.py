@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from planmethod.note.narrate.forces.resultants import force_symbol, shift_symbol
 from planmethod.note.numbers import half_up, russian
-from planmethod.note.resultants import force_symbol, shift_symbol
-from planmethod.plans.forcereading import ForceReading
-from planmethod.render.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.forces.arrows import Acting, Segment
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.symbols import unit
-from planmethod.render.typeset import typeset
+from planmethod.solved.forces.reading import ForceReading
 
 SHIFT = "shift"
 """First word of the tags of the lines; the second is the letter of the point."""

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from planmethod.render.drawing import Bounds
+from planmethod.render.ink.drawing import Bounds
 from planmethod.render.labels.model import ALONE, CLEAR, Label
 from planmethod.render.symbols import unit
 

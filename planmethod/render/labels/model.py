@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planmethod.render.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.typeset import Inscription, typeset
+from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import Inscription, typeset
 
 CLEAR = 0.7  # white between a label and a line, mm
 APART = 0.9  # white between two labels one above the other, mm

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from planmethod.render.drawing import Bounds, Item
+from planmethod.render.ink.drawing import Bounds, Item
 from planmethod.render.labels.candidates import (
     Candidates,
     Floats,

@@ -11,8 +11,7 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import TypeAlias
 
-from planmethod.plans.solution import Solution
-from planmethod.render.block import Block
+from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.results import results_block
 from planmethod.render.sheets.texts import (
@@ -22,6 +21,7 @@ from planmethod.render.sheets.texts import (
     text_block,
 )
 from planmethod.render.sheets.views import plan_view, scheme_view
+from planmethod.solved.solution import Solution
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 """From a solution and the positions of a sheet to a block."""

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from planmethod.problem.model import Problem
-from planmethod.render.lint import Finding
-from planmethod.render.remarks import (
+from planmethod.render.control.remarks import (
     LANGUAGES,
     REMARKS,
     SEVERITIES,
@@ -18,7 +17,8 @@ from planmethod.render.remarks import (
     russian_paper,
     unlike,
 )
-from planmethod.render.remarkwords import PLACES
+from planmethod.render.control.texts import Finding
+from planmethod.render.control.words import PLACES
 from planmethod.render.sheets.controlled import Controlled
 
 _SHEET = {"ru": "лист {number} из {count}, {paper}", "en": "sheet {number} of {count}, {paper}"}

@@ -12,10 +12,10 @@ from planmethod.errors import PlanMethodError
 from planmethod.mechanism.structure import analyse
 from planmethod.note.numbers import trimmed
 from planmethod.problem.model import Convention, Problem, Scales
-from planmethod.render.drawing import Bounds, Drawing, Span, Text, View
-from planmethod.render.frame import FORMATS
-from planmethod.render.lint import Finding
-from planmethod.render.normcontrol import SHORTEST, inspect
+from planmethod.render.control.sheet import SHORTEST, inspect
+from planmethod.render.control.texts import Finding
+from planmethod.render.frame.frame import FORMATS
+from planmethod.render.ink.drawing import Bounds, Drawing, Span, Text, View
 from planmethod.render.sheets.composition.model import Composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet

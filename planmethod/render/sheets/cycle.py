@@ -10,17 +10,24 @@ from typing import TypeAlias
 import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
-from planmethod.note.cycle import cycle_statement, cycle_wanted
-from planmethod.note.force_formulas import link_names
-from planmethod.note.given import point_name
+from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
+from planmethod.note.narrate.forces.formulas import link_names
+from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, half_up, russian
-from planmethod.plans.cycle import Cycle, Peak, Piece, cycle
+from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.plans.model import PlanKind
-from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Convention
-from planmethod.render.block import Block, Column, Line, Picture, Row
-from planmethod.render.diagram import (
+from planmethod.render.forces.hodograph import (
+    hodograph_picture,
+    hodograph_scale,
+    opposite,
+    polar_groups,
+)
+from planmethod.render.ink.drawing import Pen
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column, Line, Picture, Row
+from planmethod.render.pictures.diagram import (
     Abscissae,
     Curve,
     Mark,
@@ -28,19 +35,12 @@ from planmethod.render.diagram import (
     diagram_picture,
     mark_items,
 )
-from planmethod.render.drawing import Pen
-from planmethod.render.extent import ink_bounds
-from planmethod.render.forces.hodograph import (
-    hodograph_picture,
-    hodograph_scale,
-    opposite,
-    polar_groups,
-)
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.cycletable import reactions_table
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription
-from planmethod.render.typeset import typeset
+from planmethod.solved.forces.cycle import Cycle, Peak, Piece, cycle
+from planmethod.solved.solution import Solution
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 

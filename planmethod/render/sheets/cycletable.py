@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.given import number
+from planmethod.note.narrate.given import number
 from planmethod.note.numbers import UNITS_RU, alike, half_up, russian
-from planmethod.plans.cycle import Cycle, cycle
-from planmethod.plans.forcereading import NOTHING
-from planmethod.plans.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
-from planmethod.plans.solution import Reals, Solution
-from planmethod.render.block import Block, Column, paragraph
-from planmethod.render.frame import STAMP_WIDTH
-from planmethod.render.pack import EDGE
+from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
+from planmethod.render.frame.frame import STAMP_WIDTH
+from planmethod.render.layout.block import Block, Column, paragraph
+from planmethod.render.layout.pack import EDGE
+from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text
 from planmethod.render.sheets.results import position_text
 from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import scale_inscription
-from planmethod.render.tables import Cell, TableColumn, table_block
+from planmethod.solved.forces.cycle import Cycle, cycle
+from planmethod.solved.forces.reading import NOTHING
+from planmethod.solved.solution import Reals, Solution
 
 
 def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

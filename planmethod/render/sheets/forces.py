@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TypeAlias
 
-from planmethod.note.force_formulas import (
+from planmethod.note.narrate.forces.formulas import (
     closing_lines,
     link_names,
     load_lines,
@@ -15,21 +15,14 @@ from planmethod.note.force_formulas import (
     statement,
     wanted,
 )
-from planmethod.note.force_moments import moment_lines
-from planmethod.note.guide_formulas import place_lines
-from planmethod.note.lever import lever_lines
+from planmethod.note.narrate.forces.guides import place_lines
+from planmethod.note.narrate.forces.lever_lines import lever_lines
+from planmethod.note.narrate.forces.moment_lines import moment_lines
+from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.plaintext import plain_text
-from planmethod.note.resultants import kept_lines, shift_lines
 from planmethod.note.wording import wording
-from planmethod.plans.forcereading import ForceReading, force_reading
+from planmethod.plans.forces.polygons import ForcePlan, Share
 from planmethod.plans.model import Known, PlanKind
-from planmethod.plans.polygons import ForcePlan, Share
-from planmethod.plans.scaling import own_scale
-from planmethod.plans.solution import Solution
-from planmethod.render.block import Block, Column, Line, Row, heading, paragraph
-from planmethod.render.drawing import Disc, Item, Span, View
-from planmethod.render.ellipses import told_ellipses
-from planmethod.render.equations import balance_block, formula_block
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.leverpicture import lever_picture
@@ -41,11 +34,18 @@ from planmethod.render.forces.polygon import (
     polygon_picture,
     start_place,
 )
+from planmethod.render.ink.drawing import Disc, Item, Span, View
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column, Line, Row, heading, paragraph
+from planmethod.render.layout.equations import balance_block, formula_block
+from planmethod.render.pictures.ellipses import told_ellipses
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.reactions import reactions_block
 from planmethod.render.sheets.texts import stated, unbroken
 from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription, shown_position
-from planmethod.render.typeset import typeset
+from planmethod.solved.forces.reading import ForceReading, force_reading
+from planmethod.solved.scaling import own_scale
+from planmethod.solved.solution import Solution
 
 NOT_TO_SCALE = "Стрелки сил на схемах не в масштабе"
 APART = "Векторы на одной прямой разнесены"

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.given import point_name
+from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import RUSSIAN, alike, russian, significant
-from planmethod.plans.forcereading import ForceReading
-from planmethod.plans.guidereading import Guided, guides
-from planmethod.plans.polygons import reaction_symbol
-from planmethod.render.block import Block
+from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.render.layout.block import Block
+from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.symbols import angle_of
-from planmethod.render.tables import Cell, TableColumn, table_block
+from planmethod.solved.forces.guides import Guided, guides
+from planmethod.solved.forces.reading import ForceReading
 
 _TITLE = "Реакции на краях ползунов"
 _NONE = "—"

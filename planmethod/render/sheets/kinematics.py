@@ -10,18 +10,18 @@ from pathlib import Path
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
 from planmethod.paper import Format
-from planmethod.plans.scaling import Views
-from planmethod.plans.selfcheck import verify
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem, Scales
-from planmethod.render.drawing import Drawing
-from planmethod.render.frame import paper_format, sheet_frame
-from planmethod.render.furniture import Furniture
-from planmethod.render.lettering import lettering, using
+from planmethod.render.frame.frame import paper_format, sheet_frame
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.ink.drawing import Drawing
+from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.sheets.composition.model import Composition, Extras
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
+from planmethod.solved.scaling import Views
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
 
 MOST_POSITIONS = 120
 """Most positions drawn in one call: ten sheets of a dozen plans."""

@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
 
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Problem
-from planmethod.render.block import Block
-from planmethod.render.cuttings import Arrange, Group, Part
-from planmethod.render.drawing import Item, View
-from planmethod.render.furniture import Room
-from planmethod.render.pack import pack
+from planmethod.render.frame.furniture import Room
+from planmethod.render.frame.titleblock import merged
+from planmethod.render.ink.drawing import Item, View
+from planmethod.render.layout.block import Block
+from planmethod.render.layout.cuttings import Arrange, Group, Part
+from planmethod.render.layout.pack import pack
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
-from planmethod.render.titleblock import merged
+from planmethod.solved.solution import Solution
 
 Tried: TypeAlias = tuple[bool, int, tuple[int, ...]]
 

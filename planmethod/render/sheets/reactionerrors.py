@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planmethod.note.numbers import russian
-from planmethod.note.sigmas import DRAWN, as_long, marked, rounded_to, sigma_text
-from planmethod.plans.drawnforces import (
+from planmethod.note.tables.sigmas import DRAWN, as_long, marked, rounded_to, sigma_text
+from planmethod.render.layout.block import Block, Column, paragraph
+from planmethod.render.layout.tables import Cell, TableColumn
+from planmethod.render.sheets.guides import guided_at, is_couple
+from planmethod.render.sheets.results import errors_text
+from planmethod.solved.errors.forces import (
     BALANCE,
     DIFFERENCE,
     LEVER,
@@ -14,11 +18,7 @@ from planmethod.plans.drawnforces import (
     moment_label,
     size_label,
 )
-from planmethod.plans.forcereading import ForceReading
-from planmethod.render.block import Block, Column, paragraph
-from planmethod.render.sheets.guides import guided_at, is_couple
-from planmethod.render.sheets.results import errors_text
-from planmethod.render.tables import Cell, TableColumn
+from planmethod.solved.forces.reading import ForceReading
 
 NO_ERROR = "—"
 

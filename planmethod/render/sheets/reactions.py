@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.given import point_name
-from planmethod.note.lever import both_balances, difference
+from planmethod.note.narrate.forces.lever_lines import both_balances, difference
+from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import RUSSIAN, UNITS_RU, alike, russian
-from planmethod.plans.forcereading import NOTHING, ForceReading, force_reading
-from planmethod.plans.polygons import reaction_symbol
-from planmethod.plans.solution import Solution
-from planmethod.render.block import Block, Column
-from planmethod.render.frame import STAMP_WIDTH
-from planmethod.render.pack import EDGE
+from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.render.frame.frame import STAMP_WIDTH
+from planmethod.render.layout.block import Block, Column
+from planmethod.render.layout.pack import EDGE
+from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
 from planmethod.render.sheets.reactionerrors import (
@@ -24,7 +23,8 @@ from planmethod.render.sheets.reactionerrors import (
     with_note,
 )
 from planmethod.render.sheets.views import shown_position
-from planmethod.render.tables import Cell, TableColumn, table_block
+from planmethod.solved.forces.reading import NOTHING, ForceReading, force_reading
+from planmethod.solved.solution import Solution
 
 EXACT = " (точные значения)"
 

@@ -6,15 +6,15 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from planmethod.note.given import asked_links, asked_points, number, solution_peak
+from planmethod.note.narrate.given import asked_links, asked_points, number, solution_peak
 from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
-from planmethod.note.sigmas import DRAWN, as_long, label_of, marked, rounded_to, sigma_text
-from planmethod.plans.solution import Reals, Solution
-from planmethod.render.block import Block, Column, paragraph
-from planmethod.render.frame import STAMP_WIDTH
-from planmethod.render.pack import EDGE
+from planmethod.note.tables.sigmas import DRAWN, as_long, label_of, marked, rounded_to, sigma_text
+from planmethod.render.frame.frame import STAMP_WIDTH
+from planmethod.render.layout.block import Block, Column, paragraph
+from planmethod.render.layout.pack import EDGE
+from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.composition.model import Manner
-from planmethod.render.tables import Cell, TableColumn, table_block
+from planmethod.solved.solution import Reals, Solution
 
 
 def position_text(solution: Solution, index: int) -> str:

@@ -14,13 +14,17 @@ from planmethod.errors import LayoutError
 from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.problem.model import Problem
-from planmethod.render.block import Block, Column, Line, Spacer, paragraph
-from planmethod.render.clearance import is_clear
-from planmethod.render.drawing import Drawing, Item, View
-from planmethod.render.equations import formula_block
-from planmethod.render.frame import STAMP_WIDTH, paper_format, sheet_frame
-from planmethod.render.furniture import Furniture, Room
-from planmethod.render.lettering import lettering, using
+from planmethod.render.frame.clearance import is_clear
+from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
+from planmethod.render.frame.furniture import Furniture, Room
+from planmethod.render.frame.titleblock import merged
+from planmethod.render.ink.drawing import Drawing, Item, View
+from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column, Line, Spacer, paragraph
+from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
 from planmethod.render.sheets.structure_texts import (
     driver_caption,
     formulas,
@@ -28,10 +32,6 @@ from planmethod.render.sheets.structure_texts import (
     link_columns,
     pair_columns,
 )
-from planmethod.render.structural import driver_picture, group_picture, mechanism_picture
-from planmethod.render.tables import TableColumn, table_block
-from planmethod.render.titleblock import merged
-from planmethod.render.typeset import typeset
 
 TITLE = "Структурный анализ механизма"
 

@@ -8,8 +8,8 @@ from planmethod.mechanism.describe import Motion, PairKind, Role, kind_of_motion
 from planmethod.mechanism.groups import AssurGroup, links_of
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.mechanism.structure import LOCAL_MOBILITY, WAYS_IN, Structure, roman
-from planmethod.render.chains import letters
-from planmethod.render.tables import TableColumn
+from planmethod.render.layout.tables import TableColumn
+from planmethod.render.pictures.chains import letters
 
 NBSP = "\u00a0"
 

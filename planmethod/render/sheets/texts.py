@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.calculation import calculation
-from planmethod.note.given import given, wanted
+from planmethod.note.narrate.calculation import calculation
+from planmethod.note.narrate.given import given, wanted
 from planmethod.plans.model import PlanKind
-from planmethod.plans.solution import Solution
-from planmethod.render.block import Block, Column, heading, paragraph
-from planmethod.render.equations import equation_block, formula_block
+from planmethod.render.layout.block import Block, Column, heading, paragraph
+from planmethod.render.layout.equations import equation_block, formula_block
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.views import shown_position
+from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
 

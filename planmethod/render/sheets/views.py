@@ -6,22 +6,22 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from planmethod.construct.scale import Scale
-from planmethod.note.given import number
-from planmethod.note.letters import shown_letters
+from planmethod.note.narrate.given import number
+from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.numbers import UNITS_RU, is_nothing
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
-from planmethod.plans.scaling import own_scale
-from planmethod.plans.solution import Solution
 from planmethod.problem.model import Convention
-from planmethod.render.block import Block, Column, Line, Row
-from planmethod.render.drawing import Disc, Item, Span, View
-from planmethod.render.ellipses import ellipse_inscription
-from planmethod.render.planview import POLE, plan_picture, plan_places
-from planmethod.render.schemeview import scheme_picture
+from planmethod.render.ink.drawing import Disc, Item, Span, View
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column, Line, Row
+from planmethod.render.pictures.ellipses import ellipse_inscription
+from planmethod.render.pictures.planview import POLE, plan_picture, plan_places
+from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.results import position_text
-from planmethod.render.typeset import typeset
+from planmethod.solved.scaling import own_scale
+from planmethod.solved.solution import Solution
 
 TITLES = {
     PlanKind.POSITION: ("План положения механизма", "Планы положений механизма"),
@@ -169,7 +169,7 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
         return asked
     if len(indices) == 1:
         return indices[0]
-    from planmethod.render.positions import bold_position
+    from planmethod.render.pictures.positions import bold_position
 
     return bold_position(solution, indices)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import cmath
 from math import asin, radians
 
-from planmethod.render.drawing import Arc, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.style import ARROW
+from planmethod.render.ink.drawing import Arc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.style import ARROW
 from planmethod.render.symbols.sizes import unit
 
 SMALL = 3.5

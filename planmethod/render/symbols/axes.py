@@ -10,8 +10,8 @@ import cmath
 from itertools import pairwise
 from math import ceil, pi, sin, tau
 
-from planmethod.render.drawing import Arc, Item, Pen, Stroke
-from planmethod.render.style import PENS, dash_spans
+from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
+from planmethod.render.ink.style import PENS, dash_spans
 from planmethod.render.symbols.sizes import unit
 
 SMALL_CIRCLE = 12.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from math import cos, pi, tau
 
-from planmethod.render.drawing import Arc, Disc, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Stroke
 from planmethod.render.symbols.pairs import revolute
 
 ROLLER = 3.2

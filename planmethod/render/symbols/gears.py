@@ -7,7 +7,7 @@ cross-bars lie side by side with the pitch point between them.
 
 from __future__ import annotations
 
-from planmethod.render.drawing import Arc, Disc, Ink, Item, Stroke
+from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Stroke
 from planmethod.render.symbols.axes import axis_line, centre_lines, pitch_circle
 from planmethod.render.symbols.grounds import ground_line
 from planmethod.render.symbols.sizes import SIZES, unit

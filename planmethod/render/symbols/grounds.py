@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from math import pi, radians, sin
 
-from planmethod.render.drawing import Item, Pen, Stroke
+from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.symbols.hatching import GROUND
 from planmethod.render.symbols.pairs import revolute
 from planmethod.render.symbols.sizes import SIZES, unit

@@ -11,8 +11,8 @@ from dataclasses import replace
 from math import ceil, radians
 from typing import TYPE_CHECKING
 
-from planmethod.render.drawing import Arc, Disc, Fill, Item, Pen, Stroke
-from planmethod.render.style import PENS, sweep
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
+from planmethod.render.ink.style import PENS, sweep
 from planmethod.render.symbols.sizes import SIZES
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from math import radians, sin
 
-from planmethod.render.drawing import Arc, Fill, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Fill, Item, Pen, Stroke
 from planmethod.render.symbols.grounds import fixed_pivot
 from planmethod.render.symbols.hatching import hatch
 from planmethod.render.symbols.pairs import revolute

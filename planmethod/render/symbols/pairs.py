@@ -5,8 +5,8 @@ from __future__ import annotations
 import cmath
 from math import pi, radians
 
-from planmethod.render.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
-from planmethod.render.style import PENS
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.style import PENS
 from planmethod.render.symbols.sizes import SIZES, unit
 
 

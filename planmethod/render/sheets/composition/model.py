@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from planmethod.plans.model import PlanKind
-from planmethod.plans.scaling import AS_HIGH, Box, Views
-from planmethod.render.cuttings import Arrange
+from planmethod.render.layout.cuttings import Arrange
+from planmethod.solved.scaling import AS_HIGH, Box, Views
 
 FORMATS = ("A4", "A3", "A2", "A1", "A0")
 """Basic formats: those that sizes are given for."""

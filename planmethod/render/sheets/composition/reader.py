@@ -16,8 +16,8 @@ from planmethod.problem.fields import (
 )
 from planmethod.problem.names import joined, near, segment, short
 from planmethod.problem.source import parse, read_source
-from planmethod.render.cuttings import Arrange
-from planmethod.render.frame import paper_format
+from planmethod.render.frame.frame import paper_format
+from planmethod.render.layout.cuttings import Arrange
 from planmethod.render.sheets.composition.entries import GROUP, GROUP_DEPTH, OF, read_entries
 from planmethod.render.sheets.composition.model import FORMATS, Composition, Entry, Sizes
 from planmethod.render.sheets.composition.values import (

@@ -7,8 +7,8 @@ from typing import Any
 from planmethod.errors import LayoutError
 from planmethod.problem.fields import Faults, read_number, read_text, show
 from planmethod.problem.names import near
-from planmethod.render.style import HEIGHTS
-from planmethod.render.typeset import SMALLEST, typeset
+from planmethod.render.ink.style import HEIGHTS
+from planmethod.render.ink.typeset import SMALLEST, typeset
 
 TITLE_LIMIT = 200
 TEXT_LIMIT = 4000

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
-from planmethod.render.drawing import Drawing
+from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.specimen.lettering import lettering_sheet
 from planmethod.render.sheets.specimen.lines import lines_sheet
 from planmethod.render.sheets.specimen.symbols import symbols_sheet

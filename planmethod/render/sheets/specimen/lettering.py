@@ -8,16 +8,16 @@ from itertools import islice
 from types import MappingProxyType
 
 from planmethod.note.numbers import russian
-from planmethod.render.block import Column, Lines
-from planmethod.render.drawing import Drawing, Item, Pen, Stroke, Text
-from planmethod.render.frame import paper_format, sheet_frame
-from planmethod.render.furniture import Furniture
-from planmethod.render.lettering import OutlineLettering, in_use
-from planmethod.render.lint import GRID
-from planmethod.render.pack import EDGE
-from planmethod.render.style import HEIGHTS
-from planmethod.render.tables import TableColumn, table_block
-from planmethod.render.typeset import escape, line_step, typeset
+from planmethod.render.control.texts import GRID
+from planmethod.render.frame.frame import paper_format, sheet_frame
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.ink.drawing import Drawing, Item, Pen, Stroke, Text
+from planmethod.render.ink.lettering import OutlineLettering, in_use
+from planmethod.render.ink.style import HEIGHTS
+from planmethod.render.ink.typeset import escape, line_step, typeset
+from planmethod.render.layout.block import Column, Lines
+from planmethod.render.layout.pack import EDGE
+from planmethod.render.layout.tables import TableColumn, table_block
 
 PAPER = "A2"
 HEIGHT = 14.0

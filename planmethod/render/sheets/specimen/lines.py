@@ -13,12 +13,12 @@ from itertools import accumulate
 from math import radians
 from types import MappingProxyType
 
-from planmethod.render.block import Align, fit, heading
-from planmethod.render.drawing import Arc, Drawing, Item, Pen, Stroke
-from planmethod.render.frame import sheet_frame
-from planmethod.render.furniture import Furniture
+from planmethod.render.frame.frame import sheet_frame
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
+from planmethod.render.ink.style import ARROW, PENS, S, stroke_lines
+from planmethod.render.layout.block import Align, fit, heading
 from planmethod.render.sheets.specimen.cells import Cell, drawn_grid
-from planmethod.render.style import ARROW, PENS, S, stroke_lines
 from planmethod.render.symbols import (
     SIZES,
     fixed_pivot,

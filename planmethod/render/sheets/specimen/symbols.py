@@ -7,13 +7,13 @@ from collections.abc import Iterator, Mapping
 from math import radians
 from types import MappingProxyType
 
-from planmethod.render.block import Column, heading, paragraph
-from planmethod.render.drawing import Bounds, Drawing, Item
-from planmethod.render.frame import sheet_frame
-from planmethod.render.furniture import Furniture
+from planmethod.render.frame.frame import sheet_frame
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.ink.drawing import Bounds, Drawing, Item
+from planmethod.render.ink.style import ARROW
+from planmethod.render.layout.block import Column, heading, paragraph
 from planmethod.render.sheets.specimen.cells import Cell, drawn_grid, letter
 from planmethod.render.sheets.specimen.wheels import wheel_cells
-from planmethod.render.style import ARROW
 from planmethod.render.symbols import (
     SIZES,
     bearing,

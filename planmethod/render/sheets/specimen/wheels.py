@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from planmethod.render.drawing import Item
+from planmethod.render.ink.drawing import Item
 from planmethod.render.sheets.specimen.cells import Cell, letter
 from planmethod.render.symbols import (
     bearing,

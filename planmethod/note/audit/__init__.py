@@ -1,0 +1,1 @@
+"""What sources print beside the exact and the read value (проверка источников)."""

@@ -1,0 +1,262 @@
+"""Audit of a source: what it prints beside the exact value and the value read with the ruler."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from enum import Enum
+
+from planmethod.note.audit.quantities import PLANS, Quantities, UnansweredError, Why, is_angle
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Problem, Published, Scales
+from planmethod.problem.selector import FORCES, Selector, parse_selector
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
+
+DRAFTING_MM = 1.0
+"""How far a careful drawing may be off, mm of the plan (точность построения)."""
+
+RULER_MM = 0.5
+"""Ruler step when none is asked for, mm."""
+
+SYMBOLS = {
+    PlanKind.POSITION: "mu_l",
+    PlanKind.VELOCITY: "mu_v",
+    PlanKind.ACCELERATION: "mu_a",
+}
+
+UNITS = {
+    "м": "mu_l",
+    "m": "mu_l",
+    "м/с": "mu_v",
+    "m/s": "mu_v",
+    "м/с²": "mu_a",
+    "m/s²": "mu_a",
+    "м/с^2": "mu_a",
+    "m/s^2": "mu_a",
+}
+"""Of which plan a scale ``per_mm`` is, by the unit of its value."""
+
+NEWTONS = ("Н", "N")
+METRES = ("м", "m")
+RADIANS = ("рад", "rad")
+
+
+class Verdict(Enum):
+    """How a printed value stands to the exact one (заключение)."""
+
+    AGREES = "agrees"  # the exact value rounds to what is printed
+    DRAWN = "drawn"  # no further off than a drawing may be
+    DIFFERS = "differs"
+    ABSENT = "absent"  # nothing to compare with
+
+
+@dataclass(frozen=True, slots=True)
+class Audited:
+    """One printed value and what it should have been (проверенное значение).
+
+    Attributes
+    ----------
+    exact : float or None
+        In the unit of the value; None when it cannot be computed, and ``why`` says why.
+    read : float or None
+        What the segments read with the ruler give; None for an angle.
+    per_mm : float or None
+        What a millimetre of the value's plan is worth.
+    """
+
+    published: Published
+    exact: float | None = None
+    read: float | None = None
+    per_mm: float | None = None
+    why: Why | None = None
+
+    @property
+    def difference(self) -> float | None:
+        """Printed less exact, in the unit of the value."""
+        if self.exact is None:
+            return None
+        difference = self.published.value - self.exact
+        # Binary noise of a value that is right to the last digit is no difference.
+        return 0.0 if abs(difference) <= 1e-12 * abs(self.exact) else difference
+
+    @property
+    def percent(self) -> float | None:
+        """Difference in percent of the exact value; None beside an exact zero."""
+        if self.difference is None or not self.exact:
+            return None
+        return 100.0 * self.difference / abs(self.exact)
+
+    @property
+    def mm(self) -> float | None:
+        """Difference in millimetres of the value's plan."""
+        if self.difference is None or self.per_mm is None:
+            return None
+        return self.difference / self.per_mm
+
+    @property
+    def verdict(self) -> Verdict:
+        """Judge the value: first by its digits, then by what a drawing can give."""
+        if self.difference is None:
+            return Verdict.ABSENT
+        if abs(self.difference) <= half_digit(self.published.value) * (1 + 1e-9):
+            return Verdict.AGREES
+        if self.mm is not None and abs(self.mm) <= DRAFTING_MM:
+            return Verdict.DRAWN
+        return Verdict.DIFFERS
+
+
+def half_digit(value: float) -> float:
+    """Return half a unit of the last printed digit.
+
+    A file does not keep the zeros after the point, so a one-digit whole number counts as printed
+    with one decimal: 3 as 3.0.
+
+    Examples
+    --------
+    >>> half_digit(15.28)
+    0.005
+    >>> half_digit(300.0)
+    0.5
+    >>> half_digit(3.0)
+    0.05
+    """
+    printed = Decimal(repr(value)).normalize()
+    exponent = printed.as_tuple().exponent
+    assert isinstance(exponent, int)  # the reader lets only finite numbers in
+    if exponent >= 0:
+        exponent = -1 if printed.adjusted() == 0 else 0
+    return float(Decimal(5).scaleb(exponent - 1))
+
+
+def source_scales(problem: Problem) -> Scales:
+    """Return the scales of the source's own drawing; None where the source tells none.
+
+    Those of ``[scales]``, else what the printed values say of their plans: ``per_mm`` beside
+    metres is mu_l, beside m/s mu_v, beside m/s² mu_a.
+    """
+    told: dict[str, float] = {}
+    for value in problem.published:
+        symbol = UNITS.get(value.unit)
+        if symbol is not None and value.per_mm is not None:
+            told.setdefault(symbol, value.per_mm)
+    given = {s: mu for s in SYMBOLS.values() if (mu := getattr(problem.scales, s)) is not None}
+    return replace(problem.scales, **{**told, **given})
+
+
+def audit(problem: Problem, *, ruler: float = RULER_MM) -> list[Audited]:
+    """Compare every published value of a problem with the exact one.
+
+    Parameters
+    ----------
+    problem : Problem
+    ruler : float, mm
+        Step of the ruler with which the plans are read, at the source's own scales.
+
+    Returns
+    -------
+    list of Audited
+        In the order of the file.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError, SelfCheckError
+        When the problem cannot be solved.
+    """
+    if not problem.published:
+        return []
+    scales, mu_f = source_scales(problem), source_force_scale(problem)
+    solution = Solution(replace(problem, scales=scales), ruler=ruler)
+    verify(solution)
+    places = [Quantities(solution, index, mu_f) for index in range(len(solution.positions))]
+    return [_audited(places, scales, value) for value in problem.published]
+
+
+def source_force_scale(problem: Problem) -> float | None:
+    """Return the scale of the source's force plans, N/mm: ``per_mm`` of its first force."""
+    forces = (v.per_mm for v in problem.published if v.unit in NEWTONS and v.per_mm is not None)
+    return next(forces, None)
+
+
+def _audited(places: Sequence[Quantities], scales: Scales, value: Published) -> Audited:
+    try:
+        selector = _selector(value, scales)
+        at = places[_position(value, len(places))]
+        unit = _unit(at, selector, value)
+        exact, read = at.exact(selector) * unit, at.read(selector)
+        per_mm = value.per_mm or _per_mm(at, selector, scales, unit)
+    except UnansweredError as error:
+        return Audited(value, why=error.why)
+    if is_angle(selector) and selector.over is None:
+        exact = value.value - _nearest_turn((value.value - exact) / unit) * unit
+    return Audited(value, exact, None if read is None else read * unit, per_mm)
+
+
+def _unit(at: Quantities, selector: Selector, value: Published) -> float:
+    """Return what a degree, or a millimetre of the position plan, is in the unit of the value."""
+    if selector.over is None and is_angle(selector) and value.unit in RADIANS:
+        return math.radians(1.0)
+    if selector.over is None and _drawn_on(selector) is PlanKind.POSITION and _is_true(value):
+        return at.solution.scales[PlanKind.POSITION].per_mm
+    return 1.0
+
+
+def _is_true(value: Published) -> bool:
+    """Whether the source prints a length of the drawing in its true size."""
+    return value.unit in METRES
+
+
+def _drawn_on(selector: Selector) -> PlanKind | None:
+    """Return the plan in whose millimetres a quantity is."""
+    if selector.kind in FORCES and selector.kind.split()[0] in ("arm", "shift"):
+        return PlanKind.POSITION
+    return PLANS.get(selector.kind)
+
+
+def _per_mm(at: Quantities, selector: Selector, scales: Scales, unit: float) -> float | None:
+    """Return what a millimetre of its plan is worth in an angle or a rate."""
+    if selector.kind in FORCES:
+        told = is_angle(selector) and selector.over is None and at.mu_f is not None
+        return at.forces.turn(selector) * unit if told else None
+    lever = at.lever(selector)
+    if lever is None:
+        return None
+    plan, worth = lever
+    scale: float | None = getattr(scales, SYMBOLS[plan])
+    return None if scale is None else scale * worth * unit
+
+
+def _selector(value: Published, scales: Scales) -> Selector:
+    if not value.what:
+        raise UnansweredError(Why.NO_WHAT)
+    selector = parse_selector(value.what)
+    for part in (selector, selector.over):
+        plan = _drawn_on(part) if part else None
+        if plan is None or (plan is PlanKind.POSITION and _is_true(value)):
+            continue
+        if getattr(scales, SYMBOLS[plan]) is None:
+            raise UnansweredError(Why.NO_SCALE)
+    return selector
+
+
+def _position(value: Published, count: int) -> int:
+    if value.position is None and count == 1:
+        return 0
+    if value.position is None or not 0 <= value.position < count:
+        raise UnansweredError(Why.NO_POSITION)
+    return value.position
+
+
+def _nearest_turn(degrees: float) -> float:
+    """Return an angle's difference without whole turns, which a protractor does not tell."""
+    return degrees - 360.0 * round(degrees / 360.0)
+
+
+def count(items: Iterable[Audited]) -> dict[Verdict, int]:
+    """Count the verdicts, every kind named."""
+    found = dict.fromkeys(Verdict, 0)
+    for item in items:
+        found[item.verdict] += 1
+    return found

@@ -1,0 +1,1 @@
+"""Sentences, equations and formulas that tell a construction (рассказ)."""

@@ -1,0 +1,241 @@
+"""Formulas with numbers beside a plan: what a student computes from the segments he read."""
+
+from __future__ import annotations
+
+from planmethod.construct.steps import NumberName, PointName, Similar
+from planmethod.note.narrate.letters import segment
+from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
+from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
+from planmethod.plans.motion.board import PREFIX, mark
+from planmethod.plans.motion.leads import Relative, Turning
+from planmethod.problem.model import Convention
+from planmethod.solved.solution import Solution
+
+UNIT = {PlanKind.VELOCITY: "m/s", PlanKind.ACCELERATION: "m/s²"}
+LETTER = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
+TURNING = {PlanKind.VELOCITY: ("ω", "1/s"), PlanKind.ACCELERATION: ("ε", "1/s²")}
+
+
+def _given(value: float) -> str:
+    return russian(trimmed(value, 5))
+
+
+def _found(value: float) -> str:
+    return russian(significant(value))
+
+
+def _mm(value: float) -> str:
+    """Return a length on the drawing: no pencil lays off less than a tenth of a millimetre."""
+    return russian(f"{value:.1f}")
+
+
+class Calculation:
+    """Lines of rich text for one plan in one position (расчёт к плану)."""
+
+    def __init__(self, solution: Solution, kind: PlanKind, index: int) -> None:
+        self.solution, self.kind, self.index = solution, kind, index
+        self.plan = solution.construction.plan(kind)
+        self.kin = solution.construction.kinematics
+        self.mu = solution.scales[kind].per_mm
+        self.unit = UNITS_RU[UNIT[kind]]
+
+    def lines(self) -> list[str]:
+        """Return one formula a line, in the order in which each becomes known."""
+        turnings = {
+            (read.start, read.head): (link, read)
+            for (kind, link), read in self.kin.turnings.items()
+            if kind is self.kind
+        }
+        similar = {
+            step.out: step
+            for step in self.solution.construction.program.steps
+            if isinstance(step, Similar) and step.out.startswith(PREFIX[self.kind])
+        }
+        result: list[str] = []
+        for vector in self.plan.vectors:
+            if vector.head in similar and vector.kind is VectorKind.ABSOLUTE:
+                result.append(self._similar(similar[vector.head]))
+            result.append(self._vector(vector))
+            if (vector.tail, vector.head) in turnings:
+                result += self._turning(*turnings.pop((vector.tail, vector.head)))
+        for link, read in turnings.values():  # of segments that another vector draws
+            result += self._turning(link, read)
+        return result
+
+    # Numbers ---------------------------------------------------------------------------------
+
+    def _read(self, tail: PointName, head: PointName) -> float:
+        """Return a segment as the hand reads it or laid it off, mm."""
+        return float(self.solution.read_mm(tail, head)[self.index])
+
+    def _number(self, name: NumberName) -> float:
+        return float(self.solution.reals(self.solution.by_hand, name)[self.index])
+
+    def _distance(self, p: str, q: str) -> float:
+        """Return the distance of two places of the mechanism as the hand knows it, m."""
+        s = self.solution
+        for body in s.problem.bodies.values():
+            if p in body.points and q in body.points:
+                return abs(body.points[q] - body.points[p])
+        ends = s.complexes(s.by_hand, PointName(q)) - s.complexes(s.by_hand, PointName(p))
+        millimetres = float(s.hand.ruled(abs(ends[self.index])))
+        return millimetres * s.scales[PlanKind.POSITION].per_mm
+
+    def _length(self, p: str, q: str) -> str:
+        """Return a length's symbol with the letters in the order of the statement."""
+        named = {name for _, name, _ in self.solution.problem.lengths}
+        first, second = (q, p) if f"{q}{p}" in named else (p, q)
+        return f"l_{{{first}{second}}}"
+
+    def _measured_arm(self, arm: str, letters: str, metres: float) -> str:
+        """Return how an arm that no given length tells follows from the drawing."""
+        scale = self.solution.scales[PlanKind.POSITION].per_mm
+        mm, found = _mm(metres / scale), f"{_given(round(metres, 9))} м"
+        if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
+            return f"{arm} = ({letters})/μ_{{l}} = {mm}/{_given(1.0 / scale)} = {found}"
+        return f"{arm} = μ_{{l}}·({letters}) = {_given(scale)}·{mm} = {found}"
+
+    def _letters(self, tail: PointName, head: PointName) -> str:
+        return segment(self.solution.problem, self.plan, tail, head)
+
+    # Vectors ---------------------------------------------------------------------------------
+
+    def _vector(self, vector: Vector) -> str:
+        ends = (vector.tail, vector.head)
+        letters, mm = self._letters(*ends), self._read(*ends)
+        source = self._source(vector)
+        if source is not None:
+            value = f"{_found(self.mu * mm)} {self.unit}"
+            return f"{vector.symbol} = {source}{value};  {letters} = {_mm(mm)} мм"
+        scale = f"μ_{{{LETTER[self.kind]}}}"
+        value = f"{_found(self.mu * mm)} {self.unit}"
+        if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
+            quotient = f"{_mm(mm)}/{_given(1.0 / self.mu)}"
+            return f"{vector.symbol} = {letters}/{scale} = {quotient} = {value}"
+        return f"{vector.symbol} = {scale}·{letters} = {_given(self.mu)}·{_mm(mm)} = {value}"
+
+    def _source(self, vector: Vector) -> str | None:
+        """Return the formula of a vector that is computed before it is laid off, or None.
+
+        The formula ends in an equals sign; it is empty for the given motion of a driving slider.
+        """
+        known = self._components(vector)
+        if known is not None:
+            return self._source(known[0]) if len(known) == 1 else None
+        if vector.known is not Known.BOTH:
+            return None
+        if vector.kind is VectorKind.CORIOLIS:
+            for relative in self.kin.relatives.values():
+                if (relative.a_start, relative.a_turned) == (vector.tail, vector.head):
+                    return self._coriolis(vector, relative)
+        if (vector.tail, vector.head) not in self.solution.laid_off:
+            return None
+        if vector.note.startswith("∥"):
+            return ""
+        return self._about(vector)
+
+    def _coriolis(self, vector: Vector, relative: Relative) -> str:
+        omega = abs(self._number(self.kin.omega[relative.to]))
+        speed = abs(self._number(relative.speed))
+        symbols = f"2ω_{{{relative.to}}}·v_{vector.symbol.partition('_')[2]}"
+        return f"{symbols} = 2·{_found(omega)}·{_found(speed)} = "
+
+    def _components(self, vector: Vector) -> tuple[Vector, ...] | None:
+        """Return the components of an absolute vector when all are known beforehand."""
+        if vector.kind is not VectorKind.ABSOLUTE or vector.note:
+            return None
+        ends = (vector.tail, vector.head)
+        for equation in self.plan.equations:
+            if (equation.left.tail, equation.left.head) == ends and _is_known(equation):
+                return equation.right
+        return None
+
+    def _about(self, vector: Vector) -> str | None:
+        """Return the formula of a component of turning about a point: omega·l, omega²·l, eps·l."""
+        bodies = self.solution.problem.bodies
+        note = vector.note.replace("_{", "").replace("}", "")
+        arrow = note.partition("→")
+        ends = (arrow[0].strip(), arrow[2].strip())
+        if vector.kind is not VectorKind.NORMAL:
+            letters = note.partition(" ")[2]
+            cuts = [(letters[:k], letters[k:]) for k in range(1, len(letters))]
+            shared = [c for c in cuts if any(set(c) <= set(b.points) for b in bodies.values())]
+            ends = shared[0] if shared else ends
+        for link, body in bodies.items():
+            if set(ends) <= set(body.points) and ends[0] != ends[1]:
+                return self._formula(vector, link, ends)
+        for (_, link), read in self.kin.turnings.items():
+            if vector.kind is VectorKind.NORMAL and {read.joint, read.place} == set(ends):
+                return self._formula(vector, link, ends)
+        return None
+
+    def _formula(self, vector: Vector, link: str, ends: tuple[str, str]) -> str:
+        arm, metres = self._length(*ends), _given(round(self._distance(*ends), 9))
+        velocity = self.kind is PlanKind.VELOCITY
+        normal = vector.kind is VectorKind.NORMAL
+        letter = "ω" if velocity or normal else "ε"
+        table = self.kin.omega if velocity or normal else self.kin.epsilon
+        driven = link == self.solution.problem.drive.link
+        written = _given if driven else _found
+        value = written(abs(self._number(table[link]))) if link in table else "0"
+        if normal:
+            return f"ω_{{{link}}}^{{2}}·{arm} = {value}^{{2}}·{metres} = "
+        return f"{letter}_{{{link}}}·{arm} = {value}·{metres} = "
+
+    def _similar(self, step: Similar) -> str:
+        """Return how a point is found by the similarity theorem."""
+        s, b, c = step.link_s, step.link_b, step.link_c
+        drawn = [self.solution.complexes(self.solution.by_hand, p)[self.index] for p in (s, b, c)]
+        arm, span = drawn[0] - drawn[1], drawn[2] - drawn[1]
+        if abs((arm * span.conjugate()).imag) > 1e-9 * abs(arm) * abs(span):
+            letters = [self._letters(step.plan_b, p)[1:-1] for p in (step.plan_c, step.out)]
+            first = self._letters(step.plan_b, step.plan_b)[1:-1]
+            half = first[: len(first) // 2]
+            figure = half + letters[0].removeprefix(half) + letters[1].removeprefix(half)
+            return f"△{figure} ∼ △{mark(b, c, s)}"
+        lengths = [float(abs(arm)), float(abs(span))]
+        if step.read_arm:
+            lengths[0] = float(self.solution.hand.ruled(lengths[0]))
+        if step.read_span:
+            lengths[1] = float(self.solution.hand.ruled(lengths[1]))
+        whole = self._read(step.plan_b, step.plan_c)
+        found, given = (self._letters(step.plan_b, p) for p in (step.out, step.plan_c))
+        ratio = f"{mark(b, s)}/{mark(b, c)}"
+        numbers = f"{_mm(whole)}·{_mm(lengths[0])}/{_mm(lengths[1])}"
+        return f"{found} = {given}·{ratio} = {numbers} = {_mm(whole * lengths[0] / lengths[1])} мм"
+
+    # Turning ---------------------------------------------------------------------------------
+
+    def _turning(self, link: str, read: Turning) -> list[str]:
+        letter, unit = TURNING[self.kind]
+        table = self.kin.omega if self.kind is PlanKind.VELOCITY else self.kin.epsilon
+        value = self._number(table[link])
+        component = self.mu * self._read(read.start, read.head)
+        ends = (read.start, read.head)
+        symbol = next((v.symbol for v in self.plan.vectors if (v.tail, v.head) == ends), "0")
+        arm = self._length(read.place, read.joint)
+        lines = []
+        given = read.place in self.solution.problem.bodies[link].points
+        metres = self._distance(read.place, read.joint)
+        if not given and self.kind is PlanKind.VELOCITY:
+            lines.append(self._measured_arm(arm, mark(read.joint, read.place), metres))
+        if not value:
+            lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} = 0")
+        else:
+            sense = "против часовой стрелки" if value > 0 else "по часовой стрелке"
+            numbers = f"{_found(component)}/{_given(round(metres, 9))}"
+            found = f"{_found(abs(value))} {UNITS_RU[unit]} ({sense})"
+            lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} = {numbers} = {found}")
+        others = [k for k, name in table.items() if name == table[link] and k != link]
+        lines += [f"{letter}_{{{other}}} = {letter}_{{{link}}}" for other in others]
+        return lines
+
+
+def _is_known(equation: VectorEquation) -> bool:
+    """Tell whether every term is known before the plan is drawn."""
+    return all(term.known is Known.BOTH for term in equation.right)
+
+
+def calculation(solution: Solution, kind: PlanKind, index: int) -> list[str]:
+    """Return the formulas of one plan in one position as rich text."""
+    return Calculation(solution, kind, index).lines()

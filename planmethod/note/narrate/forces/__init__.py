@@ -1,0 +1,1 @@
+"""Sentences and formulas of the force analysis (силовой расчёт)."""

@@ -1,0 +1,70 @@
+"""What the voices of the force analysis share (общее для глав о силах)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from planmethod.note.narrate.equations import note_text
+from planmethod.note.narrate.formulas import Formulas
+from planmethod.note.narrate.naming import Names
+from planmethod.note.numbers import Notation
+from planmethod.note.plaintext import given, plain_text
+from planmethod.note.wording import force_wording
+from planmethod.plans.forces.polygons import Edge
+from planmethod.solved.forces.reading import ForceReading
+
+QUARTERS = {0.0: "way_right", 90.0: "way_up", 180.0: "way_left", 270.0: "way_down"}
+_BALANCING = re.compile(r"((?<=M_)\{|(?<=F_)\{|(?<=h_)\{F)ур\}")
+STRAIGHT = 1e-6
+"""Degrees by which a way is off the vertical or the horizontal that is told as such."""
+
+
+class Telling:
+    """What the voices of the force analysis share: a reading, names, a language."""
+
+    def __init__(self, reading: ForceReading, say: Formulas) -> None:
+        self.reading, self.solution, self.say = reading, reading.solution, say
+        self.names: Names = say.names
+        self.words = say.words
+        self.said = force_wording(say.words)
+        self.notation = Notation(say.words.decimal, say.words.units)
+
+    def sense(self, value: float) -> str:
+        """Return the sense of a moment."""
+        return self.words.ccw if value > 0 else self.words.cw
+
+    def exactly(self, value: float) -> str:
+        """Return the exact value in brackets."""
+        return self.say.exactly(abs(value))
+
+    def called(self, rich: str) -> str:
+        """Return rich text with the index of the balancing moment and force in the language."""
+        return _BALANCING.sub(rf"\1{self.said.balancing}}}", rich)
+
+    def plain(self, rich: str) -> str:
+        """Return rich text of the force analysis as plain."""
+        return plain_text(self.called(rich))
+
+    def found(self, value: float) -> str:
+        """Return a computed number."""
+        return plain_text(self.notation.found(value))
+
+    def way(self, vector: complex) -> str:
+        """Return the way that a vector points."""
+        angle = float(np.degrees(np.angle(vector))) % 360.0
+        for quarter, phrase in QUARTERS.items():
+            if abs((angle - quarter + 180.0) % 360.0 - 180.0) < STRAIGHT:
+                return str(getattr(self.said, phrase))
+        return self.said.way_angle.format(angle=given(angle, self.words, 4))
+
+    def base(self, edge: Edge) -> str:
+        """Return what the direction of a force is told by: ``BC`` of ``∥ BC``."""
+        return note_text(self.names, edge.note).partition(" ")[2]
+
+
+def closed(lines: Sequence[str]) -> list[str]:
+    """Return the parts of a list with semicolons between them and a full stop at the end."""
+    return [*(f"{line};" for line in lines[:-1]), *(f"{line}." for line in lines[-1:])]

@@ -1,0 +1,149 @@
+"""The equation of the Zhukovsky lever with numbers, as rich text (рычаг Жуковского)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from planmethod.note.narrate.forces.formulas import arm_symbol, signed_sum
+from planmethod.note.narrate.letters import shown_letters
+from planmethod.note.numbers import RUSSIAN, Notation
+from planmethod.note.tables.sigmas import sigma_text
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Convention
+from planmethod.solved.forces.lever import HungShift, LeverReading, OnLink
+from planmethod.solved.forces.reading import ForceReading
+
+STANDS = "Начальное звено неподвижно: рычаг не строится."
+NO_WORK = "Нагрузки работы не совершают: {symbol} = 0."
+
+
+@dataclass(frozen=True, slots=True)
+class PairText:
+    """How a couple stands on the lever: in letters, in numbers, and where those come from.
+
+    ``letters`` is ``(bc)/l_{BC}``, ``numbers`` ``73,0/0,3``; ``segment`` tells both lengths, or is
+    empty where the lever has no segment of the link.
+    """
+
+    letters: str
+    numbers: str
+    segment: str
+
+
+def both_balances(reading: ForceReading) -> tuple[float, float | None]:
+    """Return the balancing moment or force as the hand finds it: by the plans, by the lever."""
+    plans = float(reading.statics.drawn.balance[reading.index])
+    hung = reading.statics.hung
+    return plans, None if hung is None else reading.read_number(hung.balance)
+
+
+def difference(reading: ForceReading) -> float | None:
+    """Return how far the lever is from the force plans, per cent; None where there is neither."""
+    balances = reading.statics.drawn.balances
+    return None if balances is None else balances.share(reading.index)
+
+
+def lever_unit(reading: ForceReading, say: Notation = RUSSIAN) -> str:
+    """Return the unit of what balances the driving link."""
+    return say.units["N" if reading.statics.driving.moment is None else "N·m"]
+
+
+def lever_lines(reading: ForceReading) -> list[str]:
+    """Return the moments about the pole, the arms, what balances them, and the discrepancy."""
+    if reading.statics.hung is None:
+        return [STANDS]
+    lever, symbol = LeverReading(reading), reading.balancing_symbol
+    unit, found = lever_unit(reading), RUSSIAN.found
+    if not lever.forces and not lever.couples:
+        return [NO_WORK.format(symbol=symbol)]
+    lines = [lever_equation(lever)]
+    arms = lever_arms(lever)
+    if arms:
+        lines.append(f"{'; '.join(arms)} {RUSSIAN.units['mm']}")
+    on_links = (*lever.couples, *lever.shifts)
+    lines += [text for text in dict.fromkeys(pair(lever, one).segment for one in on_links) if text]
+    lines += [shift_text(lever, one) for one in lever.shifts]
+    plans, value = both_balances(reading)
+    assert value is not None
+    lines.append(f"{symbol} = {found(abs(value))} {unit}; по планам сил {found(abs(plans))} {unit}")
+    share = difference(reading)
+    if share is not None:
+        lines.append(f"Расхождение {RUSSIAN.number(f'{share:.1f}')} %")
+        sigma = expected(reading)
+        if sigma is not None:
+            off = RUSSIAN.number(sigma_text(sigma))
+            lines.append(f"Ожидаемое СКО расхождения σ = {off} {unit}")
+    return lines
+
+
+def expected(reading: ForceReading) -> float | None:
+    """Return one sigma of lever minus force plans; None where a drawing cannot tell it."""
+    sigma = reading.statics.drawn.discrepancy_sigma
+    if sigma is None or not np.isfinite(sigma[reading.index]):
+        return None
+    return float(sigma[reading.index])
+
+
+def lever_equation(lever: LeverReading, say: Notation = RUSSIAN) -> str:
+    """Return the sum of the moments about the pole in letters, each with its sign."""
+    terms = [(one.arm, f"{one.symbol}·{arm_symbol(one.symbol)}") for one in lever.forces if one.arm]
+    terms += [(c.lever_moment, f"{c.symbol}·{pair(lever, c, say).letters}") for c in lever.couples]
+    return f"ΣM_{{p}} = {signed_sum(terms)} = 0"
+
+
+def lever_arms(lever: LeverReading, say: Notation = RUSSIAN) -> list[str]:
+    """Return the arms of the forces that have one, mm."""
+    return [
+        f"{arm_symbol(one.symbol)} = {say.ruled(abs(one.arm))}" for one in lever.forces if one.arm
+    ]
+
+
+def pair(lever: LeverReading, one: OnLink, say: Notation = RUSSIAN) -> PairText:
+    """Return a couple, or what else goes with ω, by the ends of its link's segment on the lever."""
+    ends = _letters(lever, one)
+    if ends is None or one.joints is None:
+        inverse = lever.reading.solution.problem.scales.convention is Convention.MM_PER_UNIT
+        sign, scale = ("·", 1.0 / lever.per_mm) if inverse else ("/", lever.per_mm)
+        omega = say.short(one.ratio * lever.per_mm)
+        return PairText(f"ω_{{{one.link}}}{sign}μ_{{v}}", f"{omega}{sign}{say.short(scale)}", "")
+    letters, length = ends
+    metres = _length(lever, one.link, one.joints)
+    segment, link = say.ruled(one.ratio * metres), say.short(metres)
+    told = f"{letters} = {segment} {say.units['mm']};  {length} = {link} {say.units['m']}"
+    return PairText(f"{letters}/{length}", f"{segment}/{link}", told)
+
+
+def shift_text(lever: LeverReading, one: HungShift, say: Notation = RUSSIAN) -> str:
+    """Return how far the point of a shifted force is from the centre of mass on the lever."""
+    told = pair(lever, one, say)
+    formula = f"{one.symbol}·{told.letters} = {say.found(one.length)}·{told.numbers}"
+    length = say.number(f"{one.length * one.ratio:.1f}")
+    return f"({''.join(one.letters)}) = {formula} = {length} {say.units['mm']}"
+
+
+def _length(lever: LeverReading, link: str, joints: tuple[str, str]) -> float:
+    """Return the length between two points of a link, m: given, or measured on the drawing."""
+    reading, solution = lever.reading, lever.reading.solution
+    body = solution.problem.bodies[link].points
+    if all(joint in body for joint in joints):
+        return abs(body[joints[1]] - body[joints[0]])
+    drawn = reading.distance(*joints)
+    return float(solution.hand.ruled(drawn)) * solution.scales[PlanKind.POSITION].per_mm
+
+
+def _letters(lever: LeverReading, one: OnLink) -> tuple[str, str] | None:
+    """Return the letters of a couple's segment on the lever and of the length of its link."""
+    if one.ends is None or one.joints is None:
+        return None
+    problem = lever.reading.solution.problem
+    letters = shown_letters(problem, lever.reading.solution.construction.plan(PlanKind.VELOCITY))
+    if not all(end in letters for end in one.ends):
+        return None
+    named = {name for _, name, _ in problem.lengths}
+    joints = "".join(one.joints[::-1])
+    on_link = all(joint in problem.bodies[one.link].points for joint in one.joints)
+    if on_link and joints not in named:
+        joints = "".join(one.joints)
+    return f"({''.join(letters[end][0] for end in one.ends)})", f"l_{{{joints}}}"

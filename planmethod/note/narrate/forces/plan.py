@@ -1,0 +1,336 @@
+"""The sentences of one force plan, told from its steps (план сил)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planmethod.construct.steps import (
+    Carry,
+    LayOff,
+    LineName,
+    MeetLines,
+    Parallel,
+    Perpendicular,
+    PointName,
+    Step,
+)
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.equations import note_text
+from planmethod.note.narrate.forces.common import Telling, closed
+from planmethod.note.narrate.forces.formulas import closing_formula
+from planmethod.plans.forces.board import Reaction
+from planmethod.plans.forces.loads import LoadKind
+from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Share, reaction_symbol
+from planmethod.problem.model import Convention
+
+
+class ForceVoice:
+    """Tells one force plan in the order of its steps.
+
+    Parameters
+    ----------
+    telling : Telling
+    plan : ForcePlan
+    number : int
+        Which of the plans of the solution.
+    """
+
+    def __init__(self, telling: Telling, plan: ForcePlan, number: int) -> None:
+        self.telling, self.plan = telling, plan
+        self.reading, self.names = telling.reading, telling.names
+        self.said, self.words = telling.said, telling.words
+        self.statics = telling.reading.statics
+        start = self.statics.board.starts[number + 1]
+        self._ends: dict[PointName, str] = {start: self.said.of_start}
+        self._begun = False
+        self._drawn: list[Edge] = []
+
+    @property
+    def _edges(self) -> tuple[Edge, ...]:
+        return (*self.plan.polygon, *(() if self.plan.inner is None else (self.plan.inner,)))
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether no force and no couple acts on the links."""
+        forces, couples = map(self.reading.is_none, self._edges), self.plan.couples
+        return all(forces) and all(map(self.reading.is_no_couple, couples))
+
+    # Cut free --------------------------------------------------------------------------------
+
+    def freed(self) -> list[str]:
+        """Tell which reactions take the place of the links that were taken away."""
+        said, driving = self.said, self.statics.driving
+        outer = [r for r in self.statics.board.reactions if self._is_outer(r)]
+        reactions = ", ".join(self._reaction(reaction) for reaction in outer)
+        drive = self.telling.solution.problem.drive.link
+        if self.plan.links == (drive,):
+            symbol = self.telling.plain(self.reading.balancing_symbol)
+            template = said.and_moment if driving.force is None else said.and_force
+            balancing = template.format(symbol=symbol)
+            return [
+                said.freed_driver.format(reactions=reactions, balancing=balancing),
+                *self._known,
+            ]
+        lines = [said.freed.format(reactions=reactions)]
+        if self.is_nothing:
+            return lines
+        for whole in self.plan.wholes:
+            normal, tangential = self._components(whole)
+            line = self.telling.base(normal)
+            symbols = {"whole": whole, "normal": normal, "tangential": tangential}
+            said_of = {key: self.telling.plain(edge.symbol) for key, edge in symbols.items()}
+            lines.append(said.components.format(line=line, **said_of))
+        return lines + self._known
+
+    def _is_outer(self, reaction: Reaction) -> bool:
+        return reaction.on in self.plan.links and reaction.by not in self.plan.links
+
+    def _reaction(self, reaction: Reaction) -> str:
+        said = self.said
+        by = said.from_frame if reaction.by == FRAME else said.from_link.format(link=reaction.by)
+        symbol = self.telling.plain(reaction.force.symbol)
+        return said.reaction.format(symbol=symbol, by=by, point=reaction.joint)
+
+    def _components(self, whole: Edge) -> tuple[Edge, Edge]:
+        """Return the normal and the tangential component of a reaction."""
+        own = [e for e in self.plan.polygon if (e.on, e.at) == (whole.on, whole.at)]
+        return (
+            next(e for e in own if e.share is Share.NORMAL),
+            next(e for e in own if e.share is Share.TANGENTIAL),
+        )
+
+    @property
+    def _known(self) -> list[str]:
+        """Which reactions are known from the groups before, with the sign."""
+        links, told = self.plan.links, []
+        for r in self.statics.board.reactions:
+            if r.by not in links or r.on in links or self._is_nothing(r):
+                continue
+            for letter in "F" if self._is_still(r) else "FM":
+                own = reaction_symbol(r.by, r.on, letter=letter)
+                other = reaction_symbol(r.on, r.by, letter=letter)
+                told.append(self.telling.plain(f"{own} = −{other}"))
+        return [self.said.passed_on.format(reactions=", ".join(told))] if told else []
+
+    def _is_nothing(self, reaction: Reaction) -> bool:
+        """Tell whether there is neither force nor moment in a joint."""
+        at, tail, head = reaction.force.at, reaction.force.tail, reaction.force.head
+        return self.reading.is_none(Edge("", reaction.on, at, tail, head)) and self._is_still(
+            reaction
+        )
+
+    def _is_still(self, reaction: Reaction) -> bool:
+        """Tell whether a joint has no moment."""
+        if reaction.couple is None:
+            return True
+        return self.reading.is_no_couple(CoupleOn("", reaction.on, reaction.couple))
+
+    # Steps -----------------------------------------------------------------------------------
+
+    @property
+    def _steps(self) -> list[Step]:
+        """The steps that make a side of the plan."""
+        ends = {end for edge in self._edges for end in (edge.tail, edge.head)}
+        steps = self.statics.program.steps
+        return [
+            step
+            for step in steps
+            if step.out in ends and isinstance(step, LayOff | Carry | MeetLines)
+        ]
+
+    def steps(self) -> Iterator[list[str]]:
+        """Tell the drawing of the plan and what is read off it."""
+        for step in self._steps:
+            if isinstance(step, LayOff):
+                yield self._tangential(self._side(step.origin, step.out))
+            elif isinstance(step, Carry):
+                yield self._carry(step)
+            elif isinstance(step, MeetLines):
+                yield from self._meet(step)
+        yield from self._closing()
+        yield [self.said.read_off, *closed([self._read(edge) for edge in self.plan.reactions])]
+
+    def _read(self, edge: Edge) -> str:
+        text = self.telling.plain(closing_formula(self.reading, edge, self.telling.notation))
+        if self.reading.is_none(edge):
+            return text
+        return text + self.telling.exactly(abs(self.reading.force(edge)))
+
+    def _tangential(self, edge: Edge) -> list[str]:
+        """Tell the laying off of a component that moments have found."""
+        return self._lay(edge, self.said.way_tangent.format(line=self._across(edge)))
+
+    def _across(self, edge: Edge) -> str:
+        """Return the line that a tangential component is across."""
+        normal = next(
+            e
+            for e in self.plan.polygon
+            if (e.on, e.at, e.share) == (edge.on, edge.at, Share.NORMAL)
+        )
+        return self.telling.base(normal)
+
+    def _carry(self, step: Carry) -> list[str]:
+        edge = self._side(step.origin, step.out)
+        source = self._source(step)
+        if source is not None:
+            other = self.telling.plain(source.force.symbol)
+            return self._lay(
+                edge, self.said.way_back.format(other=other), back=edge.tail == step.out
+            )
+        return self._lay(edge, self._way(step), back=edge.tail == step.out)
+
+    def _side(self, one: PointName, other: PointName) -> Edge:
+        """Return the side of the polygon between two points, whichever way it points."""
+        return next(e for e in self.plan.polygon if {e.tail, e.head} == {one, other})
+
+    def _source(self, step: Carry) -> Reaction | None:
+        """Return the reaction that a step carries over from the plan of another group."""
+        ends = {step.tail, step.head}
+        return next(
+            (
+                reaction
+                for reaction in self.statics.board.reactions
+                if {reaction.force.tail, reaction.force.head} == ends
+            ),
+            None,
+        )
+
+    def _way(self, step: Carry) -> str:
+        """Return the way of a load."""
+        load = next(
+            given
+            for given in self.statics.board.given
+            if given.force is not None
+            and {given.force.tail, given.force.head} == {step.tail, step.head}
+        )
+        one = load.applied
+        assert one.point is not None
+        if one.kind is not LoadKind.INERTIA:
+            return self.telling.way(complex(one.force[self.reading.index]))
+        motion = self.names.kin.acceleration
+        head = motion.point[motion.named[one.point]]
+        return self.said.way_against.format(
+            segment=self.names.segment(motion.pole, head), acceleration=f"a_{one.point}"
+        )
+
+    def _lay(self, edge: Edge, way: str, *, back: bool = False) -> list[str]:
+        """Tell a vector laid off; of nothing, nothing."""
+        new, old = (edge.tail, edge.head) if back else (edge.head, edge.tail)
+        symbol = self.telling.plain(edge.symbol)
+        length = abs(self.reading.by_hand(edge.tail, edge.head))
+        if self.reading.is_none(edge) or not length:
+            self._ends[new] = self._ends[old]
+            if self.reading.is_none(edge):
+                return []
+            return [self.said.too_short.format(symbol=symbol)]
+        template = self.said.lay_before if back else self.said.lay_off
+        if not self._begun and not back:
+            template = self.said.lay_first
+        said = {"of": self._ends[old], "way": way, "symbol": symbol, "length": self._length(length)}
+        self._begun = True
+        phrase = self.said.of_tail if back else self.said.of_head
+        self._ends[new] = phrase.format(symbol=symbol)
+        return [template.format(**said)]
+
+    def _length(self, length: float) -> str:
+        """Return how the length of a force on the plan is computed."""
+        say, scale = self.telling.notation, self.reading.scale.per_mm
+        inverse = self.telling.solution.problem.scales.convention is Convention.MM_PER_UNIT
+        newtons = say.found(length * scale)
+        formula = (
+            f"{newtons}·{say.short(1.0 / scale)}" if inverse else f"{newtons}/{say.short(scale)}"
+        )
+        return self.telling.plain(
+            f"{formula} = {say.short(float(f'{length:.4g}'))} {say.units['mm']}"
+        )
+
+    # Closing ---------------------------------------------------------------------------------
+
+    def _meet(self, step: MeetLines) -> Iterator[list[str]]:
+        edges = [self._carried_by(line, step.out) for line in (step.first, step.second)]
+        for edge in edges:
+            start = edge.tail if edge.head == step.out else edge.head
+            yield [self._line(edge, self._ends[start])]
+        self._ends[step.out] = self.said.of_meeting
+        self._drawn += edges
+        vectors = [self._vector(edge) for edge in edges if not self.reading.is_none(edge)]
+        if vectors:
+            told = "; ".join(vectors)
+            yield [self.said.meet.format(plan=self._plan_of(0), vectors=told)]
+
+    def _plan_of(self, number: int) -> str:
+        """Return whose force plan one of the equations of forces is."""
+        links = self.plan.balances[min(number, len(self.plan.balances) - 1)].links
+        template = self.said.plan_of_link if len(links) == 1 else self.said.plan_of_group
+        return template.format(links="–".join(links))
+
+    def _carried_by(self, line: LineName, out: PointName) -> Edge:
+        """Return the side of the plan that lies on a line."""
+        step = next(s for s in self.statics.program.steps if s.out == line)
+        assert isinstance(step, Parallel | Perpendicular)
+        ends = {step.through, out}
+        return next(e for e in self._edges if e.note and {e.tail, e.head} == ends)
+
+    def _line(self, edge: Edge, of: str) -> str:
+        sign, _, base = note_text(self.names, edge.note).partition(" ")
+        angle, _, line = base.partition("° ")
+        match sign:
+            case "∥":
+                template = self.words.draw_parallel
+            case "⊥":
+                template = self.words.draw_perpendicular
+            case _:
+                template, base = self.words.draw_at_angle, line
+        symbol = self.telling.plain(edge.symbol)
+        text = template.format(of=of, base=base, angle=angle)
+        return f"{text}{self.words.carries.format(symbol=symbol)}."
+
+    def _vector(self, edge: Edge) -> str:
+        return self.said.vector.format(**self._span(edge))
+
+    def _span(self, edge: Edge) -> dict[str, str]:
+        return {
+            "symbol": self.telling.plain(edge.symbol),
+            "tail": self._ends[edge.tail],
+            "head": self._ends[edge.head],
+        }
+
+    def _closing(self) -> Iterator[list[str]]:
+        """Tell the forces that close a plan without a line of their own."""
+        for edge in self.plan.reactions:
+            if edge in self._drawn or self.reading.is_none(edge):
+                continue
+            same = self._same(edge)
+            if edge in self.plan.wholes:
+                yield [self._whole(edge)]
+            elif same:
+                yield [
+                    self.said.same.format(
+                        link=edge.on, symbol=self.telling.plain(edge.symbol), same=same
+                    )
+                ]
+            elif edge == self.plan.inner:
+                yield [self.said.inner.format(link=edge.on, **self._span(edge))]
+            else:
+                yield [self.said.close.format(plan=self._plan_of(1), **self._span(edge))]
+            self._drawn.append(edge)
+
+    def _whole(self, edge: Edge) -> str:
+        parts = [e for e in self._components(edge) if not self.reading.is_none(e)]
+        text = " + ".join(self.telling.plain(part.symbol) for part in parts)
+        if len(parts) == 1:
+            return self.said.whole_single.format(symbol=self.telling.plain(edge.symbol), part=text)
+        return self.said.whole.format(parts=text, **self._span(edge))
+
+    def _same(self, edge: Edge) -> str:
+        """Return the vector of the plan that a force is too, or ``−`` it; empty if none is.
+
+        Rather one on the same link: so the equation of the link says it.
+        """
+        tail, head = self._ends[edge.tail], self._ends[edge.head]
+        for other in sorted(self._drawn, key=lambda drawn: drawn.on != edge.on):
+            ends = (self._ends[other.tail], self._ends[other.head])
+            if ends in ((tail, head), (head, tail)):
+                sign = "" if ends == (tail, head) else "−"
+                return f"{sign}{self.telling.plain(other.symbol)}"
+        return ""

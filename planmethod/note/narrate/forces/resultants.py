@@ -1,0 +1,54 @@
+"""What became of the inertia forces where one force shall stand for both (равнодействующая)."""
+
+from __future__ import annotations
+
+from planmethod.note.plaintext import given
+from planmethod.note.wording import Wording
+from planmethod.solved.forces.resultants import Kept, Why, farthest
+from planmethod.solved.forces.statics import Statics
+
+
+def shift_symbol(link: str) -> str:
+    """Return the letter of a shift in rich text: ``h_{2}``."""
+    return f"h_{{{link}}}"
+
+
+def force_symbol(link: str) -> str:
+    """Return the letter of a link's force of inertia in rich text: ``Φ_{2}``."""
+    return f"Φ_{{{link}}}"
+
+
+def shift_lines(statics: Statics, words: Wording, index: int | None = None) -> list[str]:
+    """Return where the shifted forces act, as rich text; in one position with its exact h."""
+    lines = []
+    for shift in statics.board.shifts.values():
+        said = words.resultant_shift.format(
+            force=force_symbol(shift.link), point=shift.letter, couple=shift.moment.name
+        )
+        if index is not None:
+            length = abs(float(statics.solution.reals(statics.si, shift.length)[index]))
+            unit = words.units["m"]
+            said += f": {shift_symbol(shift.link)} = {given(length, words, 4)} {unit}"
+        lines.append(f"{said}.")
+    return lines
+
+
+def kept_lines(statics: Statics, words: Wording) -> list[str]:
+    """Return which links keep the couple, and why, as rich text; the same for all positions."""
+    return [_kept(statics, one, words) for one in statics.kept]
+
+
+def _kept(statics: Statics, one: Kept, words: Wording) -> str:
+    text = {
+        Why.NO_FORCE: words.resultant_no_force,
+        Why.FAINT: words.resultant_faint,
+        Why.FAR: words.resultant_far,
+    }[one.why]
+    return text.format(
+        link=one.link,
+        force=force_symbol(one.link),
+        couple=one.moment.name,
+        shift=shift_symbol(one.link),
+        value=given(one.reach, words, 4),
+        limit=given(farthest(statics.solution.problem), words, 4),
+    )

@@ -1,0 +1,184 @@
+"""Formulas of a protocol: symbols, the numbers put in, the result with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from planmethod.construct.steps import Compute, LineName, NumberName, PointName
+from planmethod.note.narrate.naming import SCALE_KIND, Names
+from planmethod.note.plaintext import found, given, plain_text
+from planmethod.plans.model import PlanKind, Vector
+from planmethod.solved.solution import Complexes, Solution
+
+_POWER = {1: "", 2: "²", 3: "³"}
+
+UNIT = {PlanKind.POSITION: "m", PlanKind.VELOCITY: "m/s", PlanKind.ACCELERATION: "m/s²"}
+TURNING_UNIT = {PlanKind.VELOCITY: "1/s", PlanKind.ACCELERATION: "1/s²"}
+
+NOTHING = 1e-9
+"""Length, mm, below which a segment is a point."""
+
+
+class Formulas:
+    """Values of one position, as the hand has them, and formulas with them (расчётные формулы).
+
+    Magnitudes are written without signs: a sense is told in words beside them.
+    """
+
+    def __init__(self, solution: Solution, names: Names, index: int) -> None:
+        self.solution, self.names, self.index = solution, names, index
+        self.words = names.words
+
+    # Values ----------------------------------------------------------------------------------
+
+    def number(self, name: NumberName) -> float:
+        """Return a number as the hand has it."""
+        return float(self.solution.reals(self.solution.by_hand, name)[self.index])
+
+    def exact(self, name: NumberName) -> float:
+        """Return a number without the error of reading."""
+        return float(self.solution.reals(self.solution.paper, name)[self.index])
+
+    def _between(self, tail: PointName, head: PointName) -> tuple[complex, complex]:
+        def ends(column: Complexes) -> complex:
+            return complex(column[self.index])
+
+        s = self.solution
+        drawn = ends(s.complexes(s.by_hand, head)) - ends(s.complexes(s.by_hand, tail))
+        exact = ends(s.complexes(s.paper, head)) - ends(s.complexes(s.paper, tail))
+        return drawn, exact
+
+    def read(self, tail: PointName, head: PointName) -> float:
+        """Return a segment as the hand reads it, mm."""
+        return float(self.solution.hand.ruled(abs(self._between(tail, head)[0])))
+
+    def true_length(self, tail: PointName, head: PointName) -> float:
+        """Return a segment of the exact plan, mm."""
+        return abs(self._between(tail, head)[1])
+
+    def place(self, point: PointName) -> complex:
+        """Return a point of the exact drawing, mm."""
+        column = self.solution.complexes(self.solution.paper, point)
+        return complex(column[self.index])
+
+    def course(self, line: LineName) -> complex:
+        """Return a vector along a line of the exact drawing."""
+        value = np.asarray(self.solution.paper.value[line][1], dtype=complex)
+        return complex(value if value.ndim == 0 else value[self.index])
+
+    def per_mm(self, kind: PlanKind) -> float:
+        """Return the scale of a plan, unit per mm."""
+        return self.solution.scales[kind].per_mm
+
+    # Formulas --------------------------------------------------------------------------------
+
+    def unit(self, key: str) -> str:
+        """Return a unit in the language."""
+        return self.words.units[key]
+
+    def exactly(self, value: float) -> str:
+        """Return the exact value in brackets."""
+        return self.words.exact.format(value=found(value, self.words))
+
+    def product(
+        self,
+        powers: Iterable[tuple[NumberName, int]],
+        factor: float = 1.0,
+        *,
+        called: str | None = None,
+    ) -> tuple[str, str]:
+        """Return a product of powers in symbols and in numbers, a fraction where there is one.
+
+        ``called`` is another symbol for the factor that is no scale.
+        """
+        factors = []
+        for name, power in powers:
+            is_scale = name in SCALE_KIND
+            symbol = self.names.symbol(name) if is_scale or called is None else called
+            factors.append((symbol, abs(self.number(name)), power, is_scale))
+        return self.fraction(factors, factor)
+
+    def fraction(
+        self, factors: Sequence[tuple[str, float, int, bool]], factor: float = 1.0
+    ) -> tuple[str, str]:
+        """Return factors (symbol, value, power, is a scale) as a fraction: symbols and numbers."""
+        above: list[tuple[str, str]] = []
+        below: list[tuple[str, str]] = []
+        if factor != 1.0:
+            above.append((given(factor, self.words),) * 2)
+        for symbol, value, power, is_scale in factors:
+            if is_scale and self.names.is_inverse_scale():
+                value, power = 1.0 / value, -power
+            text = given(value, self.words, 5)
+            mark = _POWER.get(abs(power), f"^{abs(power)}")
+            if mark and "·" in text:
+                text = f"({text})"
+            (above if power > 0 else below).append((symbol + mark, text + mark))
+        return _over(above, below, 0), _over(above, below, 1)
+
+    def formula(
+        self, symbol: str, sides: tuple[str, str], value: float, unit: str, more: str = ""
+    ) -> str:
+        """Return ``symbol = in symbols = in numbers = value unit``, nothing twice."""
+        number = given(value, self.words, 4)
+        result = f"{number} {self.unit(unit)}"
+        parts = [symbol, *sides] if symbol else list(sides)
+        if sides[1] == number:
+            parts.pop()
+        return " = ".join([*parts, result]) + more
+
+    def laid(self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None) -> list[str]:
+        """Return how a length to be laid off on a plan is computed: the quantity, then the length.
+
+        Parameters
+        ----------
+        segment : str
+            What the length is called, as ``(pb)``.
+        """
+        scale = next(n for n, p in step.powers if n in SCALE_KIND and p < 0 and n != "mu_l")
+        rest = [(n, p) for n, p in step.powers if n != scale]
+        length, mu = abs(self.number(step.out)), self.per_mm(kind)
+        symbol = plain_text(vector.symbol) if vector else self.names.symbol(step.out)
+        lines = []
+        if len(rest) > 1 or step.factor != 1.0:
+            sides = self.product(rest, step.factor)
+            lines.append(self.formula(symbol, sides, length * mu, UNIT[kind], ";"))
+        sides = self.fraction(
+            [(symbol, _shown(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
+        )
+        lines.append(self.formula(segment, sides, length, "mm", "."))
+        return lines
+
+    def scaled(self, vector: Vector, kind: PlanKind) -> str:
+        """Return a quantity from the read segment that shows it."""
+        segment = f"({self.names.segment(vector.tail, vector.head)})"
+        length, mu = self.read(vector.tail, vector.head), self.per_mm(kind)
+        scale = next(name for name, of in SCALE_KIND.items() if of is kind)
+        sides = self.fraction(
+            [
+                (self.names.symbol(NumberName(scale)), mu, 1, True),
+                (segment, length, 1, False),
+            ]
+            if not self.names.is_inverse_scale()
+            else [(segment, length, 1, False), (self.names.symbol(NumberName(scale)), mu, 1, True)]
+        )
+        exact = self.exactly(self.true_length(vector.tail, vector.head) * mu)
+        symbol = plain_text(vector.symbol)
+        if vector.tail in self.names.poles:  # from the pole: the whole, whatever drew it first
+            symbol = self.names.absolute(vector.head) or symbol
+        return self.formula(symbol, sides, length * mu, UNIT[kind], exact)
+
+
+def _shown(value: float) -> float:
+    """Return a number as it was just written, so that the next formula goes on from it."""
+    return float(f"{value:.4g}")
+
+
+def _over(above: list[tuple[str, str]], below: list[tuple[str, str]], which: int) -> str:
+    top = "·".join(pair[which] for pair in above) or "1"
+    if not below:
+        return top
+    bottom = "·".join(pair[which] for pair in below)
+    return f"{top}/{bottom}" if len(below) == 1 else f"{top}/({bottom})"

@@ -1,0 +1,186 @@
+"""The statement of a problem in symbols: "Дано" and "Определить" (rich text)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planmethod.mechanism.model import FRAME
+from planmethod.note.numbers import UNITS_RU, russian, trimmed
+from planmethod.problem.model import Body, Problem, Slide
+from planmethod.solved.solution import Solution
+
+
+def number(value: float) -> str:
+    """Return a given number as rich text."""
+    return russian(trimmed(value))
+
+
+def coordinate(value: float, problem: Problem) -> str:
+    """Return a given coordinate as rich text, with the digits that the mechanism needs."""
+    size = max((length for _, _, length in problem.lengths), default=abs(value))
+    if abs(float(trimmed(value)) - value) <= 1e-6 * size:
+        return number(value)
+    return russian(trimmed(value, 15))
+
+
+def point_name(point: str) -> str:
+    """Return a point's name as rich text: S2 gives ``S_{2}``."""
+    return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
+
+
+def given(problem: Problem, positions: Sequence[float] | None = None) -> list[str]:
+    """Return what is given, one ``symbol = value unit`` each.
+
+    ``positions`` are the driver's, degrees (m for a slider); the file's when absent.
+    """
+    drive = problem.drive
+    asked = drive.positions if positions is None else positions
+    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", " м")
+    said = f"{number(float(asked[0]))}{unit}"
+    if len(asked) > 1:
+        said += f"…{number(float(asked[-1]))}{unit} ({len(asked)} полож.)"
+    lines = [f"{symbol} = {said}"]
+    named = {name for _, name, _ in problem.lengths}
+    for _, name, metres in problem.lengths:
+        lines.append(f"l_{{{name}}} = {number(metres)} м")
+    for link, body in problem.bodies.items():
+        if link != FRAME:
+            lines += _distances(body, named)
+    for point, place in problem.bodies[FRAME].points.items():
+        if place != 0:
+            lines += _coordinates(point, place, problem)
+    carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
+    for guide, (through, base, angle) in problem.guides.items():
+        if through is None:
+            lines += _guide(guide, base, angle, problem)
+        elif guide in carried:
+            lines.append(f"{guide} через {point_name(through)}")
+    pins = [slide.pin for slide in problem.slides.values() if slide.offset]
+    for slide in problem.slides.values():
+        lines += _carried(problem, slide)
+        if slide.offset:
+            name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
+            lines.append(f"e_{{{name}}} = {number(slide.offset)} м")
+    if drive.is_crank:
+        constant = "" if drive.acceleration else " = const"
+        lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {UNITS_RU['1/s']}{constant}")
+        if drive.acceleration:
+            lines.append(f"ε_{{{drive.link}}} = {number(drive.acceleration)} {UNITS_RU['1/s²']}")
+    else:
+        lines.append(f"v = {number(drive.rate)} {UNITS_RU['m/s']}")
+        lines.append(f"a = {number(drive.acceleration)} {UNITS_RU['m/s²']}")
+    return lines
+
+
+def _distances(body: Body, named: set[str]) -> list[str]:
+    """Return the distances that place a link's further points, where no length was given."""
+    points = list(body.points)
+    ends = body.axis or (points[0],)
+    lines = []
+    for point in points:
+        # A point on the axis is told by one distance, another one by two.
+        off_axis = abs(body.points[point].imag) > 1e-9 * abs(body.points[point])
+        for end in ends[: 2 if off_axis else 1]:
+            if point not in ends and f"{end}{point}" not in named and f"{point}{end}" not in named:
+                metres = abs(body.points[point] - body.points[end])
+                lines.append(f"l_{{{end}{point}}} = {number(metres)} м")
+        if off_axis and body.axis is not None:
+            side = "слева" if body.points[point].imag > 0 else "справа"
+            lines.append(f"{point_name(point)} {side} от {_line(*body.axis)}")
+    return lines
+
+
+def _line(start: str, end: str) -> str:
+    return f"{point_name(start)}{point_name(end)}"
+
+
+def _carried(problem: Problem, slide: Slide) -> list[str]:
+    """Return how the line of a moving link lies on it, where two letters do not tell it."""
+    axis = problem.bodies[slide.host].axis
+    if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
+        return []
+    if slide.offset:
+        return [f"∠(направляющая звена {slide.host}, {_line(*axis)}) = {number(slide.angle)}°"]
+    line = _line(slide.through, slide.pin)
+    if slide.angle % 180 == 90:
+        return [f"{line} ⊥ {_line(*axis)}"]
+    return [f"∠({line}, {_line(*axis)}) = {number(slide.angle)}°"] if slide.angle % 180 else []
+
+
+def _coordinates(name: str, place: complex, problem: Problem) -> list[str]:
+    x, y = (coordinate(value, problem) for value in (place.real, place.imag))
+    return [f"x_{{{name}}} = {x} м", f"y_{{{name}}} = {y} м"]
+
+
+def _guide(name: str, base: complex, angle: float, problem: Problem) -> list[str]:
+    """Return where a guide is: by one coordinate when it runs along an axis."""
+    if angle % 180 == 90:
+        return [f"x_{{{name}}} = {coordinate(base.real, problem)} м"]
+    if angle % 180 == 0:
+        return [f"y_{{{name}}} = {coordinate(base.imag, problem)} м"]
+    return [*_coordinates(name, base, problem), f"∠({name}) = {number(angle)}°"]
+
+
+def asked_points(solution: Solution) -> list[str]:
+    """Return the moving points whose velocity and acceleration the sheet tells.
+
+    Points of a link that does not turn move alike: the first stands for them all.
+    """
+    velocity = solution.construction.kinematics.velocity
+    seen: set[object] = {velocity.pole}
+    asked = []
+    for name, at in velocity.named.items():
+        if velocity.point[at] not in seen:
+            seen.add(velocity.point[at])
+            asked.append(name)
+    return asked
+
+
+def asked_links(solution: Solution) -> list[str]:
+    """Return the links whose angular velocity is not given and not zero by nature."""
+    kin = solution.construction.kinematics
+    drive = solution.problem.drive.link
+    return [
+        link for link in solution.problem.mechanism.links if link in kin.omega and link != drive
+    ]
+
+
+def wanted(solution: Solution) -> str:
+    """Return what is to be found, as one line of symbols."""
+    points, links = asked_points(solution), asked_links(solution)
+    symbols = [f"v_{{{p}}}" for p in points] + [f"ω_{{{k}}}" for k in links]
+    symbols += [f"a_{{{p}}}" for p in points] + [f"ε_{{{k}}}" for k in links]
+    return ", ".join(symbols)
+
+
+_ENGLISH = (
+    (" м/с^{2}", " m/s^{2}"),
+    (" м/с", " m/s"),
+    (" м", " m"),
+    (" с^{", " s^{"),
+    (" полож.", " positions"),
+    (",", "."),
+)
+
+
+def given_lines(problem: Problem, lang: str) -> list[str]:
+    """Return what is given in a language, one ``symbol = value unit`` each (rich text)."""
+    lines = given(problem)
+    if lang == "ru":
+        return lines
+    for russian_text, english in _ENGLISH:
+        lines = [line.replace(russian_text, english) for line in lines]
+    return lines
+
+
+def solution_peak(solution: Solution, symbol: str) -> float:
+    """Return the largest value of v, a (points), ω or ε (links) in all positions of a solution."""
+    if symbol in "va":
+        field = "velocity" if symbol == "v" else "acceleration"
+        values = [np.abs(getattr(motion, field)) for motion in solution.points.values()]
+    else:
+        field = "omega" if symbol == "ω" else "epsilon"
+        values = [np.abs(getattr(motion, field)) for motion in solution.links.values()]
+    return float(np.max(values))

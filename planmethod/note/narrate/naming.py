@@ -1,0 +1,331 @@
+"""What a reader calls the points, lines and numbers of a construction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from planmethod.construct.steps import (
+    AtAngle,
+    Compute,
+    Join,
+    LineName,
+    Measure,
+    MeasureAlong,
+    Name,
+    NumberName,
+    Parallel,
+    Perpendicular,
+    PointName,
+    Step,
+    Touch,
+)
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.letters import pole_letter, shown_letters
+from planmethod.note.plaintext import given, plain_text
+from planmethod.note.wording.model import Wording
+from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
+from planmethod.problem.model import Convention
+from planmethod.solved.solution import Solution
+
+SCALE_KIND = {
+    "mu_l": PlanKind.POSITION,
+    "mu_v": PlanKind.VELOCITY,
+    "mu_a": PlanKind.ACCELERATION,
+}
+SCALE_SYMBOL = {
+    PlanKind.POSITION: "μ_l",
+    PlanKind.VELOCITY: "μ_v",
+    PlanKind.ACCELERATION: "μ_a",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Direction:
+    """Direction of a line: turned by ``angle`` degrees (in (-180, 180]) from ``base``."""
+
+    base: str
+    angle: float
+    start: PointName | None = None
+    end: PointName | None = None
+
+
+class Names:
+    """Names for the reader, of one solution in one language (обозначения).
+
+    Points of the plans are called by their letters, points of the mechanism by their own names,
+    the feet of offsets by a prime, numbers by their symbols, lines by what they are parallel to.
+    """
+
+    def __init__(self, solution: Solution, words: Wording) -> None:
+        self.solution, self.words = solution, words
+        self.construction = solution.construction
+        self.kin = solution.construction.kinematics
+        problem = solution.problem
+        self.step: dict[Name, Step] = {step.out: step for step in self.construction.program.steps}
+        self.letters: dict[PointName, list[str]] = {}
+        self.poles: set[PointName] = set()
+        for plan in self.construction.plans:
+            for at, letters in shown_letters(problem, plan).items():
+                self.letters[at] = [plain_text(letter) for letter in letters]
+            assert plan.pole is not None
+            self.poles.add(plan.pole)
+        self.guides = {
+            f"{slide.label}:0": slide.label
+            for slide in problem.slides.values()
+            if slide.host == FRAME
+        }
+        self._given = {q + p: p + q for p, q in self._lengths()}
+        self._slots: dict[str, str] = {}
+        for slide in problem.slides.values():
+            if slide.host != FRAME and slide.towards is None and slide.label == slide.through:
+                known = self._slots.get(slide.label, slide.host)
+                self._slots[slide.label] = slide.host if known == slide.host else ""
+        self._auxiliary: dict[PointName, str] = {}
+        self._roles = dict(self._number_roles())
+
+    def _lengths(self) -> Iterator[tuple[str, str]]:
+        """Yield the ends of every given length, in the order the problem writes them."""
+        for body in self.solution.problem.bodies.values():
+            points = list(body.points)
+            for i, p in enumerate(points):
+                for q in points[i + 1 :]:
+                    yield (q, p) if f"l_{q}{p}" in self.construction.draft.numbers else (p, q)
+
+    # Points ----------------------------------------------------------------------------------
+
+    def point(self, name: PointName) -> str:
+        """Return a point's letter or name."""
+        if name in self.letters:
+            return self.letters[name][0]
+        if "~" in name:
+            return self._own(name, name.partition("~")[0] + "′")
+        if isinstance(self.step.get(name), Touch):
+            return self._own(name, "T")
+        return self.guides.get(name, str(name))
+
+    def _own(self, name: PointName, text: str) -> str:
+        """Return the name of an auxiliary point, with as many primes as keep it apart."""
+        if name not in self._auxiliary:
+            while text in self._auxiliary.values() or text in self.solution.points:
+                text += "′"
+            self._auxiliary[name] = text
+        return self._auxiliary[name]
+
+    def others(self, name: PointName) -> list[str]:
+        """Return the further letters of a plan point: of points that move alike."""
+        return self.letters.get(name, [""])[1:]
+
+    def of(self, name: PointName) -> str:
+        """Return a point in the genitive: "точки b", "полюса p"."""
+        words = self.words
+        if name in self.poles:
+            return words.of_pole.format(point=self.point(name))
+        if name in self.guides:
+            return words.of_guide_start.format(guide=self.guides[name])
+        return words.of_point.format(point=self.point(name))
+
+    def segment(self, tail: PointName, head: PointName) -> str:
+        """Return a segment by its ends: ``bc``, ``BC``, ``b–n_CB``."""
+        one, two = self.point(tail), self.point(head)
+        return f"{one}–{two}" if "_" in one + two else one + two
+
+    # Lines -----------------------------------------------------------------------------------
+
+    def axis(self, text: str) -> str:
+        """Return a line of a link as the reader calls it.
+
+        Its letters stand in the order in which its length was given (CB becomes BC); a line that
+        is told by one point and an angle is called the guide of its link.
+        """
+        if text in self._slots:
+            link = self._slots[text]
+            return self.words.slot_of.format(link=link) if link else self.words.slot
+        return self._given.get(text, text)
+
+    def direction(self, line: LineName) -> Direction:
+        """Return what a line is turned from and by how much."""
+        step = self.step[line]
+        match step:
+            case Join(_, tail, head):
+                return Direction(self.point(tail) + self.point(head), 0.0, tail, head)
+            case Parallel(_, through, to):
+                found = self.direction(to)
+                if through == found.start:  # the same line drawn again
+                    return found
+                if through == found.end:  # produced beyond its end
+                    back = found.base if found.start is None else self.segment(through, found.start)
+                    return Direction(back, 180.0, through, found.start)
+                return Direction(found.base, found.angle)
+            case Perpendicular(_, _, to):
+                found = self.direction(to)
+                return Direction(found.base, _reduced(found.angle + 90.0))
+            case AtAngle(_, _, None, angle):
+                guide = self.guide(line)
+                if guide is not None:
+                    return Direction(guide, 0.0)
+                if angle == "phi" and self.solution.problem.drive.is_crank:
+                    drive = self.solution.problem.bodies[self.solution.problem.drive.link]
+                    if drive.axis is not None:
+                        return Direction("".join(drive.axis), 0.0)
+                return Direction(self.words.x_axis, self.value_of(angle))
+            case AtAngle(_, _, to, angle):
+                assert to is not None
+                found = self.direction(to)
+                return Direction(found.base, _reduced(found.angle + self.value_of(angle)))
+            case _:
+                raise TypeError(f"{step.out} is no line")
+
+    def guide(self, line: LineName) -> str | None:
+        """Return the name of the frame's guide that a line is, or None."""
+        step = self.step[line]
+        if isinstance(step, AtAngle) and step.to is None and step.angle.startswith("angle_"):
+            return step.angle.removeprefix("angle_")
+        return None
+
+    def value_of(self, angle: NumberName) -> float:
+        """Return a given angle, degrees."""
+        return self.construction.draft.numbers.get(angle, 0.0)
+
+    def relation(self, line: LineName) -> str:
+        """Return a line's direction in signs: ``⊥ BC``, ``∥ x-x``."""
+        found = self.direction(line)
+        if found.angle in (0.0, 180.0):
+            return f"∥ {self.axis(found.base)}"
+        if abs(found.angle) == 90.0:
+            return f"⊥ {self.axis(found.base)}"
+        angle = given(abs(found.angle), self.words)
+        return self.words.at_angle.format(angle=angle, base=found.base)
+
+    def line(self, line: LineName) -> str:
+        """Return a drawn line in the genitive."""
+        words, step = self.words, self.step[line]
+        guide = self.guide(line)
+        if guide is not None:
+            return words.line_guide.format(guide=guide)
+        if isinstance(step, Join):
+            return words.line_join.format(base=self.direction(line).base)
+        assert isinstance(step, Parallel | Perpendicular | AtAngle)
+        return words.line_through.format(of=self.of(step.through), direction=self.relation(line))
+
+    # Numbers ---------------------------------------------------------------------------------
+
+    def _number_roles(self) -> Iterator[tuple[NumberName, str]]:
+        drive = self.solution.problem.drive
+        yield NumberName("phi"), f"φ_{{{drive.link}}}"
+        if not drive.is_crank:
+            pin = self.solution.problem.slides[drive.link].pin
+            yield NumberName("v"), f"v_{{{pin}}}"
+            yield NumberName("a"), f"a_{{{pin}}}"
+        for letter, table in (("ω", self.kin.omega), ("ε", self.kin.epsilon)):
+            seen: set[NumberName] = set()
+            for link, number in table.items():
+                if self.owner(number) == link and number not in seen:
+                    seen.add(number)
+                    yield number, f"{letter}_{{{link}}}"
+        for relative in self.kin.relatives.values():
+            vector = self.vector(relative.start, relative.head)
+            if vector is not None:
+                yield relative.speed, vector.symbol
+
+    def owner(self, number: NumberName) -> str:
+        """Return the link whose own angular velocity or acceleration a number is."""
+        for (kind, link), _ in self.kin.turnings.items():
+            table = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon
+            if table.get(link) == number:
+                return link
+        return self.solution.problem.drive.link
+
+    def symbol(self, number: NumberName) -> str:
+        """Return the symbol of a number: ``l_BC``, ``ω₂``, ``(bc)``, ``μ_v``."""
+        if number in self._roles:
+            return plain_text(self._roles[number])
+        if number in SCALE_KIND:
+            return SCALE_SYMBOL[SCALE_KIND[number]]
+        step = self.step[number]
+        match step:
+            case Measure(_, tail, head) if tail not in self.letters:
+                return self.segment(tail, head)
+            case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
+                return f"({self.segment(tail, head)})"
+            case Compute():
+                return number.strip("|")
+            case _:
+                return self._offset(number) if number.startswith("e_") else str(number)
+
+    def _offset(self, number: NumberName) -> str:
+        """Return the symbol of an offset: its name without the link it is counted from."""
+        text = number.removeprefix("e_")
+        points = {p for body in self.solution.problem.bodies.values() for p in body.points}
+        return f"e_{max((p for p in points if text.startswith(p)), key=len, default='')}"
+
+    def is_inverse_scale(self) -> bool:
+        """Tell whether scales are written as millimetres per unit."""
+        return self.solution.problem.scales.convention is Convention.MM_PER_UNIT
+
+    # Vectors ---------------------------------------------------------------------------------
+
+    def plan_of(self, point: PointName) -> Plan | None:
+        """Return the velocity or acceleration plan that a point is on."""
+        for plan in self.construction.plans:
+            if point in plan.letters or point == plan.pole:
+                return plan
+        return None
+
+    def vector(self, tail: PointName, head: PointName) -> Vector | None:
+        """Return the vector that a segment shows, the one with a stated direction first."""
+        plan = self.plan_of(tail)
+        if plan is None:
+            return None
+        terms = [term for equation in plan.equations for term in equation.right]
+        found = [v for v in (*plan.vectors, *terms) if (v.tail, v.head) == (tail, head)]
+        stated = [v for v in found if v.note and not v.note.startswith("=")]
+        return next(iter(stated or found), None)
+
+    def absolute(self, head: PointName) -> str:
+        """Return the symbol of a point's whole velocity or acceleration, empty if it has none."""
+        plan = self.plan_of(head)
+        if plan is None:
+            return ""
+        vectors = [*(equation.left for equation in plan.equations), *plan.vectors]
+        return next(
+            (
+                plain_text(v.symbol)
+                for v in vectors
+                if v.head == head and v.kind is VectorKind.ABSOLUTE
+            ),
+            "",
+        )
+
+    def ray(self, line: LineName) -> Vector | None:
+        """Return the unknown component that a line of a plan carries."""
+        step = self.step[line]
+        if not isinstance(step, Parallel | Perpendicular | AtAngle):
+            return None
+        plan = self.plan_of(step.through)
+        if plan is None:
+            return None
+        return next(
+            (
+                term
+                for head in self._met(line)
+                for equation in plan.equations
+                for term in equation.right
+                if (term.tail, term.head) == (step.through, head) and term.note
+            ),
+            None,
+        )
+
+    def _met(self, line: LineName) -> Iterator[PointName]:
+        for step in self.construction.program.steps:
+            if line in (getattr(step, "first", None), getattr(step, "second", None)):
+                yield PointName(step.out)
+
+    def pole(self, kind: PlanKind) -> str:
+        """Return the letter of a plan's pole."""
+        return plain_text(pole_letter(self.solution.problem, kind))
+
+
+def _reduced(angle: float) -> float:
+    """Return an angle in (-180, 180] degrees."""
+    return 180.0 - (180.0 - angle) % 360.0

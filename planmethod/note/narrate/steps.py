@@ -1,0 +1,143 @@
+"""The sentences of a program's steps: one match over the closed union of steps."""
+
+from __future__ import annotations
+
+from typing import assert_never
+
+from planmethod.construct.steps import (
+    AtAngle,
+    Carry,
+    Compute,
+    Given,
+    Join,
+    Known,
+    LayOff,
+    LineName,
+    Measure,
+    MeasureAlong,
+    MeetCircles,
+    MeetLineCircle,
+    MeetLines,
+    Moment,
+    Parallel,
+    Perpendicular,
+    PointName,
+    Similar,
+    Step,
+    Total,
+    Touch,
+)
+from planmethod.note.narrate.equations import note_text
+from planmethod.note.narrate.formulas import Formulas
+from planmethod.note.narrate.motion import MotionVoice
+from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.positions import PositionVoice
+from planmethod.note.plaintext import fixed, given, plain_text
+from planmethod.solved.solution import Solution
+
+
+class Narrator:
+    """Tells the steps of one position in order (рассказчик).
+
+    A step's lines are formulas and sentences. Numbers that are only laid off are computed where
+    they are laid off, and lines that only carry a length are named there: their own steps say
+    nothing.
+    """
+
+    def __init__(self, solution: Solution, names: Names, index: int) -> None:
+        self.names, self.words = names, names.words
+        self.say = Formulas(solution, names, index)
+        self.drawing = PositionVoice(names, self.say)
+        self.motion = MotionVoice(solution, names, self.say)
+        self._drawers: dict[LineName, set[type[Step]]] = {}
+        for step in names.construction.program.steps:
+            for line in _carriers(step):
+                self._drawers.setdefault(line, set()).add(type(step))
+
+    def tell(self, step: Step) -> list[str]:
+        """Return the lines that tell a step; none when another step tells it."""
+        match step:
+            case Given() | Known():
+                return []
+            case Join() | Parallel() | Perpendicular() | AtAngle():
+                return self._line(step)
+            case LayOff():
+                on_plan = step.out in self.names.letters
+                return self.motion.lay_off(step) if on_plan else self.drawing.lay_off(step)
+            case MeetLines(out, first, second):
+                return [self._meet(out, first, second)]
+            case MeetLineCircle():
+                return self.drawing.arc_and_line(step)
+            case MeetCircles():
+                return self.drawing.two_arcs(step)
+            case Touch():
+                return self.drawing.touch(step)
+            case Similar():
+                return self.motion.similar(step)
+            case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
+                return [self._measure(tail, head)]
+            case Compute():
+                return self.motion.compute(step)
+            case Carry() | Moment() | Total():
+                return []  # of force plans only: ForceVoice tells them with the forces they carry
+            case _:
+                assert_never(step)
+
+    def _line(self, step: Join | Parallel | Perpendicular | AtAngle) -> list[str]:
+        words, names = self.words, self.names
+        guide = names.guide(step.out)
+        if guide is not None and isinstance(step, AtAngle):
+            return [self.drawing.guide(step, guide)]
+        if not self._drawers.get(step.out, set()) & {MeetLines, MeetLineCircle}:
+            return []
+        if isinstance(step, Join):
+            return [words.draw_join.format(base=names.direction(step.out).base) + "."]
+        ray = names.ray(step.out)
+        base, angle = self.motion.direction(step.out, ray)
+        of = names.of(step.through)
+        if angle in (0.0, 180.0):
+            text = words.draw_parallel.format(of=of, base=base)
+        elif abs(angle) == 90.0:
+            text = words.draw_perpendicular.format(of=of, base=base)
+        else:
+            text = words.draw_at_angle.format(of=of, base=base, angle=given(abs(angle), words))
+        if ray is not None:
+            text += words.carries.format(symbol=plain_text(ray.symbol))
+        return [text + "."]
+
+    def _relation(self, line: LineName) -> str:
+        """Return a drawn line in the genitive, its direction as in the equation."""
+        step, ray = self.names.step[line], self.names.ray(line)
+        if ray is None or isinstance(step, Join):
+            return self.names.line(line)
+        assert isinstance(step, Parallel | Perpendicular | AtAngle)
+        note = note_text(self.names, ray.note)
+        return self.words.line_through.format(of=self.names.of(step.through), direction=note)
+
+    def _meet(self, out: PointName, first: LineName, second: LineName) -> str:
+        return self.words.meet.format(
+            first=self._relation(first),
+            second=self._relation(second),
+            point=self.names.point(out),
+            coincide=self.motion.coincide(out),
+        )
+
+    def _measure(self, tail: PointName, head: PointName) -> str:
+        on_plan = tail in self.names.letters
+        template = self.words.measure if on_plan else self.words.measure_drawing
+        return template.format(
+            segment=self.names.segment(tail, head),
+            length=given(self.say.read(tail, head), self.words, 5),
+            exact=fixed(self.say.true_length(tail, head), self.words),
+        )
+
+
+def _carriers(step: Step) -> tuple[LineName, ...]:
+    """Return the lines on which a step puts its point."""
+    if isinstance(step, LayOff):
+        return (step.along,)
+    if isinstance(step, MeetLines):
+        return (step.first, step.second)
+    if isinstance(step, MeetLineCircle):
+        return (step.line,)
+    return ()

@@ -1,0 +1,1 @@
+"""Results for machines: JSON, CSV, NPZ (записи)."""

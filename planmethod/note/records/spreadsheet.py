@@ -1,0 +1,248 @@
+"""Results as rows for a spreadsheet: one row for each position, SI, full precision."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
+from planmethod.note.wording import wording
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Problem
+from planmethod.solved.many.positions import Gaps, blocks, common_scales, with_force_scale
+from planmethod.solved.solution import Reals, Solution
+
+if TYPE_CHECKING:
+    from planmethod.solved.many.gaps import Swept
+
+Rows = Sequence[Sequence[Any]]
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of a problem, made block by block while they are written.
+
+    Attributes
+    ----------
+    problem : Problem
+    header : tuple of str
+    count : int
+        Rows.
+    blocks : callable
+        Returns an iterator over blocks of rows.
+    """
+
+    problem: Problem
+    header: tuple[str, ...]
+    count: int
+    blocks: Callable[[], Iterator[Rows]]
+
+
+def motion_columns(solution: Solution) -> dict[str, Reals]:
+    """Return the columns of the motion and of its plans by name, ndarrays of shape (n,).
+
+    Columns: ``phi_deg`` or ``s``, ``margin``; for each point ``B.x, B.y, B.vx, B.vy, B.v, B.ax,
+    B.ay, B.a``; for each link ``2.phi_deg, 2.omega, 2.epsilon`` (counter-clockwise positive); for
+    each segment of the plans ``velocity.p-b.exact`` and ``velocity.p-b.read``, mm of the plan.
+    """
+    columns: dict[str, Reals] = {}
+
+    def add(name: str, values: Reals) -> None:
+        _add(columns, name, values)
+
+    add(driver_of(solution.problem), solution.positions)
+    add("margin", solution.margin)
+    for name, point in solution.points.items():
+        add(f"{name}.x", point.place.real)
+        add(f"{name}.y", point.place.imag)
+        for letter, vector in (("v", point.velocity), ("a", point.acceleration)):
+            add(f"{name}.{letter}x", vector.real)
+            add(f"{name}.{letter}y", vector.imag)
+            add(f"{name}.{letter}", np.hypot(vector.real, vector.imag))
+    for name, link in solution.links.items():
+        add(f"{name}.phi_deg", link.phi_deg)
+        add(f"{name}.omega", link.omega)
+        add(f"{name}.epsilon", link.epsilon)
+    for kind in PlanKind:
+        for segment in solution.segments(kind):
+            add(f"{kind.value}.{segment.name}.exact", segment.exact)
+            add(f"{kind.value}.{segment.name}.read", segment.read)
+    return columns
+
+
+def _add(columns: dict[str, Reals], name: str, values: Reals) -> None:
+    key, copy = name, 2
+    while key in columns:
+        key, copy = f"{name}#{copy}", copy + 1
+    columns[key] = values + 0.0  # no negative zeros
+
+
+def csv_columns(solution: Solution) -> dict[str, Reals]:
+    """Return all columns by name: those of the motion, and of the forces where there are loads.
+
+    See `motion_columns` and `forcecolumns.force_columns`.
+    """
+    columns = motion_columns(solution)
+    if solution.problem.dynamics is not None:
+        from planmethod.note.records.forcecolumns import force_columns
+
+        for name, values in force_columns(solution):
+            _add(columns, name, values)
+    return columns
+
+
+def driver_of(problem: Problem) -> str:
+    """Return the name of the column of the driver's positions."""
+    return "phi_deg" if problem.drive.is_crank else "s"
+
+
+def csv_rows(solution: Solution) -> tuple[list[str], list[list[float | int]]]:
+    """Return header and rows for a spreadsheet: ``position`` from 1, then `csv_columns`."""
+    columns = csv_columns(solution)
+    numbers = range(1, len(solution.positions) + 1)
+    lists = [values.tolist() for values in columns.values()]
+    return ["position", *columns], [list(row) for row in zip(numbers, *lists, strict=True)]
+
+
+def solved_table(solution: Solution) -> Table:
+    """Return the rows of a solution."""
+    header, rows = csv_rows(solution)
+    return Table(solution.problem, tuple(header), len(rows), lambda: iter([rows]))
+
+
+def large_table(
+    problem: Problem, positions: Reals, gaps: Gaps, *, ruler: float, partial: bool
+) -> Table:
+    """Return the rows of any number of positions, solved again block by block.
+
+    Parameters
+    ----------
+    positions : ndarray of shape (n,)
+    gaps : Gaps
+        Positions whose cells, or those of the forces, stay empty.
+    partial : bool
+        A last column ``reason`` says why cells are empty.
+    """
+    scales = common_scales(problem, positions, gaps)
+    drawn = with_force_scale(problem, positions, gaps)
+
+    def solved(asked: Reals) -> Solution:
+        return Solution(drawn, positions=asked.tolist(), ruler=ruler, scales=scales)
+
+    nothing = solved(positions[:0])
+    names, still = list(csv_columns(nothing))[1:], len(motion_columns(nothing))
+
+    def made() -> Iterator[Rows]:
+        for part in blocks(len(positions)):
+            here, moving, able = positions[part], gaps.moving[part], gaps.reason[part] < 0
+            cells: list[list[Any]] = []
+            if able.any():
+                cells = [_spread(v, able) for v in csv_columns(solved(here[able])).values()]
+            if (moving & ~able).any():  # the motion there, without the forces
+                moved = motion_columns(solved(here[moving])).values()
+                cells[:still] = [_spread(v, moving) for v in moved]
+            empty = [[""] * len(here)] * (1 + len(names) - len(cells))
+            yield _rows(part, here, [*cells, *empty][1:], gaps if partial else None)
+
+    return Table(problem, _header(problem, names, partial), len(positions), made)
+
+
+def swept_table(swept: Swept, *, partial: bool) -> Table:
+    """Return the rows of a sweep: ``position``, ``phi_deg`` or ``s``, and what was asked."""
+
+    def made() -> Iterator[Rows]:
+        for part in swept.parts():
+            here = swept.positions[part]
+            values = swept.fill(np.empty((len(swept.names), len(here))), part)
+            able = ~np.isnan(values)
+            spread = [_spread(row[full], full) for row, full in zip(values, able, strict=True)]
+            yield _rows(part, here, spread, swept.gaps if partial else None)
+
+    header = _header(swept.problem, swept.names, partial)
+    return Table(swept.problem, header, len(swept.positions), made)
+
+
+def _header(problem: Problem, names: Iterable[str], partial: bool) -> tuple[str, ...]:
+    return "position", driver_of(problem), *names, *(["reason"] if partial else [])
+
+
+def _spread(values: Reals, able: Any) -> list[Any]:
+    """Return values as cells, empty where a position has none."""
+    if len(values) == len(able):
+        listed: list[Any] = values.tolist()
+        return listed
+    cells = np.full(len(able), "", dtype=object)
+    cells[able] = values
+    return list(cells)
+
+
+def _rows(part: slice, positions: Reals, cells: list[list[Any]], gaps: Gaps | None) -> Rows:
+    columns: list[Sequence[Any]] = [range(part.start + 1, part.stop + 1)]
+    columns += [(positions + 0.0).tolist(), *cells]
+    if gaps is not None:
+        kinds = gaps.kinds
+        columns.append([kinds[k] if k >= 0 else "" for k in gaps.reason[part].tolist()])
+    return list(zip(*columns, strict=True))
+
+
+def csv_text(
+    tables: Sequence[Table], *, done: Callable[[int], None] = lambda rows: None
+) -> Iterator[str]:
+    """Yield tables as CSV, part by part; of several each row tells its problem and variant.
+
+    A table with other columns than the one before it begins with a header of its own.
+
+    Parameters
+    ----------
+    done : callable
+        Is told the number of rows of every part.
+    """
+    several, before = len(tables) > 1, None
+    for table in tables:
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        if table.header != before:
+            writer.writerow(["problem", "variant", *table.header] if several else table.header)
+        before = table.header
+        told = (table.problem.name, table.problem.variant or "") if several else ()
+        for rows in table.blocks():
+            writer.writerows([(*told, *row) for row in rows] if several else rows)
+            yield text.getvalue()
+            done(len(rows))
+            text.seek(0)
+            text.truncate()
+
+
+# What was asked, for a terminal -----------------------------------------------------------------
+
+
+def asked_text(swept: Swept, lang: str = "ru") -> str:
+    """Return what was asked as an aligned table, a row for each position, four digits.
+
+    Raises
+    ------
+    UnknownLanguageError
+    """
+    words, drive = wording(lang), swept.problem.drive
+    lines = wrap(
+        (swept.problem.title or swept.problem.name)
+        + (f" ({swept.problem.variant})" if swept.problem.variant else "")
+    )
+    symbol = plain_text(f"φ_{{{drive.link}}}, °") if drive.is_crank else f"s, {words.units['m']}"
+    count = len(swept.positions)
+    columns = [
+        [words.number, *(str(i + 1) for i in range(count))],
+        [symbol, *(given(float(p), words) for p in swept.positions)],
+    ]
+    values = swept.fill(np.empty((len(swept.names), count)), slice(0, count))
+    for name, row in zip(swept.names, values, strict=True):
+        columns.append([name, *(found(float(value), words) for value in row)])
+    lines += ["", *columns_text(columns, 2)]
+    for sentence in swept.gaps.sentences:
+        lines += ["", *wrap(sentence)]
+    return "\n".join([*lines, "", words.sense_note])

@@ -1,0 +1,167 @@
+"""What the drafting error of a result comes from, in words (источники погрешности)."""
+
+from __future__ import annotations
+
+from typing import assert_never
+
+import numpy as np
+
+from planmethod.construct.steps import (
+    AtAngle,
+    Carry,
+    Compute,
+    Given,
+    Join,
+    Known,
+    LayOff,
+    Measure,
+    MeasureAlong,
+    MeetCircles,
+    MeetLineCircle,
+    MeetLines,
+    Moment,
+    Parallel,
+    Perpendicular,
+    PointName,
+    Similar,
+    Step,
+    Total,
+    Touch,
+)
+from planmethod.note.narrate.given import asked_links, asked_points
+from planmethod.note.narrate.naming import Names
+from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
+from planmethod.note.tables.sigmas import label_of, marked, rounded_to, sigma_text
+from planmethod.plans.build import measured_segments
+from planmethod.plans.model import PlanKind
+from planmethod.solved.errors.spread import SHORT
+from planmethod.solved.solution import Solution
+
+MOST = 3
+"""Causes that are told of one result."""
+
+UNIT = {"v": "m/s", "a": "m/s²", "ω": "1/s", "ε": "1/s²"}
+
+
+class Causes:
+    """Tells which strokes of a drawing the error of a result comes from.
+
+    Parameters
+    ----------
+    names : Names
+        Of the solution, in the language.
+    """
+
+    def __init__(self, names: Names) -> None:
+        self.names, self.words, self.solution = names, names.words, names.solution
+        self._ends = _segments(names.solution)
+        titles = {
+            PlanKind.POSITION: names.words.plan_position,
+            PlanKind.VELOCITY: names.words.plan_velocity,
+            PlanKind.ACCELERATION: names.words.plan_acceleration,
+        }
+        self._plan: dict[str, str] = {
+            step.out: titles[section.kind][:1].lower() + titles[section.kind][1:]
+            for section in names.construction.sections
+            for step in section.steps
+        }
+
+    def lines(self, index: int) -> list[str]:
+        """Return the worst result of a position and its largest causes; none if none is known."""
+        worst = self._worst(index)
+        if worst is None:
+            return []
+        symbol, name, value, sigma = worst
+        words = self.words
+        result = words.worst_result.format(
+            symbol=plain_text(f"{symbol}_{{{name}}}"),
+            value=spoken(rounded_to(value, sigma), words),
+            sigma=spoken(sigma_text(sigma), words),
+            unit=words.units[UNIT[symbol]],
+            part=fixed(100 * sigma / abs(value), words, 0 if sigma > 0.02 * abs(value) else 1),
+        )
+        lines = [words.table_causes, *wrap(result)]
+        causes = self.solution.drafting.causes(label_of(symbol, name), index)
+        for stroke, share in causes[:MOST]:
+            part = f"{100 * share:.0f} %"
+            lines += wrap(self.tell(stroke), first=f"  {part:>5}  ", rest=" " * 9)
+        return lines
+
+    def _worst(self, index: int) -> tuple[str, str, float, float] | None:
+        """Return symbol, name, value and sigma of the result with the largest error for its size.
+
+        What is lost in its error, or found by random draws, has no causes of first order.
+        """
+        s = self.solution
+        found = []
+        for name in asked_points(s):
+            motion = s.points[name]
+            found += [
+                ("v", name, np.abs(motion.velocity)),
+                ("a", name, np.abs(motion.acceleration)),
+            ]
+        for name in asked_links(s):
+            found += [("ω", name, s.links[name].omega), ("ε", name, s.links[name].epsilon)]
+        known = []
+        for symbol, name, values in found:
+            value = float(values[index])
+            sigma, mark = marked(s.drafting, label_of(symbol, name), index)
+            if not mark and 0.0 < SHORT * sigma <= abs(value):
+                known.append((symbol, name, value, sigma))
+        return max(known, key=lambda each: each[3] / abs(each[2]), default=None)
+
+    def tell(self, stroke: str) -> str:
+        """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
+        if stroke in self._ends:
+            tail, head = self._ends[stroke]
+            text = self.words.cause_read.format(segment=self.names.segment(tail, head))
+            plan = self._plan.get(head, "")
+        else:
+            text, plan = self._stroke(self.names.step[PointName(stroke)]), self._plan[stroke]
+        return f"{text} ({plan})" if plan else text
+
+    def _stroke(self, step: Step) -> str:
+        names, words = self.names, self.words
+        match step:
+            case AtAngle(_, _, None, angle) if names.guide(step.out) is None:
+                return words.cause_angle.format(symbol=names.symbol(angle))
+            case Join() | Parallel() | Perpendicular() | AtAngle():
+                return words.cause_line.format(line=names.line(step.out))
+            case Given(out):
+                return words.cause_given.format(point=names.point(out))
+            case LayOff(out, origin) | Carry(out, origin):
+                return words.cause_lay_off.format(of=names.of(origin), point=names.point(out))
+            case MeetLines(out):
+                return words.cause_meet.format(point=names.point(out))
+            case MeetCircles(out) | MeetLineCircle(out):
+                return words.cause_arc.format(point=names.point(out))
+            case Touch(out):
+                return words.cause_touch.format(point=names.point(out))
+            case Similar(out):
+                return words.cause_similar.format(point=names.point(out))
+            case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
+                return words.cause_read.format(segment=names.segment(tail, head))
+            case Moment(_, about, at):
+                return words.cause_read.format(segment=names.segment(about, at))
+            case Known() | Compute() | Total():
+                raise TypeError(f"{step.out} is no stroke")
+            case _:
+                assert_never(step)
+
+
+def _segments(solution: Solution) -> dict[str, tuple[PointName, PointName]]:
+    """Return the ends of every segment that is read for a result, by what the reading is called."""
+    construction = solution.construction
+    ends = [
+        (PointName(tail), PointName(head))
+        for tail, head in measured_segments(solution.problem, construction.draft)
+    ]
+    for plan in construction.plans:
+        ends += [(vector.tail, vector.head) for vector in plan.vectors]
+    kin = construction.kinematics
+    for motion in (kin.velocity, kin.acceleration):
+        ends += [(motion.pole, motion.point[at]) for at in kin.velocity.named.values()]
+    for r in kin.relatives.values():
+        assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
+        ends += [(r.start, r.head), (r.a_start, r.a_turned), (r.a_turned, r.a_head)]
+    return {f"{tail}-{head}": (tail, head) for tail, head in ends}

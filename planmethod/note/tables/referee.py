@@ -1,0 +1,100 @@
+"""What the referee says of a solution, for the terminal and for the record (приговор арбитра)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from planmethod.mechanism.model import FRAME
+from planmethod.note.plaintext import heading, plain_text, table, wrap
+from planmethod.note.tables.results import position_line
+from planmethod.note.wording import Wording, wording
+from planmethod.solved.results import NUMBERS, ResultKind
+from planmethod.solved.solution import Solution
+from planmethod.solved.trust.accuracy import Examined, Verdict, examine
+
+SYMBOL = {"omega": "ω", "epsilon": "ε", "phi": "φ"}
+
+
+def judged(solution: Solution, digits: int) -> list[Examined]:
+    """Return every position of a solution before the referee: what moves, each result once."""
+    fixed = solution.problem.bodies[FRAME].points
+    found = examine(solution.problem, [float(p) for p in solution.positions], digits=digits)
+
+    def worth(verdict: Verdict) -> bool:
+        head, _, tail = verdict.label.partition("_")
+        return verdict.kind is not ResultKind.UNIT and (tail or head) not in fixed
+
+    return [
+        replace(position, verdicts=tuple(filter(worth, position.verdicts))) for position in found
+    ]
+
+
+def referee_tables(solution: Solution, digits: int, lang: str = "ru") -> str:
+    """Return every result beside the referee's, with its error and condition number.
+
+    The value of the referee is written out to 20 digits; the record has all of them.
+    """
+    words = wording(lang)
+    lines = wrap(words.referee_note.format(digits=digits))
+    for index, position in enumerate(judged(solution, digits)):
+        lines += ["", *heading(position_line(solution, words, index)), ""]
+        rows = [_row(verdict, words) for verdict in position.verdicts]
+        lines += table(words.columns_referee, rows)
+    return "\n".join(lines)
+
+
+def _row(verdict: Verdict, words: Wording) -> list[str]:
+    from mpmath import nstr
+
+    real, imag = _parts(verdict)
+    parts = [nstr(real, 20)] + ([] if imag is None else [nstr(imag, 20)])
+    value = "; ".join(parts).replace(".", words.decimal)
+    kappa = f"{verdict.kappa:.1e}" if verdict.kappa < 1e300 else "—"
+    numbers = (f"{verdict.error:.1e}", kappa, f"{verdict.multiple:.2f}")
+    return [_shown(verdict.label), value, *(text.replace(".", words.decimal) for text in numbers)]
+
+
+def _shown(label: str) -> str:
+    head, _, tail = label.partition("_")
+    return plain_text(f"{SYMBOL.get(head, head)}_{{{tail}}}") if tail else label
+
+
+def _parts(verdict: Verdict) -> tuple[Any, Any]:
+    """Return the coordinates of what the referee found; None for the second of a number."""
+    value = verdict.value
+    return value.real, None if verdict.kind in NUMBERS else value.imag
+
+
+def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
+    """Return for each position what the referee finds, as plain data.
+
+    Values are text, to all the referee's digits; ``x`` and ``y`` of a direction are its cosine and
+    sine. ``error`` is that of float64, SI; ``kappa`` null where the value is zero; ``multiple`` is
+    the error in units of κ·u.
+    """
+    return [
+        {
+            "digits": digits,
+            "bound": position.warned,
+            "results": {
+                verdict.label: {
+                    **_told(verdict, digits),
+                    "error": verdict.error,
+                    "kappa": verdict.kappa if verdict.kappa < 1e300 else None,
+                    "multiple": verdict.multiple,
+                }
+                for verdict in position.verdicts
+            },
+        }
+        for position in judged(solution, digits)
+    ]
+
+
+def _told(verdict: Verdict, digits: int) -> dict[str, str]:
+    from mpmath import nstr
+
+    real, imag = _parts(verdict)
+    if imag is None:
+        return {"value": nstr(real, digits)}
+    return {"x": nstr(real, digits), "y": nstr(imag, digits)}

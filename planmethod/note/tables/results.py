@@ -1,0 +1,320 @@
+"""Result tables for the terminal (таблицы результатов)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from planmethod.note.narrate.formulas import UNIT
+from planmethod.note.narrate.given import asked_links, asked_points
+from planmethod.note.narrate.naming import SCALE_SYMBOL, Names
+from planmethod.note.plaintext import (
+    columns_text,
+    fixed,
+    found,
+    given,
+    heading,
+    plain_text,
+    spoken,
+    table,
+    wrap,
+)
+from planmethod.note.tables.sigmas import Sigmas, label_of, levelled
+from planmethod.note.wording import Wording, wording
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Convention
+from planmethod.solved.solution import Segment, Solution
+
+FEW = 3
+"""Most positions that are shown each with tables of its own."""
+
+
+def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) -> str:
+    """Return the results of a solution as aligned text of at most 100 columns.
+
+    Up to three positions have tables of their own; more are rows of common tables.
+
+    Parameters
+    ----------
+    solution : Solution
+    lang : str
+        ``ru`` or ``en``.
+    sigma : bool
+        Show how far the drawing may be off beside every value that is read, and what contributes
+        most to it in each of a few positions.
+
+    Raises
+    ------
+    UnknownLanguageError
+    """
+    words = wording(lang)
+    name = solution.problem.title or solution.problem.name
+    variant = f" ({solution.problem.variant})" if solution.problem.variant else ""
+    lines = wrap(name + variant)
+    lines += wrap(words.formula.format(formula=solution.structure.formula), rest="  ")
+    lines += wrap(f"{words.scales}: {'; '.join(scale_texts(solution, words))}", rest="  ")
+    sigmas = Sigmas(solution, words, asked=sigma)
+    if len(solution.positions) > FEW:
+        lines += ["", *_many(solution, words, sigmas)]
+    else:
+        for index in range(len(solution.positions)):
+            lines += ["", *heading(position_line(solution, words, index)), ""]
+            lines += position_tables(solution, words, index, sigmas)
+            lines += _forces(solution, words, index, sigmas)
+            lines += _causes(solution, words, index) if sigma else []
+    ruler = given(solution.hand.ruler, words)
+    lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
+    return "\n".join(lines)
+
+
+def _forces(solution: Solution, words: Wording, index: int, sigmas: Sigmas) -> list[str]:
+    if solution.problem.dynamics is None:
+        return []
+    from planmethod.note.tables.forces import forces_tables
+
+    return ["", *forces_tables(solution, words, index, sigmas)]
+
+
+def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
+    from planmethod.note.tables.causes import Causes
+
+    lines = Causes(Names(solution, words)).lines(index)
+    return ["", *lines] if lines else []
+
+
+def scale_texts(solution: Solution, words: Wording) -> list[str]:
+    """Return the scales as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit where the file says so."""
+    texts = []
+    for kind, scale in solution.scales.items():
+        unit, mm = words.units[UNIT[kind]], words.units["mm"]
+        inner = f"({unit})" if "/" in unit else unit
+        if solution.problem.scales.convention is Convention.MM_PER_UNIT:
+            value, per = 1.0 / scale.per_mm, f"{mm}/{inner}"
+        else:
+            value, per = scale.per_mm, f"{inner}/{mm}"
+        texts.append(f"{SCALE_SYMBOL[kind]} = {given(value, words)} {per}")
+    return texts
+
+
+def position_line(solution: Solution, words: Wording, index: int) -> str:
+    """Return which position is told: its number and the driver's place."""
+    drive = solution.problem.drive
+    template = words.position_crank if drive.is_crank else words.position_slider
+    return template.format(
+        number=index + 1,
+        count=len(solution.positions),
+        symbol=plain_text(f"φ_{{{drive.link}}}") if drive.is_crank else "s",
+        value=given(float(solution.positions[index]), words),
+    )
+
+
+# One position ----------------------------------------------------------------------------------
+
+
+def position_tables(
+    solution: Solution, words: Wording, index: int, sigmas: Sigmas | None = None
+) -> list[str]:
+    """Return the tables of one position: points, links, sliding, segments of the plans."""
+    sigmas = sigmas or Sigmas(solution, words, asked=False)
+    points = _points(solution, words, index, sigmas)
+    parts = [
+        (words.table_points, sigmas.table(sigmas.header(words.columns_points, 4, 6), points)),
+        (words.table_links, _link_tables(solution, words, index, sigmas)),
+    ]
+    sliding = _sliding(solution, words, index, sigmas)
+    if sliding:
+        header = sigmas.header(words.columns_sliding, 2, 4, 6)
+        parts.append((words.table_sliding, sigmas.table(header, sliding)))
+    titles = {
+        PlanKind.POSITION: words.plan_position,
+        PlanKind.VELOCITY: words.plan_velocity,
+        PlanKind.ACCELERATION: words.plan_acceleration,
+    }
+    names = Names(solution, words)
+    for kind, scale in zip(PlanKind, scale_texts(solution, words), strict=True):
+        title = words.table_segments.format(
+            plan=titles[kind][:1].lower() + titles[kind][1:], scale=scale
+        )
+        rows = _segments(solution, names, kind, index, sigmas)
+        if kind is PlanKind.POSITION:
+            lines = sigmas.table(sigmas.header(words.columns_lengths, 2), rows)
+        else:
+            unit = words.units[UNIT[kind]]
+            header = sigmas.header([text.format(unit=unit) for text in words.columns_vectors], 3)
+            lines = sigmas.table(header, rows, left=2)
+        if rows:
+            parts.append((title, lines))
+    lines = []
+    for title, part in parts:
+        lines += [*([""] if lines else []), title, *part]
+    return lines
+
+
+def moving_points(solution: Solution) -> list[str]:
+    """Return the names of the points that are not fixed."""
+    velocity = solution.construction.kinematics.velocity
+    return [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
+
+
+def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+    rows = []
+    for name in moving_points(solution):
+        point, (v, a) = solution.points[name], solution.by_hand_results.points[name]
+        place = point.place[i]
+        row = [name, *(_place(solution, float(x), words) for x in (place.real, place.imag))]
+        for symbol, vector, read in (("v", point.velocity, v), ("a", point.acceleration, a)):
+            row += [found(float(abs(vector[i])), words), found(float(read[i]), words)]
+            row += sigmas.cell(label_of(symbol, name), i)
+        rows.append(row)
+    return rows
+
+
+def _place(solution: Solution, metres: float, words: Wording) -> str:
+    """Return a coordinate; far from the origin with the digits that tell points apart."""
+    draft = solution.construction.draft
+    if draft.origin == 0:
+        return found(metres, words)
+    size = max(length for _, _, length in solution.problem.lengths)
+    return spoken(f"{metres:.{max(0, 4 - math.floor(math.log10(size)))}f}", words)
+
+
+def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[str]:
+    """Return the table of the links; with errors it is one of ω and one of ε: both are wide."""
+    rows = _links(solution, words, i, sigmas)
+    if not sigmas.asked:
+        return table(words.columns_links, rows)
+    header = sigmas.header(words.columns_links, 3, 6)
+    one = sigmas.table(header[:6], [row[:6] for row in rows])
+    two = sigmas.table((header[0], *header[6:]), [[row[0], *row[6:]] for row in rows])
+    return [*one, "", *two]
+
+
+def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+    rows = []
+    for name, link in solution.links.items():
+        omega, epsilon = solution.by_hand_results.links[name]
+        row = [name, fixed(float(link.phi_deg[i]), words)]
+        for symbol, exact, read in (("ω", link.omega[i], omega), ("ε", link.epsilon[i], epsilon)):
+            row += [found(float(exact), words), found(float(read[i]), words)]
+            row += [*sigmas.cell(label_of(symbol, name), i), _sense(exact, words)]
+        rows.append(row)
+    return rows
+
+
+def _sense(value: float, words: Wording) -> str:
+    if abs(value) < 1e-12:
+        return "—"
+    return words.ccw if value > 0 else words.cw
+
+
+def _sliding(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+    rows = []
+    hand = solution.by_hand_results.relatives
+    told = solution.construction.kinematics.relatives.values()
+    for relative, read, named in zip(solution.relatives, hand, told, strict=True):
+        row = [words.sliding_row.format(point=relative.point, of=relative.of, to=relative.to)]
+        exact = (relative.velocity, relative.coriolis, relative.acceleration)
+        name = str(named.speed).removeprefix("v_")
+        for symbol, vector, length in zip(("v", "ak", "ar"), exact, read, strict=True):
+            row += [found(abs(complex(vector[i])), words), found(float(length[i]), words)]
+            row += sigmas.cell(f"{symbol}_{name}", i)
+        rows.append(row)
+    return rows
+
+
+def _segments(
+    solution: Solution, names: Names, kind: PlanKind, i: int, sigmas: Sigmas
+) -> list[list[str]]:
+    words, rows = names.words, []
+    segments = solution.segments(kind)
+
+    def lengths(segment: Segment) -> list[str]:
+        return [*_lengths(segment, words, i), *sigmas.cell(f"{kind.value}.{segment.name}", i)]
+
+    if kind is PlanKind.POSITION:
+        return [[_joined(s), *lengths(s)] for s in segments]
+    mu = solution.scales[kind].per_mm
+    for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
+        value = found(mu * float(segment.read[i]), words)
+        name = names.segment(vector.tail, vector.head)
+        rows.append([plain_text(vector.symbol), name, *lengths(segment), value])
+    return rows
+
+
+def _joined(segment: Segment) -> str:
+    return segment.name.replace("-", "")
+
+
+def _lengths(segment: Segment, words: Wording, i: int) -> list[str]:
+    exact, read = float(segment.exact[i]), float(segment.read[i])
+    return [fixed(exact, words), given(read, words)]
+
+
+def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:
+    if solution.problem.dynamics is None:
+        return []
+    from planmethod.note.tables.forces import forces_columns
+
+    return forces_columns(solution, words)
+
+
+def _resultants(solution: Solution, words: Wording) -> list[str]:
+    from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+
+    said = [*shift_lines(solution.statics, words), *kept_lines(solution.statics, words)]
+    return [line for text in said for line in wrap(plain_text(text))]
+
+
+# Many positions --------------------------------------------------------------------------------
+
+
+def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
+    """Return tables with a row for each position."""
+    drive, hand = solution.problem.drive, solution.by_hand_results
+    symbol = plain_text(f"φ_{{{drive.link}}}, °") if drive.is_crank else f"s, {words.units['m']}"
+    lead = [
+        [words.number, *(str(i + 1) for i in range(len(solution.positions)))],
+        [symbol, *(given(float(p), words) for p in solution.positions)],
+    ]
+    points, links = asked_points(solution), asked_links(solution)
+
+    def column(head: str, values: Iterable[float]) -> list[str]:
+        return [plain_text(head), *(found(float(value), words) for value in values)]
+
+    places = []
+    for name in moving_points(solution):
+        place = solution.points[name].place
+        for axis, values in (("x", place.real), ("y", place.imag)):
+            told = [_place(solution, float(value), words) for value in values]
+            places.append([plain_text(f"{axis}_{{{name}}}"), *told])
+    v = [column(f"v_{{{p}}}", np.abs(solution.points[p].velocity)) for p in points]
+    v += [column(f"ω_{{{k}}}", solution.links[k].omega) for k in links]
+    a = [column(f"a_{{{p}}}", np.abs(solution.points[p].acceleration)) for p in points]
+    a += [column(f"ε_{{{k}}}", solution.links[k].epsilon) for k in links]
+    read_v = [column(f"v_{{{p}}}", hand.points[p][0]) for p in points]
+    read_v += [column(f"ω_{{{k}}}", hand.links[k][0]) for k in links]
+    read_a = [column(f"a_{{{p}}}", hand.points[p][1]) for p in points]
+    read_a += [column(f"ε_{{{k}}}", hand.links[k][1]) for k in links]
+    errors = []
+    for symbol in "vωaε" if sigmas.asked else "":
+        for name in points if symbol in "va" else links:
+            label = label_of(symbol, name)
+            cells = [sigmas.cell(label, i)[0] for i in range(len(solution.positions))]
+            errors.append([plain_text(f"{symbol}_{{{name}}}"), *levelled(cells)])
+    lines: list[str] = []
+    for title, columns in (
+        (words.many_places, places),
+        (words.many_velocities, v),
+        (words.many_by_hand.format(title=words.many_velocities), read_v),
+        (words.many_accelerations, a),
+        (words.many_by_hand.format(title=words.many_accelerations), read_a),
+        (words.many_forces, _many_forces(solution, words)),
+        (words.many_sigmas, errors),
+    ):
+        if columns:
+            lines += [*([""] if lines else []), title, *columns_text([*lead, *columns], len(lead))]
+        if columns and title == words.many_forces:
+            lines += _resultants(solution, words)
+    return lines

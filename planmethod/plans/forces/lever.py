@@ -1,0 +1,84 @@
+"""Zhukovsky lever (жёсткий рычаг Жуковского): the velocity plan turned by 90°, loaded with forces.
+
+A force at a point of the mechanism, carried to the like-named point of the turned velocity plan,
+has there a moment about the pole that is its power; all of them and that of the balancing moment
+give none. A couple M on a link stands there as its pair of forces in the like-named points,
+M·(bc)/l_BC each, which comes to M times the link's angular velocity. The place of a shifted force
+of inertia is a point of its link: there the lever has it beside the centre of mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planmethod.construct.steps import NumberName, PointName
+from planmethod.plans.forces.board import Board, Given
+from planmethod.plans.forces.loads import Shift
+
+
+@dataclass(frozen=True, slots=True)
+class Lever:
+    """The lever of a mechanism (рычаг Жуковского).
+
+    Attributes
+    ----------
+    pole : PointName
+    balance : NumberName
+        Balancing moment on the crank, N·m, or force along the guide of a driving slider, N.
+    hung : tuple of (Given, PointName or None)
+        The loads that do work, and the points of the lever where the forces among them hang.
+    """
+
+    pole: PointName
+    balance: NumberName
+    hung: tuple[tuple[Given, PointName | None], ...] = ()
+
+
+def hang(board: Board) -> Lever | None:
+    """Hang the given loads on the turned velocity plan; None where the driver stands."""
+    b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
+    if drive.rate == 0:
+        return None
+    pole = board.start()
+    powers: list[NumberName] = []
+    hung: list[tuple[Given, PointName | None]] = []
+    for given in board.given:
+        link = given.applied.link
+        if given.couple is not None:
+            if link in board.kin.omega:
+                turning = board.kin.omega[link]
+                powers.append(b.compute(board.name("P"), (given.couple, 1), (turning, 1)))
+                hung.append((given, None))
+            continue
+        assert given.force is not None and given.applied.point is not None
+        at = motion.point[motion.named[given.applied.point]]
+        if at == motion.pole:
+            continue
+        turned = b.carry(board.name("z"), pole, motion.pole, at, turned=True)
+        shift = board.shifts.get(link)
+        if shift is not None and given.force.at == shift.at:
+            turned = _beside(board, shift, turned)
+        hung.append((given, turned))
+        area = b.moment(board.name("h"), pole, turned, given.force.tail, given.force.head)
+        # The plan is turned by +90°: a moment on it is the power with the other sign.
+        powers.append(
+            b.compute(board.name("P"), (area, 1), (board.scale, 1), (motion.scale, 1), factor=-1.0)
+        )
+    rate = board.kin.omega[drive.link] if drive.is_crank else NumberName("v")
+    whole = b.total(board.name("P"), *powers)
+    balance = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
+    return Lever(pole, balance, tuple(hung))
+
+
+def _beside(board: Board, shift: Shift, centre: PointName) -> PointName:
+    """Return the point t of a shifted force: ω·h off the centre of mass, parallel to h.
+
+    On the turned plan the relative velocity lies along the link, against it where that goes
+    counter-clockwise.
+    """
+    b, motion = board.draft.b, board.kin.velocity
+    turning = board.kin.omega[shift.link]
+    times = b.compute(
+        board.name("k"), (turning, 1), (board.draft.mu_l, 1), (motion.scale, -1), factor=-1.0
+    )
+    return b.carry(board.name("t"), centre, shift.centre, shift.at, times)

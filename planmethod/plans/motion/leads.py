@@ -1,0 +1,356 @@
+"""The two leads of which every dyad is made (поводки), on the velocity and acceleration plans.
+
+A revolute lead gives a ray across the link: it starts at the plan point of the link's outer joint
+(on the acceleration plan, after the normal component). A prismatic lead gives a ray along the
+guide: it starts at the plan point of the coincident point of the other link (on the acceleration
+plan, after the Coriolis component). The middle joint is where two rays meet.
+
+Sources: the equations of plane motion and of compound motion, as in "Кинематический анализ плоских
+рычажных механизмов" (section 2.1) and in the homework guide's section 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from planmethod.construct.steps import LineName, NumberName, PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.draft import Draft
+from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
+from planmethod.plans.motion.board import SYMBOL, Motion, Ray, mark
+from planmethod.problem.model import Problem, Slide
+
+
+@dataclass(slots=True)
+class Relative:
+    """Motion of a point of one link relative to the coincident point of another.
+
+    The velocity is from ``start`` to ``head`` on the velocity plan; on the acceleration plan the
+    Coriolis component is from ``a_start`` to ``a_turned`` and the relative one from there to
+    ``a_head``.
+    """
+
+    point: str
+    of: str
+    to: str
+    speed: NumberName
+    start: PointName
+    head: PointName
+    a_start: PointName | None = None
+    a_turned: PointName | None = None
+    a_head: PointName | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """Segment of a plan from which a link's angular velocity or acceleration was read."""
+
+    start: PointName
+    head: PointName
+    joint: str
+    place: str
+
+
+@dataclass(slots=True)
+class Kinematics:
+    """What both plans know of the links' motion (угловые скорости и ускорения).
+
+    A link is in ``omega`` only when it turns; it is in ``epsilon`` only when its angular
+    acceleration is not zero by nature (a crank at constant speed has none).
+    """
+
+    draft: Draft
+    velocity: Motion
+    acceleration: Motion
+    omega: dict[str, NumberName] = field(default_factory=dict)
+    epsilon: dict[str, NumberName] = field(default_factory=dict)
+    relatives: dict[tuple[str, str, str], Relative] = field(default_factory=dict)
+    turnings: dict[tuple[PlanKind, str], Turning] = field(default_factory=dict)
+
+    def share_turning(self, link: str, with_link: str) -> None:
+        """Note that a prismatic pair makes two links turn alike."""
+        for table in (self.omega, self.epsilon):
+            if with_link in table:
+                table[link] = table[with_link]
+
+
+@dataclass(frozen=True, slots=True)
+class Arm:
+    """Segment of a link from a joint to a place, and how its length is known.
+
+    ``length`` holds factors of a length in metres: a given ``l_BC``, or the millimetres read on the
+    drawing times ``mu_l``.
+    """
+
+    line: LineName
+    length: tuple[tuple[NumberName, int], ...]
+
+
+def arm(draft: Draft, link: str, joint: str, place: str) -> Arm:
+    """Return the arm of a link from one of its joints to a place on the drawing."""
+    line = draft.b.join(PointName(joint), PointName(place))
+    if place in draft.problem.bodies[link].points:
+        return Arm(line, ((draft.length(link, joint, place), 1),))
+    return Arm(line, ((draft.measured(joint, place), 1), (draft.mu_l, 1)))
+
+
+def _inverse(powers: tuple[tuple[NumberName, int], ...]) -> tuple[tuple[NumberName, int], ...]:
+    return tuple((name, -power) for name, power in powers)
+
+
+def revolute_ray(kin: Kinematics, motion: Motion, link: str, joint: str, place: str) -> Ray:
+    """Return the ray of a link that hangs on a revolute joint (вращательный поводок).
+
+    ``place`` is where on the drawing the middle point is.
+    """
+    b = kin.draft.b
+    start = motion.point[link, joint]
+    lever = arm(kin.draft, link, joint, place)
+    name = motion.label(link, place)
+    both = f"{name}{joint}"
+    terms: list[Vector] = [motion.absolute(joint, start)]
+    if motion.kind is PlanKind.VELOCITY:
+        line = b.perpendicular(start, lever.line)
+        return Ray(
+            start,
+            line,
+            tuple(terms),
+            (f"v_{{{both}}}", VectorKind.RELATIVE, f"⊥ {mark(place, joint)}"),
+        )
+    end = _normal(kin, motion, link, (joint, place), start, lever)
+    symbol = f"a^{{n}}_{{{both}}}"
+    note = f"{mark(place)} → {mark(joint)}"
+    terms.append(motion.add(Vector(symbol, VectorKind.NORMAL, start, end, Known.BOTH, note)))
+    line = b.perpendicular(end, lever.line)
+    unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, f"⊥ {mark(place, joint)}")
+    return Ray(end, line, tuple(terms), unknown)
+
+
+def _normal(
+    kin: Kinematics,
+    motion: Motion,
+    link: str,
+    ends: tuple[str, str],
+    start: PointName,
+    lever: Arm,
+) -> PointName:
+    """Lay off the normal component omega²·l from the place towards the joint."""
+    b, (joint, place) = kin.draft.b, ends
+    n = motion.name(f"n_{motion.label(link, place)}{joint}")
+    inward = b.parallel(start, b.join(PointName(place), PointName(joint)))
+    length = b.compute(f"|{n}|", (kin.omega[link], 2), *lever.length, (motion.scale, -1))
+    motion.letters.setdefault(PointName(n), [f"n_{{{motion.label(link, place)}{joint}}}"])
+    return b.lay_off(n, start, inward, length)
+
+
+def track_note(slide: Slide, problem: Problem, *, turned: bool = False) -> str:
+    """Return the direction note of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
+
+    ``turned`` asks for the direction across the line. A line on a moving link is named by its
+    point and the pin when the pin is on it, else by the link's own axis where it runs along or
+    across that, else by the link's letters of the line.
+    """
+    along, across = ("⊥", "∥") if turned else ("∥", "⊥")
+    axis = problem.bodies[slide.host].axis
+    if slide.host == FRAME or slide.through is None:
+        return f"{along} {slide.label}"
+    if slide.towards is not None and slide.offset:
+        return f"{along} {mark(slide.through, slide.towards)}"
+    if not slide.offset or axis is None:
+        return f"{along} {mark(slide.through, slide.pin)}"
+    if axis is not None and slide.angle % 180 == 0:
+        return f"{along} {mark(*axis)}"
+    if axis is not None and slide.angle % 180 == 90:
+        return f"{across} {mark(*axis)}"
+    angle = slide.angle + (90.0 if turned else 0.0)
+    return f"∠ {(angle + 90.0) % 180.0 - 90.0:.4g}° {mark(*axis)}"
+
+
+def prismatic_ray(
+    kin: Kinematics, motion: Motion, slide: Slide, of: str, to: str, place: str
+) -> Ray:
+    """Return the ray of a link that slides on another (поступательный поводок).
+
+    ``of`` is the link whose point is sought at ``place``, ``to`` the link it slides on.
+    """
+    b = kin.draft.b
+    guide = kin.draft.direction(slide)
+    start = carried(kin, motion, to, place)
+    base = motion.label(to, place) if to != FRAME else f"{place}0"
+    if (to, place) in motion.alias:
+        base = motion.moving[to][0]  # the whole link moves so: its first letter tells it
+    both = f"{motion.label(of, place)}{base}"
+    problem = kin.draft.problem
+    note = track_note(slide, problem)
+    symbol = SYMBOL[motion.kind]
+    terms: list[Vector] = [motion.absolute(base, start)]
+    if motion.kind is PlanKind.VELOCITY:
+        line = b.parallel(start, guide)
+        return Ray(start, line, tuple(terms), (f"{symbol}_{{{both}}}", VectorKind.SLIDING, note))
+    relative = kin.relatives[place, of, to]
+    relative.a_start = relative.a_turned = start
+    end = start
+    if to in kin.omega:
+        name = motion.name(f"k_{both}")
+        length = b.compute(
+            f"|{name}|",
+            (kin.omega[to], 1),
+            (relative.speed, 1),
+            (motion.scale, -1),
+            factor=2.0,
+        )
+        # v_rel turned by 90 degrees along omega: the signs of both are in the length.
+        end = b.lay_off(name, start, b.perpendicular(start, guide), length)
+        relative.a_turned = end
+        motion.letters.setdefault(end, [f"k_{{{both}}}"])
+        turned = Vector(
+            f"a^{{k}}_{{{both}}}",
+            VectorKind.CORIOLIS,
+            start,
+            end,
+            Known.BOTH,
+            track_note(slide, problem, turned=True),
+        )
+        terms.append(motion.add(turned))
+    line = b.parallel(end, guide)
+    return Ray(end, line, tuple(terms), (f"a^{{r}}_{{{both}}}", VectorKind.SLIDING, note))
+
+
+def close(
+    kin: Kinematics, motion: Motion, links: tuple[str, str], place: str, rays: tuple[Ray, Ray]
+) -> PointName:
+    """Intersect the rays of two leads: the plan point of the middle joint, and its equations."""
+    owner = links[0]
+    name = motion.label(owner, place)
+    # The meeting is counted along the first line: from the pole, what moves along a guide of the
+    # frame does so exactly.
+    first, second = rays if rays[1].start != motion.pole else rays[::-1]
+    head = kin.draft.b.meet_lines(motion.name(name), first.line, second.line)
+    motion.put(owner, place, head, name=name)
+    for ray in rays:
+        unknown = ray.close(motion, head)
+        left = motion.absolute(name, head, Known.NOTHING)
+        motion.equations.append(VectorEquation(left, (*ray.terms, unknown)))
+    return head
+
+
+def read_turning(
+    kin: Kinematics, motion: Motion, link: str, joint: str, place: str, ray: Ray
+) -> None:
+    """Read the angular velocity (or acceleration) of a link off its closed ray."""
+    b = kin.draft.b
+    head = motion.point[link, place]
+    lever = arm(kin.draft, link, joint, place)
+    segment = b.measure_along(f"|{ray.start}→{head}|{ray.line}", ray.start, head, ray.line)
+    kin.turnings[motion.kind, link] = Turning(ray.start, head, joint, place)
+    powers = ((motion.scale, 1), (segment, 1), *_inverse(lever.length))
+    if motion.kind is PlanKind.VELOCITY:
+        kin.omega[link] = b.compute(f"omega_{link}", *powers)
+    else:
+        kin.epsilon[link] = b.compute(f"epsilon_{link}", *powers)
+
+
+def read_sliding(kin: Kinematics, motion: Motion, of: str, to: str, place: str, ray: Ray) -> None:
+    """Read the relative velocity off a closed ray; the acceleration plan only notes its end."""
+    head = motion.point[of, place]
+    if motion.kind is PlanKind.ACCELERATION:
+        kin.relatives[place, of, to].a_head = head
+        return
+    b = kin.draft.b
+    segment = b.measure_along(f"|{ray.start}→{head}|{ray.line}", ray.start, head, ray.line)
+    speed = b.compute(f"v_{place}{of}/{to}", (motion.scale, 1), (segment, 1))
+    kin.relatives[place, of, to] = Relative(place, of, to, speed, ray.start, head)
+
+
+def carried(kin: Kinematics, motion: Motion, link: str, place: str) -> PointName:
+    """Return the plan point of the point of a link that is at ``place`` on the drawing.
+
+    By similarity from two known points; by turning about one known point when the link's angular
+    velocity is known; at once when the link does not turn.
+    """
+    known = motion.point.get((link, place))
+    if known is not None:
+        return known
+    if link == FRAME:
+        return motion.pole
+    body = kin.draft.problem.bodies[link].points
+    here = motion.moving[link]
+    if link not in kin.omega:
+        at = motion.point[link, here[0]]
+        motion.alias.add((link, place))
+        return motion.put(link, place, at, name=motion.label(link, place), show=place in body)
+    name = motion.label(link, place)
+    pair = _spread(motion, link)
+    if pair is not None:
+        p, q = pair
+        at = kin.draft.b.similar(
+            motion.name(name),
+            (motion.point[link, p], motion.point[link, q]),
+            (PointName(p), PointName(q), PointName(place)),
+            read_span=not {p, q} <= set(body),
+            read_arm=place not in body,
+        )
+    else:
+        at = turn_about(kin, motion, link, here[0], place)
+    return motion.put(link, place, at, name=name)
+
+
+def _spread(motion: Motion, link: str) -> tuple[str, str] | None:
+    """Return two known places of a link far enough apart to compare by, the given ones first."""
+    body = motion.draft.problem.bodies[link].points
+    here = motion.moving[link]
+    given = [place for place in here if place in body]
+    pairs = [(p, q) for i, p in enumerate(given) for q in given[i + 1 :] if body[p] != body[q]]
+    if pairs:
+        return max(pairs, key=lambda pair: abs(body[pair[1]] - body[pair[0]]))
+    found = [place for place in here if place not in body]
+    return (given[0], found[0]) if given and found else None
+
+
+def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: str) -> PointName:
+    """Lay off the motion of a place about a known point of a link whose turning is known."""
+    b = kin.draft.b
+    start = motion.point[link, joint]
+    lever = arm(kin.draft, link, joint, place)
+    label = motion.label(link, place)
+    out = motion.name(label)
+    fixed = start == motion.pole
+    both = label if fixed else f"{label}{joint}"
+    terms = [] if fixed else [motion.absolute(joint, start)]
+    if motion.kind is PlanKind.VELOCITY:
+        length = b.compute(f"|{out}|", (kin.omega[link], 1), *lever.length, (motion.scale, -1))
+        head = b.lay_off(out, start, b.perpendicular(start, lever.line), length)
+        note = f"⊥ {mark(place, joint)}"
+        kind = VectorKind.ABSOLUTE if fixed else VectorKind.RELATIVE
+        last = motion.add(Vector(f"v_{{{both}}}", kind, start, head, Known.BOTH, note))
+        if not fixed:
+            left = motion.absolute(label, head, Known.NOTHING)
+            motion.equations.append(VectorEquation(left, (*terms, last)))
+        return head
+    if link in kin.epsilon:
+        end = _normal(kin, motion, link, (joint, place), start, lever)
+        length = b.compute(f"|{out}|", (kin.epsilon[link], 1), *lever.length, (motion.scale, -1))
+        head = b.lay_off(out, end, b.perpendicular(end, lever.line), length)
+    else:
+        inward = b.parallel(start, b.join(PointName(place), PointName(joint)))
+        length = b.compute(f"|{out}|", (kin.omega[link], 2), *lever.length, (motion.scale, -1))
+        head = end = b.lay_off(out, start, inward, length)
+    normal = Vector(
+        f"a^{{n}}_{{{both}}}",
+        VectorKind.NORMAL,
+        start,
+        end,
+        Known.BOTH,
+        f"{mark(place)} → {mark(joint)}",
+    )
+    if end != head or not fixed:
+        terms.append(motion.add(normal))
+    else:
+        terms.append(normal)
+    if end != head:
+        symbol, note = f"a^{{τ}}_{{{both}}}", f"⊥ {mark(place, joint)}"
+        tangential = Vector(symbol, VectorKind.TANGENTIAL, end, head, Known.BOTH, note)
+        terms.append(motion.add(tangential))
+    left = motion.absolute(label, head, Known.NOTHING)
+    motion.equations.append(VectorEquation(left, tuple(terms)))
+    return head

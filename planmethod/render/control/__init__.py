@@ -1,0 +1,1 @@
+"""Norm control of a drawing (нормоконтроль)."""

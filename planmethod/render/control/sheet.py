@@ -1,0 +1,288 @@
+"""Norm control of a whole sheet (нормоконтроль листа): texts, lines, views and the paper.
+
+To the codes of `planmethod.render.control.texts`, which looks at texts, it adds
+
+``PM-D07``  lines of a view leave the frame
+``PM-D08``  segments of a plan are too short to be measured
+``PM-D09``  there is no scale inscription under a view that has a scale
+``PM-D10``  a large part of the paper is unused
+``PM-D11``  a dashed line does not begin and end with a stroke
+``PM-D12``  a dashed line is too short to show its pattern
+``PM-D13``  lines or inscriptions run into the title block or graph 26
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from math import tau
+
+from planmethod.render.control.texts import Finding, beyond, lint, writings_of
+from planmethod.render.control.unused import ink_points, largest_empty
+from planmethod.render.frame.frame import (
+    FRAME_LEFT,
+    FRAME_OTHER,
+    MARGIN_NOTE,
+    STAMP,
+    STAMP_HEIGHT,
+    STAMP_WIDTH,
+)
+from planmethod.render.ink.drawing import Arc, Bounds, Disc, Drawing, Fill, Ink, Item, Stroke, View
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.lettering import using
+from planmethod.render.ink.style import PENS, arc_spans, stroke_lines, sweep
+
+SHORTEST = 5.0
+"""Shortest segment of a plan, mm: half a division of the ruler is then a tenth of it."""
+
+UNUSED = 15.0
+"""Largest empty rectangle, per cent of the field within the frame."""
+
+_TOUCH = 0.05  # mm: what is not yet outside
+_FRAME_TAGS = frozenset({"edge", "frame", STAMP})
+
+
+def inspect(drawing: Drawing) -> list[Finding]:
+    """Look a whole sheet over (нормоконтроль).
+
+    Returns
+    -------
+    list of Finding
+        In the order of the codes, then of the drawing; each knows the view that it is found on.
+    """
+    with using(drawing.lettering):
+        return _inspected(drawing)
+
+
+def _inspected(drawing: Drawing) -> list[Finding]:
+    inner = (
+        FRAME_LEFT,
+        FRAME_OTHER,
+        drawing.width - FRAME_OTHER,
+        drawing.height - FRAME_OTHER,
+    )
+    findings = [
+        *(_attributed(finding, drawing.views, inner) for finding in lint(drawing.items, inner)),
+        *lines_outside(drawing.items, drawing.views, inner),
+        *run_into_graphs(drawing.items, drawing.views),
+        *short_segments(drawing.views),
+        *scales_missing(drawing.items, drawing.views),
+        *unused_paper(drawing.items, inner),
+        *(_attributed(finding, drawing.views, inner) for finding in dashes_unseen(drawing.items)),
+    ]
+    return sorted(findings, key=lambda finding: finding.code)
+
+
+def _attributed(finding: Finding, views: Iterable[View], inner: Bounds) -> Finding:
+    """Return a finding with the view that its place is in, or the title block."""
+    for view in views:
+        if _holds(view.box, finding.where):
+            return replace(finding, view=view.kind)
+    right, low = inner[2], inner[1]
+    if _holds((right - STAMP_WIDTH, low, right, low + STAMP_HEIGHT), finding.where):
+        return replace(finding, view=STAMP)
+    return finding
+
+
+def _holds(box: Bounds, place: complex) -> bool:
+    return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
+
+
+def _meet(one: Bounds, two: Bounds) -> bool:
+    across = one[0] <= two[2] and two[0] <= one[2]
+    return across and one[1] <= two[3] and two[1] <= one[3]
+
+
+def _middle(box: Bounds) -> complex:
+    return complex(box[0] + box[2], box[1] + box[3]) / 2
+
+
+# Views --------------------------------------------------------------------------------------------
+
+
+def lines_outside(items: Sequence[Item], views: Sequence[View], inner: Bounds) -> Iterator[Finding]:
+    """Find views whose lines leave the frame: one finding for each view, at the furthest line."""
+    worst: dict[str, tuple[float, complex]] = {}
+    for item in items:
+        if not isinstance(item, (Stroke, Arc, Fill, Disc)) or item.tag in _FRAME_TAGS:
+            continue
+        if isinstance(item, (Fill, Disc)) and item.ink is Ink.WHITE:
+            continue
+        box = ink_bounds([item])
+        out = beyond(box, inner)
+        if out <= _TOUCH:
+            continue
+        kind = next((view.kind for view in views if _meet(view.box, box)), "")
+        if out > worst.get(kind, (0.0, 0j))[0]:
+            worst[kind] = (out, _furthest(box, inner))
+    for kind, (out, where) in worst.items():
+        yield Finding("PM-D07", where, out, 0.0, {}, view=kind)
+
+
+def run_into_graphs(items: Sequence[Item], views: Sequence[View]) -> Iterator[Finding]:
+    """Find what runs into the title block and the other graphs: one finding for each of them."""
+    graphs = [
+        ink_bounds([item])
+        for item in items
+        if isinstance(item, Stroke) and item.closed and item.tag == STAMP
+    ]
+    others = [(item, ink_bounds([item])) for item in items if not _is_furniture(item)]
+    for box in graphs:
+        found = [_inside(item, box) for item, ink in others if _meet(box, ink)]
+        depth, where = max(found, key=lambda one: one[0], default=(0.0, 0j))
+        if depth > _TOUCH:
+            kind = next((view.kind for view in views if _holds(view.box, where)), "")
+            yield Finding("PM-D13", where, depth, 0.0, {}, view=kind)
+
+
+def _is_furniture(item: Item) -> bool:
+    words = item.tag.split()
+    white = isinstance(item, (Fill, Disc)) and item.ink is Ink.WHITE
+    return white or not _FRAME_TAGS.isdisjoint(words) or MARGIN_NOTE in words
+
+
+def _inside(item: Item, box: Bounds) -> tuple[float, complex]:
+    """Return how deep the ink of an item is in a box, mm, and where it is deepest."""
+    found = (
+        (min(p.real - box[0], box[2] - p.real, p.imag - box[1], box[3] - p.imag), p)
+        for p in ink_points(item)
+        if _holds(box, p)
+    )
+    return max(found, key=lambda one: one[0], default=(0.0, 0j))
+
+
+def _furthest(box: Bounds, inner: Bounds) -> complex:
+    """Return the middle of the side of a box that is furthest outside."""
+    middle = _middle(box)
+    sides = (
+        (inner[0] - box[0], complex(box[0], middle.imag)),
+        (inner[1] - box[1], complex(middle.real, box[1])),
+        (box[2] - inner[2], complex(box[2], middle.imag)),
+        (box[3] - inner[3], complex(middle.real, box[3])),
+    )
+    return max(sides, key=lambda side: side[0])[1]
+
+
+def short_segments(views: Iterable[View]) -> Iterator[Finding]:
+    """Find plans with segments that are too short: one finding for a plan in one position."""
+    for view in views:
+        for position in dict.fromkeys(span.position for span in view.spans):
+            short = [
+                span
+                for span in view.spans
+                if span.position == position and span.length < SHORTEST - 1e-6
+            ]
+            if not short:
+                continue
+            least = min(span.length for span in short)
+            yield Finding(
+                "PM-D08",
+                (short[0].start + short[0].end) / 2,
+                least,
+                SHORTEST,
+                {
+                    "segments": tuple((span.name, round(span.length, 3)) for span in short),
+                    "times": float(f"{SHORTEST / max(least, 1e-3):.2g}"),
+                },
+                view=view.kind,
+                position=position,
+            )
+
+
+def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Finding]:
+    """Find views that have a scale and no inscription of it."""
+    writings = writings_of(items)
+    for view in views:
+        letters = view.scale.translate({ord(sign): None for sign in "_{}"})
+        if not letters:
+            continue
+        said = (
+            _holds(view.box, writing.where)
+            and writing.shown.replace(" ", "").startswith(f"{letters}=")
+            for writing in writings
+        )
+        if not any(said):
+            yield Finding(
+                "PM-D09",
+                complex((view.box[0] + view.box[2]) / 2, view.box[1]),
+                0.0,
+                1.0,
+                {"scale": letters},
+                view=view.kind,
+            )
+
+
+# Paper and lines ----------------------------------------------------------------------------------
+
+
+def unused_paper(items: Iterable[Item], inner: Bounds) -> Iterator[Finding]:
+    """Find an empty rectangle that is too large a part of the field within the frame."""
+    ink = [item for item in items if item.tag not in ("edge", "frame")]
+    box = largest_empty(ink, inner)
+    width, height = box[2] - box[0], box[3] - box[1]
+    share = 100.0 * width * height / ((inner[2] - inner[0]) * (inner[3] - inner[1]))
+    if share > UNUSED:
+        yield Finding(
+            "PM-D10",
+            _middle(box),
+            share,
+            UNUSED,
+            {"width": float(round(width)), "height": float(round(height))},
+        )
+
+
+def dashes_unseen(items: Iterable[Item]) -> Iterator[Finding]:
+    """Find dashed lines that do not begin and end with a stroke, or are too short for a pattern."""
+    for item in items:
+        if not isinstance(item, (Stroke, Arc)) or PENS[item.pen].dashes is None:
+            continue
+        pieces, wanting = _dashed(item)
+        if not pieces:
+            continue
+        where = _middle(ink_bounds([item]))
+        facts = {"thing": f"line {item.pen.value} {item.tag}".rstrip()}
+        if wanting > _TOUCH:
+            yield Finding("PM-D11", where, wanting, 0.0, facts)
+        elif pieces < 2:
+            length = _length(item)
+            yield Finding("PM-D12", where, length, length * _enlarged(item), facts)
+
+
+def _dashed(item: Stroke | Arc) -> tuple[int, float]:
+    """Return how many pieces a line has, and how far its ends are from the strokes, mm."""
+    if isinstance(item, Arc):
+        turn, spans = sweep(item), arc_spans(item)
+        if not spans or turn >= tau - 1e-9:
+            return len(spans), 0.0
+        ends = (abs(spans[0][0] - item.start), abs(sum(spans[-1]) - item.start - turn))
+        return len(spans), max(ends) * item.radius
+    lines = stroke_lines(item)
+    if not lines or item.closed:
+        return len(lines), 0.0
+    ends = (abs(lines[0][0] - item.points[0]), abs(lines[-1][-1] - item.points[-1]))
+    return len(lines), max(ends)
+
+
+def _length(item: Stroke | Arc) -> float:
+    if isinstance(item, Arc):
+        return sweep(item) * item.radius
+    path = [*item.points, *item.points[:1]] if item.closed else item.points
+    return sum(abs(end - start) for start, end in pairwise(path))
+
+
+def _enlarged(item: Stroke | Arc) -> float:
+    """Return how many times larger a figure shows two strokes, to a thousandth."""
+
+    def shows(times: float) -> bool:
+        if isinstance(item, Arc):
+            return _dashed(replace(item, radius=item.radius * times))[0] > 1
+        return _dashed(replace(item, points=tuple(p * times for p in item.points)))[0] > 1
+
+    low, high = 1.0, 2.0
+    while not shows(high) and high < 1e6:
+        low, high = high, 2 * high
+    while high - low > 1e-3 * low:
+        middle = (low + high) / 2
+        low, high = (low, middle) if shows(middle) else (middle, high)
+    return high

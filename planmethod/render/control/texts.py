@@ -1,0 +1,319 @@
+"""Lint of a display list (нормоконтроль чертежа): what a norm controller would mark in texts.
+
+The lint knows nothing of mechanisms: it looks at the paper. Lines, views and the sheet as a whole
+are looked at by `planmethod.render.control.sheet`; what is said is in
+`planmethod.render.control.remarks`.
+Codes:
+
+``PM-D01``  two inscriptions overlap
+``PM-D02``  an inscription lies on a line, arc or filled area
+``PM-D03``  a text leaves the cell it belongs to
+``PM-D04``  a text leaves the frame of the sheet
+``PM-D05``  letters are smaller than the standard allows
+``PM-D06``  a text was shortened because its cell cannot hold it
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from shapely import LineString, Point, Polygon, STRtree, union_all
+from shapely.geometry.base import BaseGeometry
+
+from planmethod.render.control.remarks import REMARKS, Facts, Severity, action, what
+from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
+from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.typeset import PART_OF, SMALLEST, text_bounds, text_corners
+from planmethod.render.labels.model import BREAKABLE, UNDER_LABEL
+from planmethod.render.labels.paper import arc_step
+from planmethod.render.layout.block import CUT
+from planmethod.render.symbols import arc_points
+
+CODES = {code: remark.said["en"].title for code, remark in REMARKS.items()}
+"""Every code of the norm control, those of `planmethod.render.control.sheet` too, and its title."""
+
+SMALLEST_OF_ALL = 1.8
+"""Smallest height of an index and in the title block, mm (the smallest of GOST 2.304)."""
+
+GRID = "grid"
+"""Tag of the lines of the grid that letters are shown on: they are meant to run through them."""
+
+_TOUCH = 0.05  # mm: what is not yet an overlap
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing the norm control has to say (замечание).
+
+    Attributes
+    ----------
+    code : str
+        One of `CODES`.
+    where : complex, mm
+        Place on the sheet, from its lower left corner.
+    value, limit : float
+        What was found and what is allowed: mm, mm² for overlaps, per cent for unused paper.
+    facts : mapping
+        What else the sentences of the code need.
+    view : str
+        Kind of the view it is found on, ``stamp``, or empty.
+    position : int, optional
+        Number of the position whose plan it is found on.
+    """
+
+    code: str
+    where: complex
+    value: float
+    limit: float
+    facts: Facts
+    view: str = ""
+    position: int | None = None
+
+    @property
+    def severity(self) -> Severity:
+        """How grave it is."""
+        return REMARKS[self.code].severity
+
+    @property
+    def message(self) -> str:
+        """What, where, with numbers, in English."""
+        return self.what("en")
+
+    def what(self, lang: str) -> str:
+        """Return what is wrong, where, with numbers."""
+        return what(self.code, self.where, self.value, self.limit, self.facts, lang=lang)
+
+    def action(self, lang: str) -> str:
+        """Return what to do about it."""
+        return action(self.code, self.where, self.value, self.limit, self.facts, lang=lang)
+
+
+@dataclass(frozen=True, slots=True)
+class Writing:
+    """One inscription (надпись): its runs, the ink boxes, where in the drawing order it stands."""
+
+    name: str
+    runs: tuple[Text, ...]
+    ink: BaseGeometry
+    first: int
+    last: int
+
+    @property
+    def shown(self) -> str:
+        """Its letters, those of the indices too."""
+        return "".join(run.text for run in self.runs)
+
+    @property
+    def where(self) -> complex:
+        """Place of its first run, mm."""
+        return self.runs[0].at
+
+
+def lint(
+    items: Sequence[Item],
+    inner: Bounds | None = None,
+    *,
+    ignore: Iterable[Pen] = (),
+) -> list[Finding]:
+    """Look a display list over and return what is wrong with its texts (нормоконтроль).
+
+    Parameters
+    ----------
+    items : sequence of Item
+        In drawing order: a line drawn before a white area is hidden by it.
+    inner : Bounds, mm, optional
+        Inside of the frame; texts tagged as margin notes may be outside.
+    ignore : iterable of Pen
+        Lines that may run under letters.
+
+    Returns
+    -------
+    list of Finding
+        In the order of the codes, then of the drawing.
+    """
+    writings = writings_of(items)
+    findings = [
+        *_overlaps(writings),
+        *_crossed(writings, items, frozenset(ignore)),
+        *_outside(items, inner),
+        *_small(writings),
+        *_shortened(writings),
+    ]
+    return sorted(findings, key=lambda finding: finding.code)
+
+
+def writings_of(items: Sequence[Item]) -> list[Writing]:
+    """Join the runs of one label."""
+    groups: dict[str, list[tuple[int, Text]]] = {}
+    for k, item in enumerate(items):
+        if isinstance(item, Text) and item.text.strip():
+            groups.setdefault(item.label or f"\0{k}", []).append((k, item))
+    return [
+        Writing(
+            name,
+            tuple(run for _, run in members),
+            union_all([_ink(run) for _, run in members]),
+            members[0][0],
+            members[-1][0],
+        )
+        for name, members in groups.items()
+    ]
+
+
+def _ink(run: Text) -> BaseGeometry:
+    return Polygon([(p.real, p.imag) for p in text_corners(run)])
+
+
+def _overlaps(writings: Sequence[Writing]) -> Iterator[Finding]:
+    inks = [writing.ink for writing in writings]
+    if not inks:
+        return
+    tree = STRtree(inks)
+    for one, two in sorted(zip(*tree.query(inks, predicate="intersects").tolist(), strict=True)):
+        if one >= two:
+            continue
+        common = inks[one].intersection(inks[two])
+        if common.area > _TOUCH**2 and _depth(common) > _TOUCH:
+            first, second = writings[one], writings[two]
+            yield Finding(
+                "PM-D01",
+                first.where,
+                common.area,
+                0.0,
+                {"one": first.shown, "two": second.shown},
+            )
+
+
+def _depth(area: BaseGeometry) -> float:
+    x0, y0, x1, y1 = area.bounds
+    return float(min(x1 - x0, y1 - y0))
+
+
+def _crossed(
+    writings: Sequence[Writing], items: Sequence[Item], ignore: frozenset[Pen]
+) -> Iterator[Finding]:
+    """Find lines and areas that run through letters and are not hidden by white.
+
+    The white ground that a label of a crowd brings hides thin lines alone; what else it covers is
+    as bad as letters on it.
+    """
+    seen = ((k, item) for k, item in enumerate(items) if item.tag != GRID)
+    things = [(k, shape) for k, item in seen if (shape := _shape(item, ignore))]
+    whites = [(k, s) for k, s in things if _is_white(items[k])]
+    tree = STRtree([shape for _, shape in things])
+    for writing in writings:
+        for hit in sorted(tree.query(writing.ink, predicate="intersects").tolist()):
+            order, shape = things[hit]
+            item = items[order]
+            if item.tag == PART_OF + writing.name:
+                continue
+            if _is_white(item):
+                # White before the letters is a clean ground for them; after, it hides them.
+                if order < writing.last:
+                    continue
+                common = shape.intersection(writing.ink)
+            else:
+                common = shape.intersection(writing.ink)
+                for k, white in whites:
+                    if items[k].tag == UNDER_LABEL and not _breaks(item):
+                        continue
+                    if order < k < writing.first and white.intersects(common):
+                        common = common.difference(white)
+            extent = common.length
+            if extent > 2 * _TOUCH:
+                yield Finding(
+                    "PM-D02",
+                    writing.where,
+                    extent,
+                    0.0,
+                    {"shown": writing.shown, "thing": called(item)},
+                )
+
+
+def _is_white(item: Item) -> bool:
+    return isinstance(item, (Fill, Disc)) and item.ink is Ink.WHITE
+
+
+def _breaks(item: Item) -> bool:
+    """Tell whether the white ground of a label may break a thing: a thin line, nothing else."""
+    return isinstance(item, (Stroke, Arc)) and item.pen in BREAKABLE
+
+
+def _shape(item: Item, ignore: frozenset[Pen]) -> BaseGeometry | None:
+    """Return what a thing covers: a line, or an area when it is filled."""
+    match item:
+        case Stroke(points=path, pen=pen, closed=closed) if len(path) > 1 and pen not in ignore:
+            ends = (*path, path[0]) if closed else path
+            return LineString([(p.real, p.imag) for p in ends])
+        case Arc(pen=pen) if pen not in ignore:
+            return LineString([(p.real, p.imag) for p in arc_points(item, step=arc_step(item))])
+        case Fill(points=path) if len(path) > 2:
+            return Polygon([(p.real, p.imag) for p in path]).buffer(0)
+        case Disc(centre=centre, radius=radius):
+            return Point(centre.real, centre.imag).buffer(radius)
+    return None
+
+
+def called(item: Item) -> str:
+    """Return what a thing is called in the facts of a finding: kind, pen, tag."""
+    pen = item.pen.value if isinstance(item, (Stroke, Arc)) else ""
+    return f"{type(item).__name__.lower()} {pen} {item.tag}".rstrip()
+
+
+def _outside(items: Sequence[Item], inner: Bounds | None) -> Iterator[Finding]:
+    for run in items:
+        if not isinstance(run, Text) or not run.text.strip():
+            continue
+        ink = text_bounds(run)
+        if run.box is not None and (out := beyond(ink, run.box)) > _TOUCH:
+            yield Finding(
+                "PM-D03",
+                run.at,
+                out,
+                0.0,
+                {"shown": run.text},
+            )
+        if inner is None or MARGIN_NOTE in run.tag.split():
+            continue
+        if (out := beyond(ink, inner)) > _TOUCH:
+            yield Finding(
+                "PM-D04",
+                run.at,
+                out,
+                0.0,
+                {"shown": run.text},
+            )
+
+
+def beyond(ink: Bounds, limits: Bounds) -> float:
+    """Return how far a box sticks out of another, mm."""
+    return max(limits[0] - ink[0], limits[1] - ink[1], ink[2] - limits[2], ink[3] - limits[3])
+
+
+def _small(writings: Sequence[Writing]) -> Iterator[Finding]:
+    for writing in writings:
+        main = max(run.height for run in writing.runs)
+        for run in writing.runs:
+            small = run.height < main or STAMP in run.tag.split()
+            limit = SMALLEST_OF_ALL if small else SMALLEST
+            if run.height < limit - 1e-6:
+                yield Finding(
+                    "PM-D05",
+                    run.at,
+                    run.height,
+                    limit,
+                    {"shown": run.text, "whole": writing.shown},
+                )
+
+
+def _shortened(writings: Sequence[Writing]) -> Iterator[Finding]:
+    for writing in writings:
+        if any(CUT in run.tag.split() for run in writing.runs):
+            yield Finding(
+                "PM-D06",
+                writing.where,
+                1.0,
+                0.0,
+                {"shown": writing.shown},
+            )

@@ -1,0 +1,1 @@
+"""Frame and title block of a sheet (рамка и основная надпись)."""

@@ -1,0 +1,152 @@
+"""Title block (основная надпись): what its fields are, and a form drawn with its texts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+from types import MappingProxyType
+
+from planmethod.errors import LayoutError
+from planmethod.render.frame.forms import FORM_1, Cell, Form
+from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
+from planmethod.render.ink.style import HEIGHTS
+from planmethod.render.ink.typeset import smaller_heights
+from planmethod.render.layout.block import fit
+
+STAMP = "stamp"
+"""Tag of the lines and texts of the title block."""
+
+STAMP_FIELDS: Mapping[str, str] = MappingProxyType(
+    {
+        "designation": "Обозначение (графа 2): ТММ.КП.12.03.00.000",
+        "title": "Наименование (графа 1): what the sheet shows",
+        "material": "Материал (графа 3): the subject in coursework",
+        "subject": "the same place as material: the discipline or theme",
+        "organisation": "Организация (графа 9), first line",
+        "department": "Кафедра: second line of graph 9",
+        "group": "Группа: third line of graph 9",
+        "author": "Разраб.: surname",
+        "checker": "Пров.: surname",
+        "t_control": "Т.контр.: surname",
+        "norm_control": "Н.контр.: surname",
+        "approver": "Утв.: surname",
+        "extra": "surname in the free row",
+        "extra_role": "what the free row is for: Конс.",
+        "date": "the same place as author_date",
+        "author_date": "date beside the surname of the author",
+        "checker_date": "date",
+        "t_control_date": "date",
+        "norm_control_date": "date",
+        "approver_date": "date",
+        "extra_date": "date",
+        "letter": "Литера (графа 4), up to three letters: У",
+        "mass": "Масса (графа 5)",
+        "scale": "Масштаб (графа 6): 1:2",
+        "sheet": "Лист (графа 7): number of the sheet",
+        "sheets": "Листов (графа 8): how many sheets",
+        "inventory": "Инв. № подл. (графа 19), in the side columns",
+        "inventory_instead": "Взам. инв. № (графа 21), in the side columns",
+        "inventory_copy": "Инв. № дубл. (графа 22), in the side columns",
+        "reference": "Справ. № (графа 24), in the side columns of the first sheet",
+        "first_use": "Перв. примен. (графа 25), in the side columns of the first sheet",
+    }
+)
+"""Fields of the title block and what they are; all of them are optional."""
+
+ALIASES: Mapping[str, str] = MappingProxyType({"subject": "material", "date": "author_date"})
+"""Fields with a second name, for those who look for the meaning and not for the graph."""
+
+SHARED = ("organisation", "department", "group")
+"""Fields that share graph 9, from the top."""
+
+
+def merged(*layers: Mapping[str, str]) -> dict[str, str]:
+    """Return the fields of several layers, the later ones over the earlier.
+
+    A field has one place whatever it is called: ``date`` of a layer outranks ``author_date`` of the
+    layers below. An empty text clears the field.
+    """
+    fields: dict[str, str] = {}
+    for layer in layers:
+        fields |= {ALIASES[key]: text for key, text in layer.items() if key in ALIASES}
+        fields |= {key: text for key, text in layer.items() if key not in ALIASES}
+    return {key: text for key, text in fields.items() if text}
+
+
+def title_block(
+    fields: Mapping[str, str] = MappingProxyType({}), form: Form = FORM_1
+) -> list[Item]:
+    """Return the title block, its lower left corner at the origin.
+
+    A text that does not fit its cell shrinks to the next letter height, then is wrapped, then
+    shrinks further; it never leaves the cell. Fields that the form has no graph for are not shown.
+
+    Raises
+    ------
+    LayoutError
+        If a field is unknown.
+    """
+    check_fields(fields)
+    values = merged({key: str(value).strip() for key, value in fields.items()})
+    letters = values.get("letter", "").replace(" ", "")
+    divided = len(letters) <= len(form.letters)
+    items: list[Item] = []
+    for lines, pen in (
+        ((*form.thin, *(form.dividers if divided else ())), Pen.THIN),
+        (form.thick, Pen.FRAME),
+    ):
+        items += [
+            Stroke((complex(x0, y0), complex(x1, y1)), pen, tag=STAMP) for x0, y0, x1, y1 in lines
+        ]
+    items.append(rectangle((0.0, 0.0, form.width, form.height), Pen.FRAME, STAMP))
+    for caption, box, align in form.captions:
+        items += filled(caption, Cell(box, 2.5, align))
+    for key, cell in form.cells.items():
+        if key in values:
+            items += filled(values[key], cell)
+    whole = "\n".join(values[key] for key in SHARED if key in values)
+    if whole and form.organisation is not None:
+        items += filled(whole, form.organisation)
+    items += _letters(letters, form.letters, divided=divided)
+    return items
+
+
+def _letters(letters: str, boxes: tuple[Bounds, ...], *, divided: bool) -> Iterable[Item]:
+    """Yield graph 4: a letter in each small cell, or all of them in one where there are more."""
+    if not boxes or not letters:
+        return
+    if not divided:
+        yield from filled(letters, Cell((*boxes[0][:2], *boxes[-1][2:]), 3.5))
+        return
+    for letter, box in zip(letters, boxes, strict=False):
+        yield from filled(letter, Cell(box, 3.5))
+
+
+def check_fields(fields: Iterable[str]) -> None:
+    """Refuse a field that is unknown, and name the nearest one.
+
+    Raises
+    ------
+    LayoutError
+    """
+    for key in fields:
+        if key not in STAMP_FIELDS:
+            near = get_close_matches(key, STAMP_FIELDS, n=1)
+            hint = f"Did you mean {near[0]}?" if near else f"Known: {', '.join(STAMP_FIELDS)}."
+            raise LayoutError(f"Unknown field {key!r} of the title block. {hint}")
+
+
+def filled(text: str, cell: Cell, tag: str = STAMP) -> list[Item]:
+    """Put a text into its cell; in narrow cells less white is left at the sides."""
+    wide = cell.box[2] - cell.box[0]
+    pad = 0.2 if wide <= 7 else 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5
+    # 2.5 mm is the smallest for drawings; 1.8, the smallest of all, is better than a cut surname.
+    heights = (*smaller_heights(cell.height), HEIGHTS[0])
+    return fit(text, cell.box, heights, align=cell.align, pad=pad, tag=tag)
+
+
+def rectangle(box: Bounds, pen: Pen, tag: str) -> Stroke:
+    """Return the outline of a box."""
+    x0, y0, x1, y1 = box
+    corners = (complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1))
+    return Stroke(corners, pen, closed=True, tag=tag)

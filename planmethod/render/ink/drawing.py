@@ -1,0 +1,192 @@
+"""Display list: what is on the paper, mm, y up, origin at the sheet's lower left corner.
+
+Everything that draws makes these records; every output format (backend) replays them. The list is
+plain data, so tests compare lists, not pictures, and a lint can look for labels that collide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from typing import TypeAlias
+
+from planmethod.render.ink.lettering import OutlineLettering, in_use
+
+
+class Pen(Enum):
+    """Meaning of a line; width and dashes follow from it in `style` (назначение линии)."""
+
+    MAIN = "main"  # links, vectors, table outline
+    THIN = "thin"  # construction, leaders, table lines
+    FRAME = "frame"  # frame and title block
+    AXIS = "axis"  # dash-dot: axes, guide lines
+    HIDDEN = "hidden"  # dashed
+    THICK_AXIS = "thick axis"  # thick dash-dot: surfaces that are treated
+    PHANTOM = "phantom"  # dash-dot with two dots: a link in another position
+    HATCH = "hatch"  # hatching of the frame
+    BREAK = "break"  # wavy or kinked: where a link is broken off
+    PALE = "pale"  # other positions of the mechanism
+
+
+class Ink(Enum):
+    """What a filled area is filled with."""
+
+    BLACK = "black"
+    WHITE = "white"
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """Open or closed polyline."""
+
+    points: tuple[complex, ...]
+    pen: Pen = Pen.MAIN
+    closed: bool = False
+    tag: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """Circular arc, counter-clockwise from ``start`` to ``end`` (radians); by default a circle."""
+
+    centre: complex
+    radius: float
+    start: float = 0.0
+    end: float = 6.283185307179586
+    pen: Pen = Pen.MAIN
+    tag: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Fill:
+    """Filled polygon: an arrowhead, a rigid corner, the white inside of a joint."""
+
+    points: tuple[complex, ...]
+    ink: Ink = Ink.BLACK
+    tag: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """Filled circle."""
+
+    centre: complex
+    radius: float
+    ink: Ink = Ink.WHITE
+    tag: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """One run of letters; ``at`` is the left end of its base line (always left anchored).
+
+    ``height`` is the cap height h of GOST 2.304 in mm, ``angle`` turns the run about ``at``,
+    degrees.
+    ``label`` groups the runs of one inscription (a letter and its index): the lint treats runs with
+    one non-empty label as one. ``box`` is the cell that the text must stay in, or None.
+    """
+
+    at: complex
+    text: str
+    height: float
+    angle: float = 0.0
+    label: str = ""
+    box: tuple[float, float, float, float] | None = None  # xmin, ymin, xmax, ymax
+    tag: str = ""
+
+
+Item: TypeAlias = Stroke | Arc | Fill | Disc | Text
+Bounds: TypeAlias = tuple[float, float, float, float]
+"""xmin, ymin, xmax, ymax in mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """One segment of a plan as it lies on the sheet (отрезок плана).
+
+    ``name`` is its letters, ``position`` the number of the position as the sheet has it (None when
+    there is one), ``start`` and ``end`` are mm.
+    """
+
+    name: str
+    position: int | None
+    start: complex
+    end: complex
+
+    @property
+    def length(self) -> float:
+        """Length, mm."""
+        return abs(self.end - self.start)
+
+
+VIEW_KINDS = (
+    "position", "velocity", "acceleration", "forces", "balance", "reactions", "hodograph",
+    "structure",
+)  # fmt: skip
+"""Kinds of views: whoever tells of them has a word for each."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """One view of a sheet, for those who look the sheet over (вид).
+
+    Attributes
+    ----------
+    kind : str
+        One of `VIEW_KINDS`.
+    box : Bounds, mm
+        The picture with its title and inscriptions.
+    scale : str
+        What the inscription of its scale begins with, ``μ_{v}``; empty where a view has no scale.
+    per_mm : float
+        The scale, SI units per mm.
+    spans : tuple of Span
+        The segments that are measured on it.
+    """
+
+    kind: str
+    box: Bounds
+    scale: str = ""
+    per_mm: float = 0.0
+    spans: tuple[Span, ...] = ()
+
+
+@dataclass(slots=True)
+class Drawing:
+    """Display list of one sheet, drawn in order (чертёж), and what its views are.
+
+    ``lettering`` is that in which its texts were measured: the output formats draw them in it.
+    """
+
+    width: float
+    height: float
+    title: str = ""
+    items: list[Item] = field(default_factory=list)
+    views: list[View] = field(default_factory=list)
+    lettering: OutlineLettering = field(default_factory=in_use)
+
+    def add(self, *items: Item) -> None:
+        """Append items."""
+        self.items.extend(items)
+
+    def extend(self, items: Iterable[Item]) -> None:
+        """Append many items."""
+        self.items.extend(items)
+
+
+def shifted(items: Iterable[Item], by: complex) -> Iterator[Item]:
+    """Yield the items moved by ``by`` mm."""
+    for item in items:
+        match item:
+            case Stroke(points=points):
+                yield replace(item, points=tuple(point + by for point in points))
+            case Fill(points=points):
+                yield replace(item, points=tuple(point + by for point in points))
+            case Arc(centre=centre) | Disc(centre=centre):
+                yield replace(item, centre=centre + by)
+            case Text(at=at, box=box):
+                if box is not None:
+                    dx, dy = by.real, by.imag
+                    box = (box[0] + dx, box[1] + dy, box[2] + dx, box[3] + dy)
+                yield replace(item, at=at + by, box=box)

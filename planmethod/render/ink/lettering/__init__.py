@@ -1,0 +1,311 @@
+"""Lettering behind one interface: widths and outlines of the letters, whatever their source.
+
+`Lettering` is all that the rest of the renderer knows of letters, and it asks `in_use` for the one
+that a sheet is set in; `using` sets another. The output formats need outlines too: they know
+`OutlineLettering`, which a `Drawing` brings along.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, NamedTuple, Protocol
+
+from planmethod.errors import LayoutError
+from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
+
+FONTS = Path(__file__).parent.parent / "fonts"
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """One of the four letterings of GOST 2.304: type A or B, upright or slanted by about 75°."""
+
+    kind: str
+    slanted: bool
+
+    @property
+    def proportions(self) -> Proportions:
+        """Measures of its letters."""
+        return TYPES[self.kind]
+
+    @property
+    def lean(self) -> float:
+        """How far its letters lean to the right on the way up."""
+        return SLANT if self.slanted else 0.0
+
+    @property
+    def name(self) -> str:
+        """Name of the font's files."""
+        return f"PlanmethodGOST-{self.kind}{'-Slanted' if self.slanted else ''}"
+
+
+STYLES: Mapping[str, Style] = MappingProxyType(
+    {
+        "B": Style("B", slanted=True),
+        "B-upright": Style("B", slanted=False),
+        "A": Style("A", slanted=True),
+        "A-upright": Style("A", slanted=False),
+    }
+)
+"""Letterings by the name that a user gives: with slope unless said otherwise."""
+
+
+class Lettering(Protocol):
+    """What typesetting needs of a lettering (шрифт); heights are cap heights h in mm."""
+
+    @property
+    def name(self) -> str:
+        """Name of the lettering."""
+        ...
+
+    def __hash__(self) -> int:
+        """Letterings are told apart: what was set once is kept by lettering."""
+        ...
+
+    def width(self, text: str, height: float) -> float:
+        """Return the advance of a run of letters, mm."""
+        ...
+
+    def ink(self, text: str, height: float) -> tuple[float, float, float, float]:
+        """Return the bounds xmin, ymin, xmax, ymax of the ink of a run at the origin, mm."""
+        ...
+
+    def ascent(self, text: str, height: float) -> float:
+        """Return how far the ink of this run rises above the base line, mm."""
+        ...
+
+    def descent(self, text: str, height: float) -> float:
+        """Return how far the ink of this run goes below the base line, mm (positive)."""
+        ...
+
+
+class Glyph(NamedTuple):
+    """One letter in font units, y up, origin on the base line.
+
+    ``outline`` is an SVG path of M, L and Z with absolute coordinates, filled by the non-zero
+    rule; it is empty for a blank, and the bounds are then all zero.
+    """
+
+    advance: int
+    xmin: int
+    ymin: int
+    xmax: int
+    ymax: int
+    outline: str
+
+
+@dataclass(eq=False)
+class OutlineLettering:
+    """Lettering read from the data files that ``scripts/make_font.py`` makes.
+
+    Letters stand side by side by their advances, some pairs closer: `places` tells where, so that
+    every output format places them alike. The data are read when the first letter is asked for.
+    """
+
+    style: Style = STYLES["B"]
+
+    @property
+    def name(self) -> str:
+        """Name of the font."""
+        return self.style.name
+
+    @property
+    def font_file(self) -> Path:
+        """The font (TrueType) with the same outlines, for formats that embed one."""
+        return FONTS / f"{self.name}.ttf"
+
+    @cached_property
+    def _data(self) -> dict[str, Any]:
+        path = FONTS / f"{self.name}.json"
+        data: dict[str, Any] = json.loads(path.read_text(encoding="ascii"))
+        return data
+
+    @cached_property
+    def cap_height(self) -> int:
+        """Height of a capital letter in font units: what the height h of GOST 2.304 measures."""
+        return int(self._data["cap_height"])
+
+    @cached_property
+    def units_per_em(self) -> int:
+        """Font units in the size by which other programs call a font."""
+        return int(self._data["units_per_em"])
+
+    @cached_property
+    def _runs(self) -> dict[str, tuple[int, int, int, int]]:
+        return {}
+
+    @cached_property
+    def _glyphs(self) -> dict[str, Glyph]:
+        return {}
+
+    @property
+    def line(self) -> float:
+        """Thickness d of a letter's lines, in parts of h."""
+        return 1.0 / self.style.proportions.cap
+
+    @property
+    def line_step(self) -> float:
+        """Step of base lines of consecutive lines, in parts of h."""
+        return self.style.proportions.line_step / self.style.proportions.cap
+
+    def em(self, height: float) -> float:
+        """Return the font size whose capitals are ``height`` high, in the unit of ``height``."""
+        return height * self.units_per_em / self.cap_height
+
+    def outline(self, char: str) -> Glyph:
+        """Return the letter ``char``, or a box when the lettering has no such letter."""
+        glyph = self._glyphs.get(char)
+        if glyph is None:
+            table = self._data["glyphs"]
+            glyph = Glyph(*table.get(f"{ord(char):x}", table[""]))
+            self._glyphs[char] = glyph
+        return glyph
+
+    def missing(self, text: str) -> set[str]:
+        """Return the letters of ``text`` that would come out as a box."""
+        table = self._data["glyphs"]
+        return {char for char in text if f"{ord(char):x}" not in table}
+
+    def places(self, text: str) -> list[tuple[str, int]]:
+        """Return each letter of a run and where its origin stands, font units."""
+        placed: list[tuple[str, int]] = []
+        pen, before, closer, kern = 0, "", self._data["closer"], self._data["kern"]
+        for char in text:
+            if char in closer.get(before, ""):
+                pen += kern
+            placed.append((char, pen))
+            pen += self.outline(char).advance
+            before = char
+        return placed
+
+    def pieces(self, text: str) -> list[tuple[int, str]]:
+        """Return the parts of a run inside which letters follow one another by their advances.
+
+        Returns
+        -------
+        list of (int, str)
+            Where a part starts, font units, and its letters.
+        """
+        parts: list[tuple[int, str]] = []
+        end = None
+        for char, pen in self.places(text):
+            if pen == end:
+                start, letters = parts.pop()
+                parts.append((start, letters + char))
+            else:
+                parts.append((pen, char))
+            end = pen + self.outline(char).advance
+        return parts
+
+    def width(self, text: str, height: float) -> float:
+        """Return the advance of a run of letters, mm."""
+        if not text:
+            return 0.0
+        last, pen = self.places(text)[-1]
+        return (pen + self.outline(last).advance) * height / self.cap_height
+
+    def ink(self, text: str, height: float) -> tuple[float, float, float, float]:
+        """Return the bounds of the ink of a run that starts at the origin.
+
+        Returns
+        -------
+        tuple of float
+            xmin, ymin, xmax, ymax, mm; all zero when the run has no ink.
+        """
+        unit = height / self.cap_height
+        left, low, right, high = self._units(text)
+        return (left * unit, low * unit, right * unit, high * unit)
+
+    def _units(self, text: str) -> tuple[int, int, int, int]:
+        """Return the ink bounds in font units; runs recur, so they are kept."""
+        found = self._runs.get(text)
+        if found is not None:
+            return found
+        boxes = []
+        for char, pen in self.places(text):
+            glyph = self.outline(char)
+            if glyph.outline:
+                boxes.append((pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax))
+        if boxes:
+            left, low, right, high = zip(*boxes, strict=True)
+            bounds = (min(left), min(low), max(right), max(high))
+        else:
+            bounds = (0, 0, 0, 0)
+        self._runs[text] = bounds
+        return bounds
+
+    def strokes(self, char: str) -> tuple[tuple[complex, ...], ...]:
+        """Return what the middle of the pen does for a letter, in parts of h, slanted if it is."""
+        from planmethod.render.ink.lettering.skeleton import has, missing_box, skeleton
+
+        kind, measures = self.style.kind, self.style.proportions
+        drawn = skeleton(char, kind) if has(char) else missing_box(kind)
+        lean, waist = self.style.lean, measures.small / 2
+        return tuple(
+            tuple((p + lean * (p.imag - waist)) / measures.cap for p in line)
+            for line in drawn.strokes
+        )
+
+    @property
+    def side(self) -> float:
+        """White that a letter has at each side, in parts of h: half the gap between letters."""
+        return self.style.proportions.gap / 2 * self.line
+
+    def leaning(self, y: float, height: float) -> float:
+        """Return how far to the right slanted letters lean at a height above the base line, mm."""
+        return self.style.lean * (y - height * self.style.proportions.small / 2 * self.line)
+
+    def ascent(self, text: str, height: float) -> float:
+        """Return how far the ink of this run rises above the base line, mm."""
+        return max(0.0, self.ink(text, height)[3])
+
+    def descent(self, text: str, height: float) -> float:
+        """Return how far the ink of this run goes below the base line, mm (positive)."""
+        return max(0.0, -self.ink(text, height)[1])
+
+
+@cache
+def lettering(name: str) -> OutlineLettering:
+    """Return the lettering of a name in `STYLES`.
+
+    Raises
+    ------
+    LayoutError
+        If there is no such lettering.
+    """
+    latin = name.strip().replace("А", "A").replace("Б", "B").replace("В", "B")
+    style = STYLES.get(latin)
+    if style is None:
+        raise LayoutError(f"Unknown lettering {name!r}. Choose one of: {', '.join(STYLES)}.")
+    return OutlineLettering(style)
+
+
+_DEFAULT = lettering("B")
+_IN_USE: ContextVar[OutlineLettering | None] = ContextVar("lettering", default=None)
+
+
+def in_use() -> OutlineLettering:
+    """Return the lettering that texts are set in."""
+    return _IN_USE.get() or _DEFAULT
+
+
+@contextmanager
+def using(lettering: OutlineLettering) -> Iterator[OutlineLettering]:
+    """Set texts in another lettering inside the ``with`` block."""
+    token = _IN_USE.set(lettering)
+    try:
+        yield lettering
+    finally:
+        _IN_USE.reset(token)
+
+
+def missing(text: str) -> set[str]:
+    """Return the letters of ``text`` that the lettering in use has not."""
+    return in_use().missing(text)

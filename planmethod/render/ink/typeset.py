@@ -1,0 +1,396 @@
+r"""Rich text (набор строки с индексами): markup to runs of letters placed absolutely.
+
+The markup is small and reads like the textbook::
+
+    v_{CB}          index below; one sign needs no braces: v_B
+    a^{n}_{CB}      index above and index below, stacked, in either order
+    \bar{v}_{B}     overbar: a thin line above the letters in the braces
+    B_{3_{1}}       an index may have an index
+
+Any other text stands for itself, Russian included. A literal ``_``, ``^``, ``{``, ``}`` or
+backslash is written with a backslash before it (``\_``); `escape` does that for text from outside.
+"""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import radians
+from typing import Literal, TypeAlias
+
+from planmethod.errors import LayoutError
+from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
+from planmethod.render.ink.lettering import Lettering, in_use
+from planmethod.render.ink.style import HEIGHTS
+
+SMALLEST = 2.5
+"""Smallest height of a run that is not an index, mm."""
+
+PART_OF = "part-of:"
+"""Tag prefix of a line that belongs to an inscription: ``part-of:<label>``."""
+
+Anchor: TypeAlias = Literal["left", "centre", "right"]
+
+_SPECIAL = "_^{}\\"
+_SUB_DROP = 0.3  # of h: how far an index below sinks under the base line
+_SUP_RISE = 0.5  # of h: how far the base line of an index above rises
+_STACK_GAP = 0.16  # of h: white between two stacked indices
+_BAR_INSET = 0.1  # of h: white between an overbar and an index that follows
+_BAR_GAP = 0.16  # of h: white between the letter and its overbar
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Letters of one height, placed from the start of the inscription, mm."""
+
+    x: float
+    y: float
+    text: str
+    height: float
+
+
+@dataclass(frozen=True, slots=True)
+class Inscription:
+    """Typeset line (надпись): what it is made of and how much room it takes.
+
+    Attributes
+    ----------
+    markup : str
+    height : float, mm
+        Cap height of the main letters.
+    width, ascent, descent : float, mm
+        Ink room to the right of the origin, above and below the base line (descent positive).
+    runs : tuple of Run
+    bars : tuple of (x0, x1, y), mm
+        Overbars.
+    """
+
+    markup: str
+    height: float
+    width: float
+    ascent: float
+    descent: float
+    runs: tuple[Run, ...]
+    bars: tuple[tuple[float, float, float], ...] = ()
+
+    def at(
+        self,
+        point: complex,
+        *,
+        anchor: Anchor = "left",
+        angle: float = 0.0,
+        label: str = "",
+        box: Bounds | None = None,
+        tag: str = "",
+    ) -> list[Item]:
+        """Return the items of the inscription with its base line starting at a point.
+
+        Parameters
+        ----------
+        point : complex, mm
+            Left end of the base line; its middle or right end when ``anchor`` says so.
+        angle : float, degrees
+            Turn about ``point``, counter-clockwise.
+        label : str
+            Name that joins the runs for the lint; made of markup and place when empty.
+        box : Bounds, optional
+            Cell that the text must stay in.
+        """
+        name = label or f"{self.markup}@{point.real:.2f},{point.imag:.2f}"
+        turn = cmath.exp(1j * radians(angle)) if angle else 1 + 0j
+        start = {"left": 0.0, "centre": -self.width / 2, "right": -self.width}[anchor]
+        items: list[Item] = [
+            Text(
+                at=point + (start + run.x + 1j * run.y) * turn,
+                text=run.text,
+                height=run.height,
+                angle=angle,
+                label=name,
+                box=box,
+                tag=tag,
+            )
+            for run in self.runs
+        ]
+        for left, right, level in self.bars:
+            ends = (left + 1j * level, right + 1j * level)
+            points = tuple(point + (start + end) * turn for end in ends)
+            items.append(Stroke(points, Pen.THIN, tag=PART_OF + name))
+        return items
+
+    def ink(self, point: complex) -> Bounds:
+        """Return the ink box of the inscription with its base line starting at ``point``, mm."""
+        return (
+            point.real,
+            point.imag - self.descent,
+            point.real + self.width,
+            point.imag + self.ascent,
+        )
+
+
+def escape(text: str) -> str:
+    r"""Return markup that shows the text as it stands (``_`` becomes ``\_``)."""
+    return "".join("\\" + sign if sign in _SPECIAL else sign for sign in text)
+
+
+def index_height(height: float) -> float:
+    """Return the height of the indices of letters (высота индекса), mm.
+
+    The next smaller GOST height, which is about 0.7 of the main one: 2.5 for letters of 3.5, and
+    1.8, the smallest the standard has, for letters of 2.5.
+    """
+    fitting = [size for size in HEIGHTS if size <= 0.73 * height]
+    return max(fitting, default=HEIGHTS[0])
+
+
+def smaller_heights(height: float) -> tuple[float, ...]:
+    """Return ``height`` and the smaller GOST heights down to 2.5 mm, largest first."""
+    below = sorted((size for size in HEIGHTS if SMALLEST <= size < height), reverse=True)
+    return (height, *below)
+
+
+def line_step(height: float) -> float:
+    """Return the step of base lines of consecutive lines, mm (GOST 2.304)."""
+    return in_use().line_step * height
+
+
+def vector_markup(symbol: str) -> str:
+    r"""Return the markup of a vector: the letter before the indices gets an overbar.
+
+    >>> vector_markup("a^{n}_{CB}")
+    '\\bar{a}^{n}_{CB}'
+    """
+    if symbol.startswith("\\bar"):
+        return symbol
+    cut = next((i for i, sign in enumerate(symbol) if sign in "_^"), len(symbol))
+    return f"\\bar{{{symbol[:cut]}}}{symbol[cut:]}"
+
+
+def split_words(markup: str) -> list[str]:
+    """Split markup at its spaces that are not inside braces nor unbreakable (U+00A0)."""
+    words: list[str] = []
+    word, depth, escaped = "", 0, False
+    for sign in markup:
+        if sign.isspace() and depth == 0 and not escaped and sign != "\u00a0":
+            if word:
+                words.append(word)
+            word = ""
+            continue
+        if not escaped:
+            depth += (sign == "{") - (sign == "}")
+        escaped = sign == "\\" and not escaped
+        word += sign
+    return [*words, word] if word else words
+
+
+def typeset(markup: str, height: float) -> Inscription:
+    r"""Set one line of rich text (набор строки).
+
+    Parameters
+    ----------
+    markup : str
+        See the module's text.
+    height : float, mm
+        Cap height of the main letters.
+
+    Returns
+    -------
+    Inscription
+
+    Raises
+    ------
+    LayoutError
+        If braces do not pair, an index has nothing in it, or a command is unknown.
+    """
+    return _typeset(markup, height, in_use())
+
+
+@lru_cache(maxsize=4096)
+def _typeset(markup: str, height: float, lettering: Lettering) -> Inscription:
+    nodes, end = _parse(markup, 0, closing=False)
+    assert end == len(markup)
+    setter = _Setter(lettering)
+    end_x = setter.set(nodes, 0.0, 0.0, height)
+    # Slanted letters lean out of the room that they take along the line.
+    inks = [(run.x, lettering.ink(run.text, run.height)) for run in setter.runs]
+    left = min([0.0, *(x + ink[0] for x, ink in inks)])
+    right = max([end_x, *(x + ink[2] for x, ink in inks)])
+    return Inscription(
+        markup,
+        height,
+        right - left,
+        setter.ascent,
+        setter.descent,
+        tuple(replace(run, x=run.x - left) for run in setter.runs),
+        tuple((x0 - left, x1 - left, level) for x0, x1, level in setter.bars),
+    )
+
+
+def text_bounds(text: Text) -> Bounds:
+    """Return the least upright box about the ink of a run, mm; about its turned box if turned."""
+    left, low, right, high = in_use().ink(text.text, text.height)
+    turn = cmath.exp(1j * radians(text.angle))
+    corners = [text.at + turn * complex(x, y) for x in (left, right) for y in (low, high)]
+    xs, ys = [corner.real for corner in corners], [corner.imag for corner in corners]
+    return (min(xs), min(ys), max(xs), max(ys))
+
+
+def text_corners(text: Text) -> list[complex]:
+    """Return the corners of the ink box of a run, mm, turned as the text and leaning."""
+    lettering = in_use()
+    wide = lettering.width(text.text, text.height)
+    side = min(lettering.side * text.height, wide / 2)
+    up = lettering.ascent(text.text, text.height)
+    down = lettering.descent(text.text, text.height)
+    turn = cmath.exp(1j * radians(text.angle))
+    corners = (side - 1j * down, wide - side - 1j * down, wide - side + 1j * up, side + 1j * up)
+    leaning = (corner + lettering.leaning(corner.imag, text.height) for corner in corners)
+    return [text.at + turn * corner for corner in leaning]
+
+
+@dataclass(frozen=True, slots=True)
+class _Letters:
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Index:
+    below: tuple[_Node, ...]
+    above: tuple[_Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Bar:
+    body: tuple[_Node, ...]
+
+
+_Node: TypeAlias = _Letters | _Index | _Bar
+
+
+def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[_Node, ...], int]:
+    """Read nodes from ``start`` up to the closing brace or the end."""
+    nodes: list[_Node] = []
+    letters, i = "", start
+
+    def flush() -> None:
+        nonlocal letters
+        if letters:
+            nodes.append(_Letters(letters))
+        letters = ""
+
+    while i < len(markup):
+        sign = markup[i]
+        if sign == "}" and closing:
+            flush()
+            return tuple(nodes), i
+        if sign == "\\" and markup[i + 1 : i + 2] in tuple(_SPECIAL):
+            letters += markup[i + 1]
+            i += 2
+        elif markup.startswith("\\bar{", i):
+            flush()
+            body, end = _parse(markup, i + 5, closing=True)
+            nodes.append(_Bar(body))
+            i = end + 1
+        elif sign in "_^":
+            flush()
+            body, i = _index_body(markup, i)
+            nodes.append(_merged(nodes, sign, body))
+        elif sign in _SPECIAL:
+            raise _fault(markup, i, f"'{sign}' does not pair or starts no known command")
+        else:
+            letters += sign
+            i += 1
+    if closing:
+        raise _fault(markup, start, "the brace opened here is not closed")
+    flush()
+    return tuple(nodes), i
+
+
+def _index_body(markup: str, i: int) -> tuple[tuple[_Node, ...], int]:
+    """Read what follows the ``_`` or ``^`` at ``i``; return it and the place after it."""
+    following = markup[i + 1 : i + 2]
+    if following == "{":
+        body, end = _parse(markup, i + 2, closing=True)
+        if body:
+            return body, end + 1
+    elif following and following not in _SPECIAL and not following.isspace():
+        return (_Letters(following),), i + 2
+    raise _fault(markup, i, f"nothing stands after '{markup[i]}'")
+
+
+def _merged(nodes: list[_Node], sign: str, body: tuple[_Node, ...]) -> _Index:
+    """Join an index with the one just before it when that has the other place free."""
+    before = nodes[-1] if nodes else None
+    if isinstance(before, _Index):
+        if sign == "_" and not before.below:
+            nodes.pop()
+            return _Index(body, before.above)
+        if sign == "^" and not before.above:
+            nodes.pop()
+            return _Index(before.below, body)
+    return _Index(body, ()) if sign == "_" else _Index((), body)
+
+
+def _fault(markup: str, i: int, what: str) -> LayoutError:
+    return LayoutError(
+        f"Cannot set the inscription {markup!r}: {what} (sign {i + 1}). "
+        "Pair the braces, or write a literal sign with a backslash before it."
+    )
+
+
+class _Setter:
+    """Collect runs and bars from left to right and the room they take."""
+
+    def __init__(self, lettering: Lettering) -> None:
+        self.lettering = lettering
+        self.runs: list[Run] = []
+        self.bars: list[tuple[float, float, float]] = []
+        self.ascent = 0.0
+        self.descent = 0.0
+
+    def set(self, nodes: tuple[_Node, ...], x: float, y: float, height: float) -> float:
+        """Set the nodes from (x, y) on and return the x where they end."""
+        for node in nodes:
+            match node:
+                case _Letters(text):
+                    x = self._letters(text, x, y, height)
+                case _Bar(body):
+                    x = self._bar(body, x, y, height)
+                case _Index(below, above):
+                    x = self._index(below, above, x, y, height)
+        return x
+
+    def _letters(self, text: str, x: float, y: float, height: float) -> float:
+        text = text.replace("\u00a0", " ")  # it has done its work when lines were broken
+        self.runs.append(Run(x, y, text, height))
+        self.ascent = max(self.ascent, y + self.lettering.ascent(text, height))
+        self.descent = max(self.descent, self.lettering.descent(text, height) - y)
+        return x + self.lettering.width(text, height)
+
+    def _bar(self, body: tuple[_Node, ...], x: float, y: float, height: float) -> float:
+        inner = _Setter(self.lettering)
+        width = inner.set(body, 0.0, 0.0, height)
+        self.set(body, x, y, height)
+        level = y + inner.ascent + _BAR_GAP * height
+        white = _BAR_INSET * height if width > 4 * _BAR_INSET * height else 0.0
+        self.bars.append((x + white / 2, x + width - white, level))
+        self.ascent = max(self.ascent, level)
+        return x + width
+
+    def _index(
+        self,
+        below: tuple[_Node, ...],
+        above: tuple[_Node, ...],
+        x: float,
+        y: float,
+        height: float,
+    ) -> float:
+        small = index_height(height)
+        low, high = _Setter(self.lettering), _Setter(self.lettering)
+        widths = low.set(below, 0.0, 0.0, small), high.set(above, 0.0, 0.0, small)
+        drop, rise = y - _SUB_DROP * height, y + _SUP_RISE * height
+        if below and above:
+            rise = max(rise, drop + low.ascent + _STACK_GAP * height + high.descent)
+        self.set(below, x, drop, small)
+        self.set(above, x, rise, small)
+        return x + max(widths)

@@ -1,0 +1,392 @@
+"""Blocks (блоки листа): things that know their size and draw themselves where they are put.
+
+Every block is placed by its **upper left** corner, since a sheet is filled from the top down.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, Protocol, TypeAlias
+
+from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text, shifted
+from planmethod.render.ink.typeset import (
+    Inscription,
+    escape,
+    line_step,
+    smaller_heights,
+    split_words,
+    typeset,
+)
+
+# What must not be taken apart when a word is broken: an escaped sign, a letter with its indices.
+_SIGNS = re.compile(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
+
+Align: TypeAlias = Literal["left", "centre", "right"]
+
+CUT = "cut"
+"""Word in the tag of a text that was shortened to fit its cell; the lint reports it."""
+
+
+class Block(Protocol):
+    """What the layout of a sheet needs of its parts (блок)."""
+
+    @property
+    def width(self) -> float:
+        """Width, mm."""
+        ...
+
+    @property
+    def height(self) -> float:
+        """Height, mm."""
+        ...
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of the block with its upper left corner at ``corner``, mm."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Spacer:
+    """Empty room, mm (промежуток)."""
+
+    width: float
+    height: float
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return nothing: a spacer has no ink."""
+        return []
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """Ready items in their own coordinates; ``bounds`` is the room they take, mm."""
+
+    items: tuple[Item, ...]
+    bounds: Bounds
+
+    @property
+    def width(self) -> float:
+        """Width of the bounds, mm."""
+        return self.bounds[2] - self.bounds[0]
+
+    @property
+    def height(self) -> float:
+        """Height of the bounds, mm."""
+        return self.bounds[3] - self.bounds[1]
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items moved so that the bounds' upper left corner is at ``corner``."""
+        return list(shifted(self.items, corner - complex(self.bounds[0], self.bounds[3])))
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One typeset line (строка); the block's box is its ink box.
+
+    ``underline`` draws a thin line under it, as under the name of a view.
+    """
+
+    inscription: Inscription
+    underline: bool = False
+
+    @property
+    def width(self) -> float:
+        """Ink width, mm."""
+        return self.inscription.width
+
+    @property
+    def height(self) -> float:
+        """Ink height, with the underline if there is one, mm."""
+        room = self.inscription.ascent + self.inscription.descent
+        return room + (self._drop() if self.underline else 0.0)
+
+    def _drop(self) -> float:
+        return 0.25 * self.inscription.height
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the letters and the underline."""
+        items = self.inscription.at(corner - 1j * self.inscription.ascent)
+        if self.underline:
+            left = corner - 1j * self.height
+            items.append(Stroke((left, left + self.width), Pen.THIN))
+        return items
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """Typeset lines under one another with the line step of GOST 2.304 (абзац).
+
+    ``indent`` moves every line but the first to the right, mm (left-aligned lines only).
+    """
+
+    inscriptions: tuple[Inscription, ...]
+    step: float
+    align: Align = "left"
+    indent: float = 0.0
+
+    @property
+    def width(self) -> float:
+        """Width of the longest line, mm."""
+        wide = [line.width + (self.indent if k else 0) for k, line in enumerate(self.inscriptions)]
+        return max(wide, default=0.0)
+
+    @property
+    def height(self) -> float:
+        """Height from the top of the first line's ink to the bottom of the last one's, mm."""
+        if not self.inscriptions:
+            return 0.0
+        first, last = self.inscriptions[0], self.inscriptions[-1]
+        return first.ascent + sum(self.steps()) + last.descent
+
+    def steps(self) -> list[float]:
+        """Return the steps of base lines: wider where indices or bars would come too near."""
+        pairs = zip(self.inscriptions, self.inscriptions[1:], strict=False)
+        return [
+            max(self.step, above.descent + below.ascent + 0.2 * below.height)
+            for above, below in pairs
+        ]
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the letters of all lines."""
+        items: list[Item] = []
+        if not self.inscriptions:
+            return items
+        base, steps = corner.imag - self.inscriptions[0].ascent, [*self.steps(), 0.0]
+        for k, line in enumerate(self.inscriptions):
+            spare = self.width - line.width
+            shift = {
+                "left": self.indent if k else 0.0,
+                "centre": spare / 2,
+                "right": spare,
+            }[self.align]
+            items += line.at(complex(corner.real + shift, base))
+            base -= steps[k]
+        return items
+
+
+@dataclass(frozen=True)
+class Column:
+    """Blocks from the top down (столбец)."""
+
+    blocks: Sequence[Block]
+    gap: float = 5.0
+    align: Align = "left"
+    width: float = field(init=False)
+    height: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        gaps = self.gap * max(0, len(self.blocks) - 1)
+        object.__setattr__(self, "width", max((b.width for b in self.blocks), default=0.0))
+        object.__setattr__(self, "height", sum(b.height for b in self.blocks) + gaps)
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of all blocks."""
+        items: list[Item] = []
+        for block in self.blocks:
+            spare = self.width - block.width
+            shift = {"left": 0.0, "centre": spare / 2, "right": spare}[self.align]
+            items += block.place(corner + shift)
+            corner -= 1j * (block.height + self.gap)
+        return items
+
+
+@dataclass(frozen=True)
+class Row:
+    """Blocks from left to right (ряд)."""
+
+    blocks: Sequence[Block]
+    gap: float = 5.0
+    align: Literal["top", "centre", "bottom"] = "top"
+    width: float = field(init=False)
+    height: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        gaps = self.gap * max(0, len(self.blocks) - 1)
+        object.__setattr__(self, "width", sum(b.width for b in self.blocks) + gaps)
+        object.__setattr__(self, "height", max((b.height for b in self.blocks), default=0.0))
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of all blocks."""
+        items: list[Item] = []
+        for block in self.blocks:
+            spare = self.height - block.height
+            drop = {"top": 0.0, "centre": spare / 2, "bottom": spare}[self.align]
+            items += block.place(corner - 1j * drop)
+            corner += block.width + self.gap
+        return items
+
+
+def heading(
+    markup: str,
+    height: float = 5.0,
+    *,
+    width: float | None = None,
+    underline: bool = False,
+) -> Block:
+    """Return the name of a view or of a list (заголовок), shrunk or wrapped to ``width`` mm."""
+    for size in smaller_heights(height)[:2]:
+        line = typeset(markup, size)
+        if width is None or line.width <= width:
+            return Line(line, underline)
+    return paragraph(markup, height, width, align="centre")
+
+
+def paragraph(
+    markup: str,
+    height: float = 3.5,
+    width: float | None = None,
+    *,
+    align: Align = "left",
+) -> Lines:
+    r"""Return rich text wrapped at spaces into lines not wider than ``width`` mm (абзац).
+
+    ``\n`` in the markup starts a new line. A word wider than ``width`` gets a line of its own.
+    """
+    lines: list[str] = []
+    for part in markup.split("\n"):
+        lines += wrapped(split_words(part), height, width)
+    return Lines(tuple(typeset(line, height) for line in lines), line_step(height), align)
+
+
+def wrapped(words: Sequence[str], height: float, width: float | None) -> list[str]:
+    """Join words into as few lines as the width allows (переносы по словам)."""
+    lines: list[str] = []
+    for word in words:
+        longer = f"{lines[-1]} {word}" if lines else word
+        fits = width is None or typeset(longer, height).width <= width
+        if lines and fits:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
+
+
+def fit(
+    text: str,
+    box: Bounds,
+    heights: Iterable[float],
+    *,
+    align: Align = "centre",
+    pad: float = 0.8,
+    rich: bool = False,
+    tag: str = "",
+) -> list[Item]:
+    r"""Return a text that stays in its cell (вписывание в графу).
+
+    One line at the first or second height if it fits; else lines at the first height that holds
+    them in the cell; else long words are broken at the last height, the lines as near as their ink
+    allows if need be; else the text is cut with an ellipsis and its tag gets the word `CUT`, which
+    the lint reports. Nothing leaves the cell, however little of the text that leaves.
+
+    Parameters
+    ----------
+    text : str
+        Plain text (markup when ``rich``); ``\n`` starts a new line.
+    box : Bounds, mm
+        The cell. Its ``Text`` items carry it as their box.
+    heights : iterable of float, mm
+        Heights to try, largest first.
+    pad : float, mm
+        White kept between the text and the sides of the cell.
+    """
+    sizes = tuple(heights)
+    room = (box[2] - box[0] - 2 * pad, box[3] - box[1] - 2 * min(pad, 0.4))
+    parts = [part if rich else escape(part) for part in text.split("\n")]
+    block, cut = _fitting(parts, room, sizes, align)
+    middle = complex((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+    sides = {"left": box[0] + pad, "centre": middle.real, "right": box[2] - pad}
+    base = middle.imag + _caps(block) / 2 - block.inscriptions[0].height
+    told = f"{tag} {CUT}".strip() if cut else tag
+    items: list[Item] = []
+    for line, step in zip(block.inscriptions, [*block.steps(), 0.0], strict=True):
+        items += line.at(complex(sides[align], base), anchor=align, box=box, tag=told)
+        base -= step
+    return items
+
+
+def _fitting(
+    parts: Sequence[str],
+    room: tuple[float, float],
+    sizes: Sequence[float],
+    align: Align,
+) -> tuple[Lines, bool]:
+    """Choose lines and height; True when the text had to be cut."""
+
+    def made(lines: Sequence[str], size: float, step: float) -> Lines:
+        return Lines(tuple(typeset(s, size) for s in lines or [""]), step, align)
+
+    tries = [(list(parts), size, line_step(size)) for size in sizes[:2]]
+    words = [split_words(part) for part in parts]
+    for size in sizes:
+        lines = [line for part in words for line in _balanced(part, size, room[0])]
+        tries.append((lines, size, line_step(size)))
+    size = sizes[-1]
+    broken: list[str] = []
+    for part in words:
+        pieces = [piece for word in part for piece in _broken(word, size, room[0])]
+        broken += wrapped(pieces, size, room[0])
+    # Last of all the lines are set as near as their ink allows: a date in two lines, say.
+    tries += [(broken, size, line_step(size)), (broken, size, 0.0)]
+    for lines, height, step in tries:
+        block = made(lines, height, step)
+        if _fits(block, room):
+            return block, False
+    while len(broken) > 1 and not _fits(made(broken, size, 0.0), room):
+        broken.pop()
+    last = _SIGNS.findall(broken[-1]) if broken else []
+    while last and typeset("".join(last) + "…", size).width > room[0]:
+        last.pop()
+    return made([*broken[:-1], "".join(last).rstrip() + "…"], size, 0.0), True
+
+
+def _caps(block: Lines) -> float:
+    """Return the height of lines from the top of the first capitals to the last base line."""
+    return block.inscriptions[0].height + sum(block.steps())
+
+
+def _fits(block: Lines, room: tuple[float, float]) -> bool:
+    # Text is centred by cap height, so the larger of the overhangs counts twice.
+    first, last = block.inscriptions[0], block.inscriptions[-1]
+    overhang = max(first.ascent - first.height, last.descent, 0.0)
+    return block.width <= room[0] and _caps(block) + 2 * overhang <= room[1] + 1e-9
+
+
+def _balanced(words: Sequence[str], size: float, width: float) -> list[str]:
+    """Wrap into the same number of lines as is needed, but of nearly equal length."""
+    lines = wrapped(words, size, width)
+    count = len(lines)
+    for tenths in range(40, 100, 3):
+        even = wrapped(words, size, width * tenths / 100)
+        if len(even) == count and all(typeset(s, size).width <= width for s in even):
+            return even
+    return lines
+
+
+def _broken(word: str, size: float, width: float) -> list[str]:
+    """Break a word wider than the cell; with a hyphen inside a run of letters."""
+    if typeset(word, size).width <= width:
+        return [word]
+    signs = _SIGNS.findall(word)
+    pieces: list[str] = []
+    while len(signs) > 1 and typeset("".join(signs), size).width > width:
+        take = len(signs) - 1
+        while take > 1 and typeset(_hyphened(signs, take), size).width > width:
+            take -= 1
+        # Rather after a dot or a hyphen of the text itself: 12.03. / 2025.
+        stops = [k for k in range(2, take + 1) if signs[k - 1] in ".-/,"]
+        take = stops[-1] if stops else take
+        pieces.append(_hyphened(signs, take))
+        signs = signs[take:]
+    return [*pieces, "".join(signs)]
+
+
+def _hyphened(signs: Sequence[str], take: int) -> str:
+    hyphen = "-" if signs[take - 1].isalpha() and signs[take].isalpha() else ""
+    return "".join(signs[:take]) + hyphen
+
+
+def texts(items: Iterable[Item]) -> list[Text]:
+    """Return the runs of letters among the items."""
+    return [item for item in items if isinstance(item, Text)]

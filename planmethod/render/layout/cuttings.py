@@ -1,0 +1,225 @@
+"""Cuttings of a sheet (раскрой листа): blocks in reading order, cut apart by straight lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+from planmethod.render.ink.drawing import Bounds
+from planmethod.render.layout.block import Block
+
+GAP = 9.0
+"""Least white between two blocks, mm."""
+
+TOGETHER = 0.6
+"""Part of a group's spare white that stays between its blocks; the rest is around the group."""
+
+_OPTIONS = 12  # cuttings kept for one run of blocks: widths from the narrowest to the widest
+
+Arrange: TypeAlias = Literal["free", "row", "column"]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A block to be packed; ``text`` says that it stands together with neighbouring texts."""
+
+    block: Block
+    text: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Parts and groups that stay together (группа блоков).
+
+    ``arrange`` says how they may stand: as the paper has room, side by side, one under another.
+    """
+
+    members: tuple[Part | Group, ...]
+    arrange: Arrange = "free"
+
+    def inner(self) -> Group:
+        """Return the innermost groups alone, none arranged in a certain way."""
+        members: list[Part | Group] = []
+        for member in self.members:
+            if isinstance(member, Part):
+                members.append(member)
+            elif any(isinstance(one, Group) for one in member.members):
+                members += member.inner().members
+            else:
+                members.append(Group(member.members))
+        return Group(tuple(members))
+
+    def flat(self) -> Group:
+        """Return the parts without groups."""
+        return Group(tuple(self.parts()))
+
+    def parts(self) -> Iterator[Part]:
+        """Yield the parts in reading order."""
+        for member in self.members:
+            if isinstance(member, Part):
+                yield member
+            else:
+                yield from member.parts()
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """A block by its number, and its size, mm."""
+
+    number: int
+    width: float
+    height: float
+    text: bool
+    group: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """Two parts side by side (``across`` false) or one above the other.
+
+    ``text``: all in it are texts, which stand together; ``group``: it is a whole group.
+    """
+
+    first: Node
+    second: Node
+    across: bool
+    width: float
+    height: float
+    text: bool
+    group: bool = False
+
+
+Node: TypeAlias = "Leaf | Cut"
+Unit: TypeAlias = tuple[Node, Bounds]
+"""A block, or texts that stand together, and the room that is theirs."""
+
+
+def fits(node: Node, room: tuple[float, float]) -> bool:
+    """Tell whether a part of the sheet fits a room of a width and height, mm."""
+    return node.width <= room[0] + 1e-6 and node.height <= room[1] + 1e-6
+
+
+# Cuttings -----------------------------------------------------------------------------------------
+
+
+def cuttings(
+    group: Group, leaves: Iterator[Leaf], room: tuple[float, float], *, whole: bool = False
+) -> list[Node]:
+    """Return cuttings of a group, none narrower and lower than another.
+
+    Of the whole sheet all cuttings are returned that fit: there it is the white that counts.
+    """
+    options: list[list[Node]] = []
+    for member in group.members:
+        if isinstance(member, Part):
+            options.append([next(leaves)])
+        else:
+            options.append([replace(node, group=True) for node in cuttings(member, leaves, room)])
+    ways = {"free": (False, True), "row": (False,), "column": (True,)}[group.arrange]
+    count = len(options)
+    kept: dict[tuple[int, int], list[Node]] = {(k, k + 1): options[k] for k in range(count)}
+    for length in range(2, count + 1):
+        for start in range(count - length + 1):
+            end = start + length
+            found: list[Node] = [
+                cut
+                for middle in range(start + 1, end)
+                for one in kept[start, middle]
+                for two in kept[middle, end]
+                for across in ways
+                if fits(cut := _joined(one, two, across=across), room)
+            ]
+            kept[start, end] = found if whole and length == count else _pareto(found)
+    return [node for node in kept[0, count] if fits(node, room)]
+
+
+def _joined(one: Node, two: Node, *, across: bool) -> Cut:
+    text = one.text and two.text
+    if across:
+        tall = one.height + GAP + two.height
+        return Cut(one, two, True, max(one.width, two.width), tall, text)
+    wide = one.width + GAP + two.width
+    return Cut(one, two, False, wide, max(one.height, two.height), text)
+
+
+def _pareto(nodes: list[Node]) -> list[Node]:
+    """Return the nodes that no other beats in both sizes, thinned to a few."""
+    nodes.sort(key=lambda node: (node.width, node.height))
+    best: list[Node] = []
+    for node in nodes:
+        if not best or node.height < best[-1].height - 1e-9:
+            best.append(node)
+    if len(best) <= _OPTIONS:
+        return best
+    step = (len(best) - 1) / (_OPTIONS - 1)
+    return [best[round(k * step)] for k in range(_OPTIONS)]
+
+
+# Room ---------------------------------------------------------------------------------------------
+
+
+def units_of(node: Node, box: Bounds, *, anchored: bool) -> Iterator[Unit]:
+    """Yield the room that each unit gets when the spare white is shared at every cut.
+
+    ``anchored`` is what ends in the lower right corner of the sheet; other groups are drawn
+    together within their room.
+    """
+    if node.group and not anchored:
+        box = _drawn_together(node, box)
+    if isinstance(node, Leaf) or node.text:
+        yield node, box
+        return
+    left, low, right, high = box
+    if node.across:
+        spare = high - low - node.height
+        cut = high - node.first.height - spare * _share(node, across=True) - GAP / 2
+        first, second = (left, cut + GAP / 2, right, high), (left, low, right, cut - GAP / 2)
+    else:
+        spare = right - left - node.width
+        cut = left + node.first.width + spare * _share(node, across=False) + GAP / 2
+        first, second = (left, low, cut - GAP / 2, high), (cut + GAP / 2, low, right, high)
+    yield from units_of(node.first, first, anchored=False)
+    yield from units_of(node.second, second, anchored=anchored)
+
+
+def _drawn_together(node: Node, box: Bounds) -> Bounds:
+    left, low, right, high = box
+    across = (right - left - node.width) * (1 - TOGETHER) / 2
+    along = (high - low - node.height) * (1 - TOGETHER) / 2
+    return (left + across, low + along, right - across, high - along)
+
+
+def _share(node: Cut, *, across: bool) -> float:
+    """Return the first part's share of spare white: by the number of blocks in that direction."""
+    one, two = _steps(node.first, across=across), _steps(node.second, across=across)
+    return one / (one + two)
+
+
+def _steps(node: Node, *, across: bool) -> int:
+    if isinstance(node, Leaf) or node.text:
+        return 1
+    one, two = _steps(node.first, across=across), _steps(node.second, across=across)
+    return one + two if node.across is across else max(one, two)
+
+
+def box_of(unit: Unit) -> Bounds:
+    """Return the box of a unit's blocks, which stand in the middle of their room."""
+    node, (left, low, right, high) = unit
+    corner = complex(left + right - node.width, low + high + node.height) / 2
+    return (corner.real, corner.imag - node.height, corner.real + node.width, corner.imag)
+
+
+def corners_of(unit: Unit) -> Iterator[tuple[int, complex]]:
+    """Yield the upper left corners of a unit's blocks, the unit in the middle of its box."""
+    left, _, _, high = box_of(unit)
+    yield from _set_together(unit[0], complex(left, high))
+
+
+def _set_together(node: Node, corner: complex) -> Iterator[tuple[int, complex]]:
+    if isinstance(node, Leaf):
+        yield node.number, corner
+        return
+    yield from _set_together(node.first, corner)
+    step = -1j * (node.first.height + GAP) if node.across else node.first.width + GAP
+    yield from _set_together(node.second, corner + step)

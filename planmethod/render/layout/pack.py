@@ -1,0 +1,249 @@
+"""Packing of a sheet's blocks (компоновка листа): rows within columns within rows.
+
+Blocks keep the order in which they are read: from left to right and from the top down. The sheet is
+cut again and again by a straight line, across or along, between two neighbours of the sequence (a
+guillotine cutting); a group is cut as a whole first, and then within itself. Of the cuttings that
+fit, that of the least cost is taken, of equals the first. The cost is the sum of three parts:
+
+1. uneven white: over the blocks, the squares of the white that a block has in its box, as parts of
+   the paper's width and height; texts that stand together count as one block;
+2. `BACK` for every paper's height that the eye goes back up from a group to the next one;
+3. `VOID` times the part of the paper that the largest empty rectangle takes.
+
+Views stand in the middle of their boxes. Neighbouring texts stand together: set to one left edge
+under one another, to one upper edge side by side. The last block stands on the title block in the
+lower right corner.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from planmethod.render.frame.clearance import overlap
+from planmethod.render.ink.drawing import Bounds
+from planmethod.render.layout.cuttings import (
+    GAP,
+    Group,
+    Leaf,
+    Node,
+    Part,
+    Unit,
+    box_of,
+    corners_of,
+    cuttings,
+    fits,
+    units_of,
+)
+
+EDGE = 5.0
+"""Least white between a block and the frame, mm."""
+
+CLEAR = 3.0
+"""Least white between a block and a box that must stay free, mm."""
+
+BACK = 0.15
+"""What it costs when the reader goes back up by the height of the paper."""
+
+VOID = 4.0
+"""What it costs when all of the paper were one empty rectangle."""
+
+_LOOKED_AT = 40  # cheapest cuttings by the first two parts: their empty rectangles are measured
+
+
+def pack(
+    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds] = ()
+) -> list[complex] | None:
+    """Return where the upper left corners of blocks go, mm, or None when they do not fit a sheet.
+
+    Parameters
+    ----------
+    whole : Group
+        The blocks in reading order; the last one stands directly above the title block.
+    inner, stamp : Bounds, mm
+        Inside of the frame, and the title block in its lower right corner.
+    taken : sequence of Bounds, mm
+        Boxes inside the frame that must stay free, such as graph 26. The block that would stand
+        there is moved aside within its room; if it cannot be, all blocks keep clear of the strip
+        along the frame that the box lies in.
+    """
+    for free in (inner, *_without(inner, stamp, taken)):
+        corners = _packed(whole, free, stamp, taken)
+        if corners is not None:
+            return corners
+    return None
+
+
+def _packed(
+    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
+) -> list[complex] | None:
+    """Return the corners of the cheapest cutting of a group, if one fits."""
+    parts = tuple(whole.parts())
+    room = (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
+    leaves = [Leaf(k, p.block.width, p.block.height, p.text) for k, p in enumerate(parts)]
+    # The last block and the title block under it are one leaf.
+    leaves[-1] = Leaf(
+        len(leaves) - 1,
+        max(leaves[-1].width, min(stamp[2] - stamp[0] - EDGE, room[0])),
+        leaves[-1].height + (stamp[3] - stamp[1]) - EDGE + GAP / 2,
+        text=False,
+    )
+    box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
+    last = complex(box[2] - parts[-1].block.width, stamp[3] + GAP / 2 + parts[-1].block.height)
+    place = (last.real, stamp[3], box[2], last.imag)
+    turns = _turns(whole)
+    found: list[tuple[float, list[Unit]]] = []
+    for node in (
+        node
+        for asked in (whole, *_with_the_last(whole))
+        for node in cuttings(asked, iter(leaves), room, whole=True)
+    ):
+        units = list(units_of(node, box, anchored=True))
+        if taken:
+            moved = [_clear(unit, taken) for unit in units[:-1]]
+            if None in moved or any(overlap(place, other, CLEAR) for other in taken):
+                continue
+            units = [*(unit for unit in moved if unit is not None), units[-1]]
+        found.append((_unevenness(units, room) + BACK * _way_back(units, turns, room), units))
+    found.sort(key=lambda pair: pair[0])
+
+    def cost(pair: tuple[float, list[Unit]]) -> float:
+        boxes = [box_of(unit) for unit in pair[1][:-1]]
+        return pair[0] + VOID * emptiest_share([*boxes, place, stamp, *taken], inner)
+
+    if not found:
+        return None
+    _, units = min(found[:_LOOKED_AT], key=cost)
+    corners = dict(corner for unit in units for corner in corners_of(unit))
+    corners[len(parts) - 1] = last
+    return [corners[number] for number in range(len(parts))]
+
+
+def _with_the_last(whole: Group) -> Iterator[Group]:
+    """Yield the sheet whose last block stands among the blocks of the group before it.
+
+    So the results may stand under the texts of a plan, to the right of the plan.
+    """
+    *before, group, last = (None, *whole.members)
+    if not isinstance(group, Group) or last is None:
+        return
+    if {whole.arrange, group.arrange} == {"free"}:
+        views = [one for one in group.members if not (isinstance(one, Part) and one.text)]
+        texts = tuple(one for one in group.members if isinstance(one, Part) and one.text)
+        if group.members == (*views, *texts):
+            joined = Group((*views, *([Group(texts)] if texts else []), last))
+            yield Group((*whole.members[: len(before) - 1], joined))
+
+
+# Cost ---------------------------------------------------------------------------------------------
+
+
+def _unevenness(units: Sequence[Unit], room: tuple[float, float]) -> float:
+    """Return how unevenly white is spread: squares of what each unit leaves of its box."""
+    total = 0.0
+    for node, (left, low, right, high) in units:
+        total += ((right - left - node.width) / room[0]) ** 2
+        total += ((high - low - node.height) / room[1]) ** 2
+    return total
+
+
+def _turns(whole: Group) -> list[int]:
+    """Return to which member of the whole sheet every block belongs."""
+    return [
+        turn
+        for turn, member in enumerate(whole.members)
+        for _ in (member.parts() if isinstance(member, Group) else (member,))
+    ]
+
+
+def _way_back(units: Sequence[Unit], turns: Sequence[int], room: tuple[float, float]) -> float:
+    """Return how far up the eye goes from members of the sheet to the next, in paper heights."""
+    spans: dict[int, tuple[float, float]] = {}
+    for node, (_, low, _, high) in units:
+        turn = turns[_first(node)]
+        before = spans.get(turn, (low, high))
+        spans[turn] = (min(low, before[0]), max(high, before[1]))
+    middles = [(low + high) / 2 for _, (low, high) in sorted(spans.items())]
+    return sum(max(0.0, after - before) for before, after in pairwise(middles)) / room[1]
+
+
+def _first(node: Node) -> int:
+    return node.number if isinstance(node, Leaf) else _first(node.first)
+
+
+def emptiest_share(boxes: Sequence[Bounds], inner: Bounds) -> float:
+    """Return the part of the paper inside the frame that the largest rectangle without boxes takes.
+
+    A largest one has its sides on the sides of boxes: only these are tried.
+    """
+    left, low, right, high = inner
+    most = 0.0
+    floors = sorted({low, *(box[3] for box in boxes)})
+    ceilings = sorted({high, *(box[1] for box in boxes)})
+    for floor in floors:
+        for ceiling in ceilings:
+            if (ceiling - floor) * (right - left) <= most:
+                continue
+            walls = sorted((b[0], b[2]) for b in boxes if b[1] < ceiling and b[3] > floor)
+            edge, widest = left, 0.0
+            for wall in [*walls, (right, right)]:
+                widest = max(widest, wall[0] - edge)
+                edge = max(edge, wall[1])
+            most = max(most, widest * (ceiling - floor))
+    return most / ((right - left) * (high - low))
+
+
+# Boxes that must stay free ------------------------------------------------------------------------
+
+
+def _clear(unit: Unit, taken: Sequence[Bounds]) -> Unit | None:
+    """Return a unit with that part of its room where it is clear of boxes, or None without one.
+
+    It is moved as little as can be.
+    """
+    start = _middle(unit)
+    for other in taken:
+        if not overlap(box_of(unit), other, CLEAR):
+            continue
+        node, box = unit
+        others = [(node, part) for part in _beside(box, other) if _holds(part, node)]
+        if not others:
+            return None
+        unit = min(others, key=lambda moved: abs(_middle(moved) - start))
+    return None if any(overlap(box_of(unit), other, CLEAR) for other in taken) else unit
+
+
+def _middle(unit: Unit) -> complex:
+    left, low, right, high = unit[1]
+    return complex(left + right, low + high) / 2
+
+
+def _beside(box: Bounds, taken: Bounds) -> tuple[Bounds, ...]:
+    """Return the parts of a box below, right of, left of and above a taken one."""
+    left, low, right, high = box
+    return (
+        (left, low, right, min(high, taken[1] - CLEAR)),
+        (max(left, taken[2] + CLEAR), low, right, high),
+        (left, low, min(right, taken[0] - CLEAR), high),
+        (left, max(low, taken[3] + CLEAR), right, high),
+    )
+
+
+def _holds(box: Bounds, node: Node) -> bool:
+    return fits(node, (box[2] - box[0], box[3] - box[1]))
+
+
+def _without(inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> list[Bounds]:
+    """Return the inside of the frame below or right of the taken boxes, title block and all."""
+    rooms = [inner] if taken else []
+    for box in taken:
+        rooms = [
+            part
+            for left, low, right, high in rooms
+            for part in (
+                # A block keeps EDGE from what it is given, and CLEAR is enough here.
+                (left, low, right, min(high, box[1] + EDGE - CLEAR)),
+                (max(left, box[2] - EDGE + CLEAR), low, right, high),
+            )
+        ]
+    return [room for room in rooms if room[0] <= stamp[0] and room[3] >= stamp[3]]

@@ -1,0 +1,338 @@
+"""Tables of results (таблицы результатов) as blocks.
+
+A table is columns, each with a symbol, a unit and one value per row (one row per position of the
+mechanism). Equal units of neighbouring columns share one cell above the symbols, as in homework
+sheets; or every column has its unit under its symbol. A table wider than the paper allows is cut
+into parts, one under another, each with the leading columns again.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import accumulate, groupby
+from typing import Literal, TypeAlias
+
+from planmethod.errors import LayoutError
+from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
+from planmethod.render.layout.block import Column as Stack
+from planmethod.render.layout.block import Line
+from planmethod.render.symbols import turn_sign
+
+UnitsAt: TypeAlias = Literal["above", "below", "none"]
+
+_PAD = 1.5  # white on both sides of a cell's text, mm
+_SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
+_NUMBER = re.compile(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One value (графа): rich text and, for ω and ε, the sense.
+
+    ``sense`` is +1 (counter-clockwise) or -1 (clockwise): a small circular arrow beside the value;
+    0 keeps the room for it, so that a column stays aligned; None does not.
+    """
+
+    text: str
+    sense: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TableColumn:
+    """Column of a table (столбец): its symbol, unit and values, one per row.
+
+    ``width`` is the width aimed at, mm: values that do not fit shrink to the next GOST height,
+    and if they still do not, the column grows. Without it the column is as wide as its text needs,
+    ``least`` at least.
+    """
+
+    head: str
+    values: tuple[Cell | str, ...]
+    unit: str = ""
+    width: float | None = None
+    least: float = 12.0
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """The values, plain strings made into cells."""
+        return tuple(v if isinstance(v, Cell) else Cell(v) for v in self.values)
+
+
+@dataclass(frozen=True, slots=True)
+class _Set:
+    """Column with everything typeset: symbol, unit, values, and its width, mm."""
+
+    source: TableColumn
+    head: Inscription
+    unit: Inscription
+    values: tuple[Inscription, ...]
+    width: float
+    lefts: tuple[float, ...]  # left ends of the values from the middle of the column, mm
+    sign: complex  # centre of the signs of sense from the middle (real) and their size (imag)
+
+
+@dataclass(frozen=True)
+class TablePart:
+    """One table on the paper: a block (таблица)."""
+
+    columns: tuple[_Set, ...]
+    widths: tuple[float, ...]
+    units: UnitsAt
+    row_height: float
+    width: float = field(init=False)
+    height: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "width", sum(self.widths))
+        object.__setattr__(self, "height", sum(self._row_heights()))
+
+    def _head_rows(self) -> int:
+        return 1 if self.units == "none" else 2
+
+    def _row_heights(self) -> list[float]:
+        values = zip(*(column.values for column in self.columns), strict=True)
+        heads = [[c.head for c in self.columns], [c.unit for c in self.columns]]
+        order = {"above": heads[::-1], "below": heads, "none": heads[:1]}[self.units]
+        return [max(map(self._room, row)) for row in [*order, *map(list, values)]]
+
+    def _room(self, text: Inscription) -> float:
+        """Least height of a row with this text, which is centred by its cap height."""
+        overhang = max(text.descent, text.ascent - text.height, 0.0)
+        return max(self.row_height, text.height + 2 * overhang + 1.0)
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return lines and texts with the upper left corner at ``corner``, mm."""
+        xs = [corner.real, *(corner.real + w for w in accumulate(self.widths))]
+        ys = [corner.imag, *(corner.imag - h for h in accumulate(self._row_heights()))]
+        head_rows = self._head_rows()
+        items = self._lines(xs, ys)
+        unit_row = {"above": 0, "below": 1, "none": None}[self.units]
+        symbol_row = 1 if self.units == "above" else 0
+        if unit_row is not None:
+            for first, last in self._unit_spans():
+                if self.columns[first].unit.runs:
+                    box = (xs[first], ys[unit_row + 1], xs[last + 1], ys[unit_row])
+                    items += _centred(self.columns[first].unit, box)
+        for k, column in enumerate(self.columns):
+            top, bottom = ys[symbol_row], ys[symbol_row + 1]
+            if self._whole_head(k):
+                top, bottom = ys[0], ys[head_rows]
+            items += _centred(column.head, (xs[k], bottom, xs[k + 1], top))
+            for row in range(len(column.values)):
+                top, bottom = ys[head_rows + row], ys[head_rows + row + 1]
+                items += _value(column, row, (xs[k], bottom, xs[k + 1], top))
+        return items
+
+    def _whole_head(self, k: int) -> bool:
+        """Return True when the head of a column, having no unit, takes both head rows."""
+        return self.units != "none" and not self.columns[k].source.unit
+
+    def _unit_spans(self) -> list[tuple[int, int]]:
+        """First and last column of every unit cell; neighbours with one unit share it."""
+        if self.units == "below":
+            return [(k, k) for k in range(len(self.columns))]
+        spans: list[tuple[int, int]] = []
+        for _, group in groupby(range(len(self.columns)), lambda k: self.columns[k].source.unit):
+            members = list(group)
+            if self.columns[members[0]].source.unit:
+                spans.append((members[0], members[-1]))
+            else:
+                spans += [(k, k) for k in members]
+        return spans
+
+    def _lines(self, xs: Sequence[float], ys: Sequence[float]) -> list[Item]:
+        """Thin inner lines, then the thick outline and the thick line under the head."""
+        head = self._head_rows()
+        joined = {k for first, last in self._unit_spans() for k in range(first + 1, last + 1)}
+        items: list[Item] = []
+        for k in range(1, len(xs) - 1):
+            top = ys[1] if self.units == "above" and k in joined else ys[0]
+            items.append(_line(complex(xs[k], top), complex(xs[k], ys[-1])))
+        for row in range(1, len(ys) - 1):
+            if row == head:
+                continue
+            if row < head:
+                # The line between symbols and units stops at heads that take both rows.
+                for whole, group in groupby(range(len(self.columns)), self._whole_head):
+                    members = list(group)
+                    if not whole:
+                        ends = (
+                            complex(xs[members[0]], ys[row]),
+                            complex(xs[members[-1] + 1], ys[row]),
+                        )
+                        items.append(_line(*ends))
+            else:
+                items.append(_line(complex(xs[0], ys[row]), complex(xs[-1], ys[row])))
+        if head < len(ys) - 1:
+            items.append(_line(complex(xs[0], ys[head]), complex(xs[-1], ys[head]), Pen.MAIN))
+        corners = (
+            complex(xs[0], ys[-1]),
+            complex(xs[-1], ys[-1]),
+            complex(xs[-1], ys[0]),
+            complex(xs[0], ys[0]),
+        )
+        return [*items, Stroke(corners, Pen.MAIN, closed=True, tag="table")]
+
+
+def table_block(
+    columns: Sequence[TableColumn],
+    height: float = 3.5,
+    *,
+    max_width: float | None = None,
+    width: float | None = None,
+    units: UnitsAt = "above",
+    leading: int = 0,
+    row_height: float = 8.0,
+    part_gap: float = 5.0,
+    title: str = "",
+) -> Stack:
+    """Return a table of results as a block (таблица результатов).
+
+    Parameters
+    ----------
+    columns : sequence of TableColumn
+        All with the same number of values.
+    height : float, mm
+        Cap height of heads and values.
+    max_width : float, mm, optional
+        Greatest width. A wider table is first set one GOST height smaller, and if that does not do
+        either, cut into parts one under another at the full height.
+    width : float, mm, optional
+        Width to stretch to (each part), for a table that stands above the title block.
+    units : {"above", "below", "none"}
+        Unit cells above the symbols, shared by neighbours; or under each symbol.
+    leading : int
+        How many first columns (position number, φ) are repeated in every part.
+    title : str
+        Rich text above the upper left corner.
+
+    Raises
+    ------
+    LayoutError
+        If there is nothing to show, columns have different numbers of values, or a single column
+        with the leading ones is wider than ``max_width``.
+    """
+    _check(columns)
+    limit = max_width if max_width is not None else width
+    parts = [_set_all(columns, height)]
+    if limit is not None and _total(parts[0]) > limit + 1e-9:
+        smaller = _set_all(columns, smaller_heights(height)[:2][-1])
+        if _total(smaller) <= limit + 1e-9:
+            parts = [smaller]
+        else:
+            parts = _split(parts[0], limit, leading) or _split(smaller, limit, leading)
+    target = width if width is not None else max(map(_total, parts))
+    blocks = [
+        TablePart(part, _stretched(part, max(target, _total(part))), units, row_height)
+        for part in parts
+    ]
+    body = Stack(blocks, gap=part_gap)
+    if not title:
+        return body
+    return Stack([Line(typeset(title, height)), body], gap=2.0)
+
+
+def _check(columns: Sequence[TableColumn]) -> None:
+    counts = {len(column.values) for column in columns}
+    if len(counts) != 1:
+        told = ", ".join(f"{c.head}: {len(c.values)}" for c in columns) or "no columns"
+        raise LayoutError(f"Cannot draw a table from columns of unlike length ({told}).")
+
+
+def _set_all(columns: Sequence[TableColumn], size: float) -> tuple[_Set, ...]:
+    return tuple(_set_column(column, size) for column in columns)
+
+
+def _set_column(column: TableColumn, size: float) -> _Set:
+    """Typeset a column; with a width aimed at, try the smaller heights before it grows."""
+    heights = smaller_heights(size) if column.width is not None else (size,)
+    for height in heights:
+        made = _set_at(column, height)
+        if column.width is None or made.width <= column.width:
+            break
+    least = column.width if column.width is not None else column.least
+    return replace(made, width=max(made.width, least))
+
+
+def _set_at(column: TableColumn, size: float) -> _Set:
+    values = tuple(typeset(cell.text, size) for cell in column.cells)
+    head, unit = typeset(column.head, size), typeset(column.unit, size)
+    signed = any(cell.sense is not None for cell in column.cells)
+    sign = 1.2 * size if signed else 0.0
+    tail = sign + _SIGN_GAP if signed else 0.0
+    room = max((value.width for value in values), default=0.0)
+    lefts = tuple(-(value.width + tail) / 2 for value in values)
+    if all(_NUMBER.match(cell.text) for cell in column.cells):
+        # Digits of one place stand under one another (GOST 2.105).
+        wholes = [_integer_width(cell.text, size) for cell in column.cells]
+        fractions = (v.width - w for v, w in zip(values, wholes, strict=True))
+        room = max(wholes, default=0.0) + max(fractions, default=0.0)
+        comma = max(wholes, default=0.0) - (room + tail) / 2
+        lefts = tuple(comma - whole for whole in wholes)
+    width = max(head.width, unit.width, room + tail) + 2 * _PAD
+    sign_x = (room + tail) / 2 - sign / 2
+    return _Set(column, head, unit, values, width, lefts, complex(sign_x, sign))
+
+
+def _integer_width(number: str, size: float) -> float:
+    return in_use().width(re.split("[., *]", number)[0], size)
+
+
+def _total(part: Sequence[_Set]) -> float:
+    return sum(column.width for column in part)
+
+
+def _split(columns: tuple[_Set, ...], limit: float, leading: int) -> list[tuple[_Set, ...]]:
+    """Cut into as few parts as the limit allows, of nearly equal width."""
+    lead, rest = columns[:leading], columns[leading:]
+    room = limit - _total(lead)
+    widest = max((c.width for c in rest), default=0.0)
+    if widest > room + 1e-9:
+        raise LayoutError(
+            f"Cannot fit a table column of {widest:.1f} mm beside {limit - room:.1f} mm of leading "
+            f"columns into {limit:.1f} mm. Choose a larger paper format or fewer leading columns."
+        )
+    count = len(_filled(rest, room))
+    tries = (widest + (room - widest) * k / 40 for k in range(40))
+    even = next((w for w in tries if len(_filled(rest, w)) == count), room)
+    return [(*lead, *part) for part in _filled(rest, even)]
+
+
+def _filled(columns: Sequence[_Set], room: float) -> list[tuple[_Set, ...]]:
+    parts: list[tuple[_Set, ...]] = [()]
+    for column in columns:
+        if parts[-1] and _total(parts[-1]) + column.width > room + 1e-9:
+            parts.append(())
+        parts[-1] += (column,)
+    return parts
+
+
+def _stretched(part: Sequence[_Set], target: float) -> tuple[float, ...]:
+    """Share spare width out evenly."""
+    spare = (target - _total(part)) / len(part)
+    return tuple(column.width + spare for column in part)
+
+
+def _line(start: complex, end: complex, pen: Pen = Pen.THIN) -> Stroke:
+    return Stroke((start, end), pen, tag="table")
+
+
+def _centred(text: Inscription, box: Bounds) -> list[Item]:
+    middle = complex((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+    return text.at(middle - 1j * text.height / 2, anchor="centre", box=box)
+
+
+def _value(column: _Set, row: int, box: Bounds) -> list[Item]:
+    """Place a value and the sign of its sense."""
+    value, cell = column.values[row], column.source.cells[row]
+    middle = (box[0] + box[2]) / 2
+    base = (box[1] + box[3] - value.height) / 2
+    items = value.at(complex(middle + column.lefts[row], base), box=box)
+    if cell.sense:
+        centre = complex(middle + column.sign.real, base + value.height / 2)
+        items += turn_sign(centre, column.sign.imag, cell.sense, tag="table")
+    return items

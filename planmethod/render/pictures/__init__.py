@@ -1,0 +1,1 @@
+"""Pictures of a mechanism and of its plans (изображения)."""

@@ -1,0 +1,229 @@
+"""Diagrams over the course of a mechanism (диаграммы): axes with arrows, curves, marks, numbers.
+
+Everything is millimetres from the crossing of the axes. The drawn positions stand on the axis of
+abscissae with their numbers, on the side that the curve leaves free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import pairwise
+from math import ceil, floor
+
+from planmethod.construct.scale import series_near
+from planmethod.note.numbers import russian, trimmed
+from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.extent import lettered
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.layout.block import Picture
+from planmethod.render.symbols import arrowhead
+
+AXIS = "diagram axis"
+CURVE = "diagram curve"
+"""Tags of the axes, and of the curves (with the curve's letter)."""
+
+_BEYOND = 8.0  # mm: an axis goes on beyond what is drawn
+_TICK = 1.2  # mm: half of a tick
+_APART = 11.0  # mm: between the numbers of the axis of ordinates
+_HEAD = 4.0  # mm: arrowhead of an axis
+_BESIDE_AXIS = 25.0  # mm: so near the axis of ordinates no curve has its letter if it can
+_BESIDE_NUMBERS = 8.0  # mm: so low a curve has its letter above it
+_DASHED = 20.0  # mm: shorter parts of a curve show no dashes
+_DOT = 0.7  # mm: a position that is a part of a curve alone
+_MARK = 1.3  # mm: half of a mark
+
+
+class Mark(Enum):
+    """Sign of a point that was found on its own (метка точки)."""
+
+    RING = "ring"
+    CROSS = "cross"
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """Curve of a diagram: its letter (rich text), unbroken parts, mm, and its pen."""
+
+    symbol: str
+    parts: tuple[tuple[complex, ...], ...]
+    pen: Pen = Pen.MAIN
+
+
+@dataclass(frozen=True, slots=True)
+class Ordinates:
+    """Axis of ordinates: what stands at its arrow, and its scale, units per mm."""
+
+    name: str
+    per_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class Abscissae:
+    """Axis of abscissae: what stands at its arrow, the drawn positions (mm) and their numbers."""
+
+    name: str
+    at: tuple[float, ...]
+    numbers: tuple[str, ...]
+
+
+def mark_items(mark: Mark, at: complex) -> list[Item]:
+    """Return the sign of a found point."""
+    if mark is Mark.RING:
+        return [Arc(at, _MARK, pen=Pen.THIN, tag=f"mark {mark.value}")]
+    reach = _MARK * (1 + 1j) * 0.9
+    tag = f"mark {mark.value}"
+    return [
+        Stroke((at - reach, at + reach), Pen.THIN, tag=tag),
+        Stroke((at - reach.conjugate(), at + reach.conjugate()), Pen.THIN, tag=tag),
+    ]
+
+
+def diagram_picture(
+    across: Abscissae,
+    up: Ordinates,
+    curves: Sequence[Curve],
+    marks: Iterable[tuple[Mark, complex]] = (),
+    *,
+    letter_height: float,
+    name: str,
+) -> Picture:
+    """Return a diagram, the crossing of its axes at the origin.
+
+    Parameters
+    ----------
+    marks : iterable of (Mark, complex)
+        Points that were found on their own.
+    letter_height : float, mm
+        Of the letters; the numbers are a size smaller, 2.5 mm at least.
+    name : str
+        What the labels of this diagram begin with, for the lint.
+    """
+    heights = [place.imag for curve in curves for part in curve.parts for place in part]
+    low, high = min([0.0, *heights]), max([0.0, *heights])
+    size = max(2.5, 0.7 * letter_height)
+    items = [
+        *_axes(across, up, low, high, letter_height),
+        *_ordinate_numbers(up, low, high, size),
+    ]
+    for x in across.at:
+        items.append(Stroke((complex(x, -_TICK), complex(x, _TICK)), Pen.THIN, tag=AXIS))
+    for curve in curves:
+        items += _curve_items(curve)
+    for mark, at in marks:
+        items += mark_items(mark, at)
+    every = _every(across.at, 2.0 * size)
+    labels = [
+        Label(
+            typeset(number, size),
+            complex(x, 0.0),
+            prefer=-1j if _height(curves, x) >= 0 else 1j,
+            gap=1.6,
+            name=f"{name}: position {k}",
+        )
+        for k, (x, number) in enumerate(zip(across.at, across.numbers, strict=True))
+        if k % every == 0
+    ]
+    labels += _letters(curves, letter_height, name)
+    return lettered(items, labels)
+
+
+def _every(at: Sequence[float], least: float) -> int:
+    """Return which positions have their numbers: all, or every so many, so far apart at least."""
+    gaps = [abs(end - start) for start, end in pairwise(sorted(at)) if end != start]
+    return max(1, ceil(least / min(gaps, default=least) - 1e-9))
+
+
+def _axes(across: Abscissae, up: Ordinates, low: float, high: float, height: float) -> list[Item]:
+    """Return both axes with arrows and what stands at them."""
+    # Below the axis of abscissae there are no curves to keep clear of, but its numbers above it.
+    right, top = max(across.at) + _BEYOND, max(high + _BEYOND, 3.0 * height)
+    items: list[Item] = [
+        Stroke((0j, complex(right - _HEAD / 2, 0.0)), Pen.THIN, tag=AXIS),
+        Stroke((complex(0.0, low), complex(0.0, top - _HEAD / 2)), Pen.THIN, tag=AXIS),
+        *arrowhead(complex(right, 0.0), 1 + 0j, length=_HEAD, tag=AXIS),
+        *arrowhead(complex(0.0, top), 1j, length=_HEAD, tag=AXIS),
+    ]
+    name = typeset(across.name, height)
+    items += name.at(complex(right - name.width, name.descent + 2.5))
+    return [*items, *typeset(up.name, height).at(complex(2.5, top - height))]
+
+
+def _ordinate_numbers(up: Ordinates, low: float, high: float, size: float) -> list[Item]:
+    """Return ticks with round numbers on the axis of ordinates; at zero a position stands."""
+    items: list[Item] = []
+    step = series_near(_APART * up.per_mm, up=True)
+    for k in range(ceil(low * up.per_mm / step - 1e-9), floor(high * up.per_mm / step + 1e-9) + 1):
+        if not k:
+            continue
+        y = k * step / up.per_mm
+        number = typeset(russian(trimmed(k * step, 4)), size)
+        items.append(Stroke((complex(-_TICK, y), complex(_TICK, y)), Pen.THIN, tag=AXIS))
+        items += number.at(complex(-_TICK - 1.2 - number.width, y - size / 2))
+    return items
+
+
+def _curve_items(curve: Curve) -> list[Item]:
+    """Return the parts of a curve; thin uprights where it jumps."""
+    tag = f"{CURVE} {curve.symbol}"
+    items: list[Item] = []
+    for part in curve.parts:
+        length = sum(abs(end - start) for start, end in pairwise(part))
+        if length < _DOT:
+            items.append(Disc(part[0], _DOT, Ink.BLACK, tag))
+        else:
+            # A part too short for dashes is drawn whole.
+            pen = curve.pen if length > _DASHED or curve.pen is Pen.MAIN else Pen.THIN
+            items.append(Stroke(part, pen, tag=tag))
+    for before, after in zip(curve.parts, curve.parts[1:], strict=False):
+        if abs(after[0].real - before[-1].real) < 0.1 < abs(after[0] - before[-1]):
+            items.append(Stroke((before[-1], after[0]), Pen.THIN, tag=tag))
+    return items
+
+
+def _height(curves: Sequence[Curve], x: float) -> float:
+    """Return the sum of the curves' heights near an abscissa."""
+    total = 0.0
+    for curve in curves:
+        places = [place for part in curve.parts for place in part]
+        if places:
+            total += min(places, key=lambda place: abs(place.real - x)).imag
+    return total
+
+
+def _letters(curves: Sequence[Curve], height: float, name: str) -> list[Label]:
+    """Return the letters of the curves, each where its curve is furthest from the others."""
+    labels = []
+    for k, curve in enumerate(curves):
+        places = [place for part in curve.parts for place in part]
+        if not places or not curve.symbol:
+            continue
+        others = [
+            place for other in curves if other is not curve for p in other.parts for place in p
+        ]
+
+        def alone(place: complex, others: Sequence[complex] = others) -> float:
+            gaps = [abs(other.imag - place.imag) for other in others
+                    if abs(other.real - place.real) < 6.0]  # fmt: skip
+            near_axis = max(0.0, _BESIDE_AXIS - place.real)  # the axis has a name of its own there
+            return min(gaps, default=99.0) + 0.2 * abs(place.imag) - near_axis
+
+        at = max(places, key=alone)
+        above = sum(o.imag < at.imag for o in others if abs(o.real - at.real) < 6.0)
+        below = sum(o.imag >= at.imag for o in others if abs(o.real - at.real) < 6.0)
+        # Along the axis stand the numbers of the positions.
+        up = (above >= below if others else at.imag >= 0) or 0.0 <= at.imag < _BESIDE_NUMBERS
+        labels.append(
+            Label(
+                typeset(curve.symbol, height),
+                at,
+                prefer=1j if up else -1j,
+                gap=1.5,
+                priority=1,
+                name=f"{name}: curve {k}",
+                manner=BUSY,
+            )
+        )
+    return labels

@@ -1,0 +1,201 @@
+"""Ellipses of the drafting error around the points of a view (эллипсы погрешности)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from math import atan2, cos, sin, sqrt, tau
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.model import PlanKind
+from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
+from planmethod.render.ink.style import PENS
+from planmethod.solved.scaling import extent, own_scale, plan_extent
+from planmethod.solved.solution import Reals, Solution
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.solved.errors.spread import Errors
+
+SIGMAS = 2
+"""Half axes of an ellipse, in sigmas: it holds 86 % of what is drawn."""
+
+ENLARGED = (5, 2, 1)
+"""How many times the ellipses of a scheme are enlarged, to show beside the signs of its joints."""
+
+READABLE = 0.5
+"""Part of a view that an ellipse may be across: a larger one only hides the plan."""
+
+CLUTTER = 0.25
+"""Part of a scheme that an enlarged ellipse may be across."""
+
+TAG = "ellipse"
+
+_CORNERS = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Ellipses:
+    """Ellipses of one view, and what the view has to say about them.
+
+    ``strained`` tells that some are dashed, ``too_large`` that some are larger than half of it,
+    ``undefined`` that first order gives no ellipse somewhere; ``enlarged`` is how many times the
+    ellipses are larger than the view.
+    """
+
+    strokes: tuple[Stroke, ...] = ()
+    enlarged: int = 1
+    strained: bool = False
+    too_large: bool = False
+    undefined: bool = False
+
+    @property
+    def grounds(self) -> list[Item]:
+        """The insides of the ellipses, where no letter shall stand."""
+        return [Fill(stroke.points, tag=TAG) for stroke in self.strokes]
+
+
+def half_axes(covariance: Reals) -> tuple[float, float, float]:
+    """Return the half axes of the ellipse of one sigma and the direction of the longer one.
+
+    Parameters
+    ----------
+    covariance : ndarray of shape (2, 2)
+        Of x and y, mm².
+
+    Returns
+    -------
+    a, b : float, mm
+        The longer one first; not finite where the covariance is not.
+    turn : float, radians
+    """
+    xx, yy, xy = float(covariance[0, 0]), float(covariance[1, 1]), float(covariance[0, 1])
+    mean, half = (xx + yy) / 2, (xx - yy) / 2
+    spread = sqrt(half**2 + xy**2)
+    return sqrt(mean + spread), sqrt(max(mean - spread, 0.0)), atan2(xy, half) / 2
+
+
+def ellipse(centre: complex, covariance: Reals, pen: Pen = Pen.THIN) -> Stroke:
+    """Return the ellipse of `SIGMAS` sigmas around a point, mm."""
+    a, b, turn = half_axes(covariance)
+    way = complex(cos(turn), sin(turn)) * SIGMAS
+    steps = (tau * k / _CORNERS for k in range(_CORNERS))
+    points = tuple(centre + way * complex(a * cos(t), b * sin(t)) for t in steps)
+    return Stroke(points, pen, closed=True, tag=TAG)
+
+
+@lru_cache(maxsize=512)
+def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
+    """Return the ellipses of a view's moving points in one position."""
+    common, scheme = solution.scales[kind].per_mm, kind is PlanKind.POSITION
+    # A plan near a dead position is drawn smaller, and its ellipses with it.
+    per_mm = common if scheme else own_scale(solution, kind, index).per_mm
+    share = common / per_mm
+    size = extent(solution, kind) if scheme else plan_extent(solution, kind, index)
+    places = {point: place * share for point, place in _places(solution, kind, index)}
+    return shown_ellipses(
+        solution.drafting,
+        index,
+        places,
+        max(size) / per_mm,
+        share=share,
+        enlarged=ENLARGED if scheme else (1,),
+    )
+
+
+def shown_ellipses(
+    errors: Errors,
+    index: int,
+    places: Mapping[PointName, complex],
+    size: float,
+    *,
+    share: float = 1.0,
+    enlarged: Sequence[int] = (1,),
+) -> Ellipses:
+    """Return the ellipses around some points of a view in one position.
+
+    What is thinner than the pen is not drawn, nor what is larger than half of the view: there the
+    drawing hardly says where the point is. Dashed are those where first order does not hold.
+
+    Parameters
+    ----------
+    errors : Errors
+    index : int
+        Which position.
+    places : mapping of PointName to complex
+        Where the points are drawn, mm.
+    size : float, mm
+        Of the view.
+    share : float
+        How many times the view is larger than the drawing that ``errors`` are those of.
+    enlarged : sequence of int
+        Enlargements to choose from, the largest first; the last is 1.
+    """
+    found = {point: errors.ellipse(point, index) * share**2 for point in places}
+    known = {point: each for point, each in found.items() if np.isfinite(each).all()}
+    across = {point: 2 * SIGMAS * half_axes(each)[0] for point, each in known.items()}
+    shown = [point for point in known if across[point] <= READABLE * size]
+    widest = max((across[point] for point in shown), default=0.0)
+    times = next(k for k in enlarged if k == 1 or k * widest <= CLUTTER * size)
+    strokes: list[Stroke] = []
+    for point in shown:
+        if across[point] * times > PENS[Pen.THIN].width:
+            pen = Pen.HIDDEN if errors.strained(point)[index] else Pen.THIN
+            stroke = ellipse(places[point], known[point] * times**2, pen)
+            if not any(_alike(stroke, other) for other in strokes):
+                strokes.append(stroke)
+    return Ellipses(
+        tuple(strokes),
+        times,
+        strained=any(stroke.pen is Pen.HIDDEN for stroke in strokes),
+        too_large=len(shown) < len(known),
+        undefined=len(known) < len(found),
+    )
+
+
+def _places(solution: Solution, kind: PlanKind, index: int) -> Iterator[tuple[PointName, complex]]:
+    """Yield the letter points of a plan, or the moving points of the mechanism, in order, mm."""
+    if kind is PlanKind.POSITION:
+        bodies = solution.problem.bodies
+        fixed = bodies[FRAME].points
+        names = {p for body in bodies.values() for p in body.points if p not in fixed}
+        points = [PointName(name) for name in sorted(names)]
+    else:
+        plan = solution.construction.plan(kind)
+        points = sorted(point for point in plan.letters if point != plan.pole)
+    for point in points:
+        yield point, complex(solution.complexes(solution.paper, point)[index])
+
+
+def _alike(one: Stroke, two: Stroke) -> bool:
+    """Tell whether two ellipses would be drawn over each other."""
+    return all(abs(p - q) < 0.02 for p, q in zip(one.points, two.points, strict=True))
+
+
+def ellipse_inscription(solution: Solution, kind: PlanKind, indices: Sequence[int]) -> list[str]:
+    """Return the lines that tell what the ellipses of a view are."""
+    return told_ellipses([error_ellipses(solution, kind, i) for i in indices], solution.profile)
+
+
+def told_ellipses(shown: Sequence[Ellipses], profile: Profile) -> list[str]:
+    """Return the lines that tell what some ellipses are, drawn by the hand of a profile."""
+    from planmethod.note.wording import wording
+
+    hand = wording("ru").profiles.get(profile.name, profile.name)
+    if not any(view.strokes or view.too_large or view.undefined for view in shown):
+        return [f"эллипсы погрешности {SIGMAS}σ тоньше линий ({hand})"]
+    enlarged = max(view.enlarged for view in shown)
+    size = f"{SIGMAS}σ, увеличены {enlarged}:1" if enlarged > 1 else f"{SIGMAS}σ"
+    lines = [f"эллипсы погрешности: {size}, {hand}"]
+    if any(view.strained for view in shown):
+        lines.append("штриховые: первый порядок неверен")
+    if any(view.too_large for view in shown):
+        lines.append("эллипсы больше половины плана не показаны")
+    if any(view.undefined for view in shown):
+        lines.append("неопределённые эллипсы не показаны")
+    return lines

@@ -1,0 +1,201 @@
+"""Ways of the points between the drawn positions (траектории) and the extreme positions."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import tau
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.draft import cis
+from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
+from planmethod.solved.solution import Complexes, Reals, Solution
+from planmethod.solved.travel import TURN, Course
+
+TRAJECTORY = "trajectory"
+"""Tag of the line that a point moves along: ``trajectory B``."""
+
+_FLAT = 0.02  # mm off its chord: a straight line on the paper
+_THIN = 0.05  # area of a closed line over that of a circle as long: it has no inside below that
+
+
+@dataclass(frozen=True)
+class Paths:
+    """Where the points of a mechanism go between the positions of a solution."""
+
+    solution: Solution
+
+    @cached_property
+    def course(self) -> Course:
+        """The driver positions that the lines go through."""
+        return Course(self.solution)
+
+    @cached_property
+    def _between(self) -> Solution:
+        s = self.solution
+        return Solution(s.problem, positions=self.course.positions.tolist(), scales=s.scales)
+
+    @cached_property
+    def _trace(self) -> dict[str, Complexes]:
+        """Places of all points, NaN where the mechanism cannot be assembled, mm."""
+        between = self._between
+        trace = between.read(Float64(), between.per_mm)
+        points = {p for body in between.problem.bodies.values() for p in body.points}
+        return {point: between.complexes(trace, PointName(point)) for point in points}
+
+    def of(self, point: str) -> Complexes:
+        """Return the places of a point, mm, ndarray of shape (n,)."""
+        return self._trace[point]
+
+    def pivot(self, point: str) -> complex | None:
+        """Return the fixed point about which a point turns at a constant distance, mm."""
+        bodies = self.solution.problem.bodies
+        for link, body in bodies.items():
+            if link == FRAME or point not in body.points:
+                continue
+            for fixed in body.points:
+                if fixed in bodies[FRAME].points:
+                    return complex(self.of(fixed)[0])
+        return None
+
+    # Lines -----------------------------------------------------------------------------------
+
+    def lines(self, point: str) -> list[Item]:
+        """Return the thin line that a point moves along: circle, arc or smooth curve.
+
+        A point that moves in a straight line has none: the axis of its guide is there.
+        """
+        places = self.of(point)
+        tag = f"{TRAJECTORY} {point}"
+        pivot = self.pivot(point)
+        if pivot is not None and not np.isnan(places).any():
+            return _arc(places, pivot, tag)
+        return [
+            Stroke(tuple(complex(p) for p in part), Pen.THIN, tag=tag)
+            for part in _unbroken(places)
+            if len(part) > 1 and not _is_straight(part)
+        ]
+
+    def outward(self, point: str, places: Sequence[complex]) -> list[complex]:
+        """Return the direction in which labels of a point shall stand at some of its places.
+
+        Normal to the line that it moves along: out of a closed one, on the convex side of an open
+        one. All on the same side, so that they read as a series; 0 where the side does not matter.
+        """
+        way = self.of(point)
+        way = way[~np.isnan(way)]
+        pivot = self.pivot(point)
+        if pivot is not None:
+            return [place - pivot for place in places]
+        if len(way) < 3 or _is_straight(way):
+            return [0j for _ in places]
+        ring = np.append(way, way[0])
+        area = float(np.sum((np.conj(ring[:-1]) * ring[1:]).imag)) / 2
+        length = float(np.sum(np.abs(np.diff(ring))))
+        if self.course.closed and abs(area) > _THIN * length**2 / (2 * tau):
+            side = -1j if area > 0 else 1j
+        else:
+            bend = float(np.sum((np.conj(np.diff(way)[:-1]) * np.diff(way)[1:]).imag))
+            side = -1j if bend > 0 else 1j
+        found = []
+        for place in places:
+            k = int(np.argmin(np.abs(way - place)))
+            along = way[min(k + 1, len(way) - 1)] - way[max(k - 1, 0)]
+            found.append(complex(along) * side)
+        return found
+
+    # Extreme positions -----------------------------------------------------------------------
+
+    @cached_property
+    def output(self) -> tuple[str, str] | None:
+        """Link of the last group that is joined with the frame, and its moving point."""
+        s = self.solution
+        bodies, fixed = s.problem.bodies, s.problem.bodies[FRAME].points
+        on_frame = {
+            slide.slider: slide for slide in s.problem.slides.values() if slide.host == FRAME
+        }
+        for group in reversed(s.structure.groups):
+            for link in reversed(group.links):
+                if link in on_frame:
+                    return link, on_frame[link].pin
+                points = bodies[link].points
+                if any(p in fixed for p in points) and any(p not in fixed for p in points):
+                    return link, next(p for p in points if p not in fixed)
+        return None
+
+    @cached_property
+    def extremes(self) -> tuple[float, ...]:
+        """Driver positions in which the output link turns back (крайние положения), at most two.
+
+        The furthest each way, in the order of the driver's motion; none where the link turns all
+        round, or goes on at the ends of what is drawn.
+        """
+        if self.output is None:
+            return ()
+        link, point = self.output
+        places = self.of(point)
+        if np.isnan(places).any() or len(places) < 5:
+            return ()
+        slide = next((s for s in self.solution.problem.slides.values() if s.slider == link), None)
+        if slide is not None and slide.host == FRAME:
+            reach = (places * np.conj(cis(slide.angle))).real
+        else:
+            pivot = self.pivot(point)
+            assert pivot is not None
+            reach = np.unwrap(np.angle(places - pivot))
+            if np.ptp(reach) > 0.999 * tau:
+                return ()
+        found = {self._turn(reach, int(np.argmin(reach))), self._turn(reach, int(np.argmax(reach)))}
+        return tuple(sorted(position for position in found if position is not None))
+
+    def _turn(self, reach: Reals, k: int) -> float | None:
+        """Return the driver position of an extreme near the one numbered ``k``."""
+        last = len(reach) - 1
+        if self.course.closed:
+            before, after = (k - 1 if k else last - 1), (k + 1 if k < last else 1)
+        elif k in (0, last):
+            return None
+        else:
+            before, after = k - 1, k + 1
+        a, b, c = float(reach[before]), float(reach[k]), float(reach[after])
+        bend = a - 2 * b + c
+        if abs(bend) < 1e-12:
+            return None
+        step = float(self.course.positions[1] - self.course.positions[0])
+        # The vertex of the parabola through three places.
+        at = float(self.course.positions[k]) + step * (a - c) / (2 * bend)
+        return at % TURN if self.course.closed else at
+
+
+def _unbroken(places: Complexes) -> list[Complexes]:
+    """Return the parts of a line between the positions that do not exist."""
+    gaps = np.flatnonzero(np.isnan(places))
+    return [part[~np.isnan(part)] for part in np.split(places, gaps)]
+
+
+def _is_straight(places: Complexes) -> bool:
+    far = places[int(np.argmax(np.abs(places - places[0])))] - places[0]
+    if abs(far) < 2 * _FLAT:
+        return True
+    return bool(np.max(np.abs(((places - places[0]) * np.conj(far)).imag)) / abs(far) < _FLAT)
+
+
+def _arc(places: Complexes, pivot: complex, tag: str) -> list[Item]:
+    """Return the circle about a fixed point that a point moves on, as far as it goes."""
+    radius = float(np.mean(np.abs(places - pivot)))
+    if radius < _FLAT:
+        return []
+    turn = np.unwrap(np.angle(places - pivot))
+    low, high = float(turn.min()), float(turn.max())
+    if high - low > tau - 1e-6:
+        return [Arc(pivot, radius, pen=Pen.THIN, tag=tag)]
+    if (high - low) * radius < 2 * _FLAT:
+        return []
+    low = cmath.phase(cmath.exp(1j * low))
+    return [Arc(pivot, radius, low, low + float(np.ptp(turn)), Pen.THIN, tag)]

@@ -1,0 +1,109 @@
+"""Velocity and acceleration plans drawn as a draughtsman draws them: pole, vectors, letters."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from planmethod.construct.steps import PointName, Similar
+from planmethod.note.narrate.letters import shown_letters
+from planmethod.plans.model import Plan, PlanKind, VectorKind
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.extent import lettered
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
+from planmethod.render.labels.spots import shared_spots
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
+from planmethod.render.symbols import vector_arrow
+from planmethod.solved.scaling import own_scale
+from planmethod.solved.solution import Solution
+
+POLE = "pole"
+"""Tag of the disc at a plan's pole: one for each plan that is drawn."""
+
+COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
+
+
+def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, PointName]]:
+    """Return the sides of the figures similar to links, as far as no vector draws them."""
+    drawn = {frozenset((v.tail, v.head)) for v in plan.vectors}
+    pole = str(plan.pole)
+    lines: dict[frozenset[PointName], tuple[PointName, PointName]] = {}
+    for step in solution.construction.program.steps:
+        if not isinstance(step, Similar) or step.out[:2] != pole[:2]:
+            continue
+        for side in ((step.plan_b, step.plan_c), (step.plan_b, step.out), (step.plan_c, step.out)):
+            if frozenset(side) not in drawn:
+                lines.setdefault(frozenset(side), side)
+    return list(lines.values())
+
+
+def plan_places(solution: Solution, kind: PlanKind, index: int) -> dict[PointName, complex]:
+    """Return where the points of a plan lie in one position, mm from its pole.
+
+    A plan near a dead position has a scale of its own: the same figure, smaller.
+    """
+    plan = solution.construction.plan(kind)
+    assert plan.pole is not None
+    ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
+    share = solution.scales[kind].per_mm / own_scale(solution, kind, index).per_mm
+    return {name: complex(solution.complexes(solution.paper, name)[index]) * share for name in ends}
+
+
+@lru_cache(maxsize=256)
+def plan_picture(
+    solution: Solution,
+    kind: PlanKind,
+    index: int,
+    *,
+    letter_height: float = 5.0,
+    errors: bool = False,
+) -> Picture:
+    """Return a plan in one position as a picture, its own pole at the origin, mm.
+
+    ``errors`` draws the ellipses of the drafting error around its points. Kept, since a sheet is
+    tried with fewer positions when it does not fit with more.
+    """
+    plan = solution.construction.plan(kind)
+    assert plan.pole is not None
+    at = plan_places(solution, kind, index)
+    factor = min(1.0, letter_height / 5.0 + 0.2)
+    ellipses = error_ellipses(solution, kind, index) if errors else Ellipses()
+    items: list[Item] = list(ellipses.strokes)
+    for tail, head in similar_lines(solution, plan):
+        if abs(at[head] - at[tail]) > 0.05:
+            items.append(Stroke((at[tail], at[head]), Pen.THIN, tag="similar"))
+    for vector in plan.vectors:
+        thin = vector.kind in COMPONENTS or (
+            vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
+        )
+        items += vector_arrow(
+            at[vector.tail],
+            at[vector.head],
+            pen=Pen.THIN if thin else Pen.MAIN,
+            length=5.0 * factor,
+            tag=vector.kind.value,
+        )
+    items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
+    labels = _labels(solution, plan, at, letter_height, f"{kind.value} {index}")
+    return lettered(items, labels, clear=ellipses.grounds)
+
+
+def _labels(
+    solution: Solution, plan: Plan, at: dict[PointName, complex], height: float, prefix: str
+) -> list[Label]:
+    """Return the letters; points that coincide on the paper share one inscription."""
+    letters = shown_letters(solution.problem, plan)
+    ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
+    spots = shared_spots((at[name], own) for name, own in ordered)
+    centre = sum(place for place, _ in spots) / len(spots)
+    return [
+        Label(
+            typeset(", ".join(texts), height),
+            place,
+            prefer=place - centre,
+            gap=1.4,
+            name=f"{prefix}: {texts[0]}",
+        )
+        for place, texts in spots
+    ]

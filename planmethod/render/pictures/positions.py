@@ -1,0 +1,232 @@
+"""Many positions of a mechanism over one another, one of them bold, every joint lettered.
+
+The positions are thin lines; at every moving point stands its letter with the number of the
+position (A₀, A₁, ...), at the centres of mass, whose letters have an index already, the number
+alone. The lines that the points move along are there, and the extreme positions of the output
+link in dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.given import point_name
+from planmethod.render.ink.drawing import Arc, Disc, Item, Pen
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import CROWDED, Label
+from planmethod.render.pictures.paths import Paths
+from planmethod.render.pictures.scheme import Scheme
+from planmethod.solved.solution import Solution
+
+PRIMES = ("′", "″")
+"""What the extreme positions are called, in the order of the driver's motion."""
+
+TOGETHER = 0.5
+"""Points nearer than this are one on the paper and share a label, mm."""
+
+_MARK = 0.7  # radius of the circle at a joint in another position, mm
+_APART = 0.3  # sine of the least angle between joined links of the bold position
+_TURNING = 12.0  # degrees of the crank between it and an extreme position
+_LEAST_MARK = 0.45  # where circles would run into each other, mm
+
+
+@dataclass(slots=True)
+class Spot:
+    """One place of a point and the numbers of the positions that it is there in."""
+
+    place: complex
+    numbers: list[str]
+    bold: bool = False
+
+
+@dataclass
+class Positions:
+    """The other positions of a scheme.
+
+    Parameters
+    ----------
+    solution : Solution
+    bold : int
+        The position that the scheme shows in main lines.
+    overlay : tuple of int
+        The positions that are shown.
+    letter_height : float, mm
+    """
+
+    solution: Solution
+    bold: int
+    overlay: tuple[int, ...]
+    letter_height: float
+    paths: Paths = field(init=False)
+    shown: Solution = field(init=False)
+    numbers: dict[int, str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        s = self.solution
+        self.paths = Paths(s)
+        extremes = self.paths.extremes
+        # The extreme positions behind the others, so that links have one length in all of them.
+        at = [*s.positions.tolist(), *extremes]
+        self.shown = Solution(s.problem, positions=at, scales=s.scales) if extremes else s
+        self.numbers = {k: str(k) for k in self.overlay}
+        first = len(s.positions)
+        self.numbers |= {
+            first + k: prime for k, prime in zip(range(len(extremes)), PRIMES, strict=False)
+        }
+
+    @property
+    def points(self) -> list[str]:
+        """Moving points in the order of the links."""
+        bodies = self.solution.problem.bodies
+        named = [p for link, body in bodies.items() if link != FRAME for p in body.points]
+        return [p for p in dict.fromkeys(named) if p not in bodies[FRAME].points]
+
+    def at(self, point: str, index: int) -> complex:
+        """Return the place of a point in a position, mm."""
+        trace = self.shown.paper
+        return complex(self.shown.complexes(trace, PointName(point))[index])
+
+    def spots(self, point: str) -> list[Spot]:
+        """Return the places of a point, those that coincide on the paper joined."""
+        found: list[Spot] = []
+        for index, number in self.numbers.items():
+            if number in PRIMES and point not in self._turning:
+                continue
+            place = self.at(point, index)
+            spot = next((s for s in found if abs(s.place - place) < TOGETHER), None)
+            if spot is None:
+                spot = Spot(place, [])
+                found.append(spot)
+            spot.numbers.append(number)
+            if index == self.bold:
+                spot.place, spot.bold = place, True
+        return found
+
+    def places(self) -> list[complex]:
+        """Return the places of all moving points in the other positions, mm."""
+        return [
+            self.at(p, index) for p in self.points for index in self.numbers if index != self.bold
+        ]
+
+    @property
+    def _turning(self) -> set[str]:
+        """Points that are lettered in the extreme positions: of the driver and of the output."""
+        drive = self.solution.problem.drive
+        ends = [p for p in self.solution.problem.bodies[drive.link].points if p in self.points]
+        output = self.paths.output
+        return {*ends[:1], *([output[1]] if output else [])}
+
+    # Lines -----------------------------------------------------------------------------------
+
+    def lines(self) -> list[Item]:
+        """Return the links in the other positions and the lines that the points move along."""
+        items: list[Item] = []
+        for index in self.numbers:
+            if index != self.bold:
+                items += self._links(index)
+        for point in self.points:
+            items += self.paths.lines(point)
+        return items
+
+    def _links(self, index: int) -> Iterable[Item]:
+        """Return the lines of the links in a position: thin, dash-dot-dot in an extreme one."""
+        pen = Pen.PHANTOM if self.numbers[index] in PRIMES else Pen.PALE
+        scheme = Scheme(self.shown, index, self.letter_height, pen=pen)
+        for link in self.solution.problem.mechanism.links:
+            scheme.draw_link(link)
+        return scheme.lines
+
+    def marks(self) -> list[Item]:
+        """Return the joints in the other positions: small circles, smaller where they are dense."""
+        items: list[Item] = []
+        for point in self.points:
+            places = [spot.place for spot in self.spots(point) if not spot.bold]
+            apart = min((abs(p - q) for k, p in enumerate(places) for q in places[:k]), default=9.0)
+            radius = min(_MARK, max(_LEAST_MARK, 0.45 * apart))
+            for place in places:
+                items += [Disc(place, radius), Arc(place, radius, pen=Pen.THIN)]
+        return items
+
+    # Letters ---------------------------------------------------------------------------------
+
+    def labels(self, height: float, *, every: int = 1) -> list[Label]:
+        """Return the letters of all points in all positions, of ``every`` so manieth at the least.
+
+        The bold position has larger ones; its own name stands there where the others have numbers
+        alone.
+        """
+        labels: list[Label] = []
+        for point in self.points:
+            spots = self.spots(point)
+            ways = self.paths.outward(point, [spot.place for spot in spots])
+            for spot, way in zip(spots, ways, strict=True):
+                numbers = [n for n in spot.numbers if n in PRIMES or int(n) % every == 0]
+                if spot.bold and str(self.bold) not in numbers:
+                    numbers.append(str(self.bold))
+                if numbers:
+                    labels.append(self._label(point, spot, numbers, way, height))
+        return labels
+
+    def _label(
+        self, point: str, spot: Spot, numbers: Sequence[str], way: complex, height: float
+    ) -> Label:
+        size = max(height, self.letter_height) if spot.bold else height
+        return Label(
+            typeset(written(point, numbers, bold=spot.bold), size),
+            spot.place,
+            prefer=way,
+            gap=1.5 if spot.bold else 1.0,
+            priority=1 if spot.bold else 0,
+            name=f"point {point} {','.join(numbers)}",
+            manner=CROWDED,
+            series=point,
+        )
+
+
+def bold_position(solution: Solution, indices: Sequence[int]) -> int:
+    """Return the position that shows the mechanism best.
+
+    Of those in which no two joined links lie nearly in one line, and the output link does not
+    nearly turn back, the furthest from a dead position.
+    """
+    axes = {
+        link: np.exp(1j * np.radians(motion.phi_deg))
+        for link, motion in solution.links.items()
+        if len(solution.problem.bodies[link].points) > 1
+    }
+    joined = [
+        pair
+        for joint in solution.problem.mechanism.revolutes
+        for pair in combinations([link for link in joint.links if link in axes], 2)
+    ]
+    joined += [
+        (slide.host, link)
+        for slide in solution.problem.slides.values()
+        for link in solution.problem.mechanism.links
+        if link != slide.host
+        and {slide.host, link} <= axes.keys()
+        and slide.pin in solution.problem.bodies[link].points
+    ]
+    apart = np.ones(solution.positions.shape)
+    for one, two in joined:
+        apart = np.minimum(apart, np.abs((axes[one] * np.conj(axes[two])).imag))
+    turning = np.zeros(solution.positions.shape, dtype=bool)
+    if solution.problem.drive.is_crank:
+        for extreme in Paths(solution).extremes:
+            turning |= np.abs((solution.positions - extreme + 180.0) % 360.0 - 180.0) < _TURNING
+    good = (apart > _APART) & ~turning
+    return max(indices, key=lambda i: (bool(good[i]), float(solution.margin[i])))
+
+
+def written(point: str, numbers: Sequence[str], *, bold: bool = False) -> str:
+    """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``."""
+    if len(point) > 1:
+        found = ", ".join(numbers)
+        return point_name(point) + (f" ({found})" if len(numbers) > 1 else "") if bold else found
+    return ", ".join(point + n if n in PRIMES else f"{point}_{{{n}}}" for n in numbers)

@@ -1,0 +1,329 @@
+"""Links, sliders and joints of a mechanism drawn to scale with the symbols of kinematic schemes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.model import FRAME, Revolute
+from planmethod.plans.draft import cis
+from planmethod.problem.model import Slide
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.pictures.supports import Support, free_sides, stand
+from planmethod.render.symbols import (
+    SIZES,
+    angle_of,
+    guide_plates,
+    revolute,
+    revolute_on,
+    rigid_corner,
+    slider,
+    stiff_triangle,
+    stone,
+    unit,
+)
+from planmethod.render.symbols.axes import axis_line
+from planmethod.solved.solution import Solution
+
+AXIS = 15.0
+"""Length of a guide's axis beyond the slider before ``factor``, mm."""
+
+OVERHANG = 5.0
+"""How far a bar goes on beyond the stone that slides on it, mm."""
+
+
+@dataclass(slots=True)
+class Scheme:
+    """One mechanism being drawn in one position (схема).
+
+    ``bodies``, ``lines``, ``corners`` and ``joints`` are drawn in this order: the sliders lie under
+    the links that reach their pins, the joints cover the lines they join.
+    """
+
+    solution: Solution
+    index: int
+    letter_height: float
+    pen: Pen = Pen.MAIN
+    guides: list[Item] = field(default_factory=list)
+    bodies: list[Item] = field(default_factory=list)
+    lines: list[Item] = field(default_factory=list)
+    corners: list[Item] = field(default_factory=list)
+    joints: list[Item] = field(default_factory=list)
+    named: list[str] = field(default_factory=list)
+    segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
+    axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
+    supports: list[Support] = field(default_factory=list)
+
+    @property
+    def factor(self) -> float:
+        """Size of the symbols: smaller on small sheets."""
+        return min(1.0, self.letter_height / 5.0 + 0.1)
+
+    def at(self, point: str) -> complex:
+        """Return the place of a point on the paper, mm."""
+        trace = self.solution.paper
+        return complex(self.solution.complexes(trace, PointName(point))[self.index])
+
+    def axis(self, link: str) -> complex:
+        """Return the direction of a link's own axis, a unit vector."""
+        if link == FRAME:
+            return 1 + 0j
+        return cis(float(self.solution.links[link].phi_deg[self.index]))
+
+    def line_direction(self, slide: Slide) -> complex:
+        """Return the direction of a slide line, a unit vector."""
+        return self.axis(slide.host) * cis(slide.angle)
+
+    def base(self, slide: Slide) -> complex:
+        """Return the base point of a slide line on the paper, mm."""
+        if slide.through is not None:
+            return self.at(slide.through)
+        return self.at(f"{slide.label}:0")
+
+    # Links -----------------------------------------------------------------------------------
+
+    def bar(self, link: str, start: complex, end: complex) -> None:
+        """Draw a straight part of a link."""
+        if abs(end - start) > 0.1:
+            self.lines.append(Stroke((start, end), self.pen, tag=f"link {link}"))
+            self.segments.setdefault(link, []).append((start, end))
+
+    def draw_link(self, link: str) -> None:
+        """Draw the lines of a link through its points and along the lines it carries."""
+        problem = self.solution.problem
+        body = problem.bodies[link].points
+        ends = [(z, self.at(name)) for name, z in body.items()]
+        carried = [s for s in problem.slides.values() if s.host == link]
+        own = [s for s in carried if not self.solution.problem.is_block(s)]
+        size = max((abs(z - ends[0][0]) for z, _ in ends), default=0.0)
+        collinear = [(z, p) for z, p in ends if abs((z - ends[0][0]).imag) <= 1e-9 * size]
+        corners = [(z, p) for z, p in ends if (z, p) not in collinear]
+        along = sorted(collinear, key=lambda pair: pair[0].real)
+        if len(along) > 1:
+            self.bar(link, along[0][1], along[-1][1])
+        for z, p in corners:
+            self._corner(link, z, p, along)
+        for slide in own:
+            self._slot(link, slide, along)
+
+    def _corner(
+        self, link: str, z: complex, place: complex, along: list[tuple[complex, complex]]
+    ) -> None:
+        """Join a point off the axis to the link: as a stiff triangle, or by a rigid arm."""
+        inside = along[0][0].real < z.real < along[-1][0].real
+        if len(along) > 1 and inside and abs(z.imag) > 0.15 * (along[-1][0] - along[0][0]).real:
+            self.lines += stiff_triangle(
+                along[0][1], along[-1][1], place, factor=self.factor, pen=self.pen
+            )
+            self.segments.setdefault(link, []).append((along[0][1], place))
+            return
+        nearest = min(along, key=lambda pair: abs(pair[0] - z))
+        self.bar(link, nearest[1], place)
+        for other in along:
+            if other != nearest and self._is_marked(link, nearest[1]):
+                self.corners += rigid_corner(nearest[1], place, other[1], factor=self.factor)
+                break
+
+    def _slot(self, link: str, slide: Slide, along: list[tuple[complex, complex]]) -> None:
+        """Draw the line that a link carries, as far as the stone on it and a little beyond."""
+        u = self.line_direction(slide)
+        start = self.base(slide)
+        reach = ((self.foot(slide) - start) * u.conjugate()).real
+        beyond = (7.0 + OVERHANG) * self.factor
+        # A link has one length: as far as the stone goes in any position of the sheet.
+        ways = self._reaches(slide)
+        marks = [0.0, *(way + math.copysign(beyond, way if way else 1.0) for way in ways)]
+        if slide.angle in (0.0, 180.0) and len(along) > 1:
+            on_axis = [((p - start) * u.conjugate()).real for _, p in along]
+            marks += [min(on_axis), max(on_axis)]
+        low, high = min(marks), max(marks)
+        if slide.angle in (0.0, 180.0) and len(along) > 1:
+            old = (min(on_axis), max(on_axis))
+            if low < old[0] - 0.1:
+                self.bar(link, start + u * low, start + u * old[0])
+            if high > old[1] + 0.1:
+                self.bar(link, start + u * old[1], start + u * high)
+            return
+        self.bar(link, start + u * low, start + u * high)
+        for _, place in along:
+            if abs(place - start) > 1.0 and self._is_marked(link, start):
+                self.corners += rigid_corner(start, place, start + u * reach, factor=self.factor)
+                break
+
+    def _is_marked(self, link: str, place: complex) -> bool:
+        """Tell whether a corner of a link is marked as rigid: not inside its own slider."""
+        slide = self.solution.problem.slides.get(link)
+        on_block = slide is not None and slide.host == FRAME and abs(self.at(slide.pin) - place) < 1
+        return self.pen is Pen.MAIN and not on_block
+
+    def _reaches(self, slide: Slide) -> tuple[float, float]:
+        """Return the least and the greatest place of a stone along its line in all positions."""
+        s = self.solution
+        turns = np.array([cis(float(a)) for a in s.links[slide.host].phi_deg]) * cis(slide.angle)
+        pins = s.complexes(s.paper, PointName(slide.pin))
+        bases = s.complexes(s.paper, PointName(slide.through or f"{slide.label}:0"))
+        along = ((pins - bases) * turns.conjugate()).real
+        return float(along.min()), float(along.max())
+
+    def foot(self, slide: Slide) -> complex:
+        """Return the foot of the pin on the slide line: the pin itself when there is no offset."""
+        u, start = self.line_direction(slide), self.base(slide)
+        return start + u * ((self.at(slide.pin) - start) * u.conjugate()).real
+
+    # Sliders ---------------------------------------------------------------------------------
+
+    def draw_slider(self, slide: Slide) -> None:
+        """Draw the rectangle of a prismatic pair and the guide that it runs on."""
+        u = self.line_direction(slide)
+        pin, angle = self.at(slide.pin), angle_of(u)
+        if self.solution.problem.is_block(slide):
+            block = self.base(slide)
+            reach = block + unit(block - pin) * (7.0 + OVERHANG) * self.factor
+            far = max(
+                (self.at(p) for p in self.solution.problem.bodies[slide.slider].points),
+                key=lambda p: ((p - pin) * unit(block - pin).conjugate()).real,
+            )
+            if ((far - reach) * unit(block - pin).conjugate()).real < 0:
+                self.bar(slide.slider, far, reach)
+            self.bodies += slider(block, angle=angle, factor=self.factor, pen=self.pen)
+            return
+        if slide.host == FRAME:
+            self._frame_guide(slide, u)
+            self.bodies += slider(pin, angle=angle, factor=self.factor, pen=self.pen)
+            return
+        foot = self.foot(slide)
+        slides = self.solution.problem.slides.values()
+        inside = any(s.host == FRAME and s.pin == slide.pin for s in slides)
+        self.bodies += stone(
+            foot, angle=angle, factor=self.factor, pen=self.pen, pin=False, inside=inside
+        )
+        if abs(foot - pin) > 0.2:
+            self.bar(slide.slider, foot, pin)
+
+    def _frame_guide(self, slide: Slide, u: complex) -> None:
+        """Draw the axis of a fixed guide over the slider's way and the hatched plates at it."""
+        foot, pin, start = self.foot(slide), self.at(slide.pin), self.base(slide)
+        angle = angle_of(u)
+        way = [((p - start) * u.conjugate()).real for p in self._way(slide)]
+        way += [
+            ((self.at(p) - start) * u.conjugate()).real
+            for p in self.solution.problem.bodies[slide.slider].points
+        ]
+        edge = SIZES.slider_length / 2 * self.factor
+        half = edge + AXIS * self.factor
+        low, high = min(way) - half, max(way) + half
+        offset = pin - foot
+        # Two lines, for each begins with a stroke at the edge of the slider.
+        for end, side in ((low, -edge), (high, edge)):
+            self.guides += axis_line(pin + u * side, start + u * end + offset, tag="guide")
+        length = SIZES.slider_length + 8.0
+        sides = free_sides(pin, self.lines, angle=angle, length=length, factor=self.factor)
+        self.bodies += guide_plates(
+            pin, angle=angle, length=length, sides=sides, factor=self.factor, pen=self.pen
+        )
+        self.axis_ends.append((slide.label, start + u * low + offset, start + u * high + offset))
+
+    def clearance(self, place: complex) -> float:
+        """Return how far a place is from the nearest link, mm."""
+        room = math.inf
+        for parts in self.segments.values():
+            for start, end in parts:
+                along = end - start
+                part = ((place - start) * along.conjugate()).real / abs(along) ** 2
+                room = min(room, abs(place - start - along * min(1.0, max(0.0, part))))
+        return room
+
+    def _way(self, slide: Slide) -> list[complex]:
+        """Return the places of a slider's pin in every position of the sheet, mm."""
+        places = self.solution.complexes(self.solution.paper, PointName(slide.pin))
+        return [complex(p) for p in places]
+
+    # Joints and inscriptions -----------------------------------------------------------------
+
+    def draw_joints(self) -> None:
+        """Draw pivots, joints and the other points of the links."""
+        problem = self.solution.problem
+        named: set[str] = set()
+        joints = problem.mechanism.revolutes
+        pivots = [self.at(joint.point) for joint in joints if joint.links[0] == FRAME]
+        self.supports = stand(pivots, [*self.lines, *self.bodies], factor=self.factor)
+        for support in self.supports:
+            self.joints += support.items()
+        for joint in joints:
+            place = self.at(joint.point)
+            self.joints += self._revolute(joint, place)
+            named.add(joint.point)
+        for link, body in problem.bodies.items():
+            for point in body.points:
+                if link != FRAME and point not in named:
+                    self.joints.append(Disc(self.at(point), 0.8 * self.factor, Ink.BLACK))
+                    named.add(point)
+        self.named = sorted(named)
+
+    def _revolute(self, joint: Revolute, place: complex) -> list[Item]:
+        """Return a joint; a link that goes on through it is seen to be one piece."""
+        passing = {link: way for link in joint.links if (way := self._passes(link, place))}
+        count = joint.pairs
+        if len(passing) == 1 and count == 1:
+            ((link, way),) = passing.items()
+            others = [other for other in joint.links if other != link]
+            leave = sum((self._leaves(other, place) for other in others), 0j)
+            side = 1 if (way.conjugate() * leave).imag > 1e-6 else -1
+            tag = f"link {link}"
+            return revolute_on(place, way, side=side, factor=self.factor, pen=self.pen, tag=tag)
+        items = revolute(place, count=count, factor=self.factor, pen=self.pen)
+        radius = SIZES.joint / 2 * self.factor
+        for link, way in passing.items():
+            ends = (place - way * radius, place + way * radius)
+            items.append(Stroke(ends, self.pen, tag=f"link {link}"))
+        return items
+
+    def _passes(self, link: str, place: complex) -> complex | None:
+        """Return the direction of a bar that goes on through a joint between its ends, if any."""
+        radius = SIZES.joint / 2 * self.factor
+        for start, end in self.segments.get(link, []):
+            along = unit(end - start)
+            part = ((place - start) * along.conjugate()).real
+            off = abs(place - start - along * part)
+            if off < 0.05 and radius < part < abs(end - start) - radius:
+                return along
+        return None
+
+    def _leaves(self, link: str, place: complex) -> complex:
+        """Return where a link, or the frame's support, lies from a joint: a unit vector."""
+        if link == FRAME:
+            return self.free_direction(place)
+        far = [p for part in self.segments.get(link, []) for p in part if abs(p - place) > 0.5]
+        return unit(far[0] - place) if far else 0j
+
+    def directions(self, place: complex) -> list[complex]:
+        """Return the directions in which lines leave a place."""
+        out = []
+        for parts in self.segments.values():
+            for start, end in parts:
+                for one, other in ((start, end), (end, start)):
+                    if abs(one - place) < 0.5:
+                        out.append(unit(other - one))
+                inside = ((place - start) * (end - start).conjugate()).real
+                off = abs(((place - start) * (end - start).conjugate()).imag)
+                span = abs(end - start)
+                if 0.5 * span < inside < span * (span - 0.5) and off < 0.5 * span:
+                    out += [unit(end - start), unit(start - end)]
+        return out
+
+    def free_direction(self, place: complex) -> complex:
+        """Return where the support of a pivot stands, once `draw_joints` has chosen it."""
+        ways = (s.direction for s in self.supports for p in s.places if abs(p - place) < 0.01)
+        return next(ways, -1j)
+
+    def draw(self) -> None:
+        """Draw links, sliders and joints."""
+        problem = self.solution.problem
+        for link in problem.mechanism.links:
+            self.draw_link(link)
+        # A stone pinned to a slider of the frame lies on it.
+        for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
+            self.draw_slider(slide)

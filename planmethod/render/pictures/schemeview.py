@@ -1,0 +1,281 @@
+"""The scheme as a view of the sheet: the drawn mechanism with its letters, numbers and arrows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from itertools import pairwise
+from math import ceil
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.given import point_name, solution_peak
+from planmethod.note.numbers import is_nothing
+from planmethod.plans.draft import cis
+from planmethod.plans.model import PlanKind
+from planmethod.render.ink.drawing import Item, Pen, Stroke
+from planmethod.render.ink.extent import ink_bounds, lettered
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import BUSY, Label, Placed, place_labels, segment_label
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
+from planmethod.render.pictures.scheme import Scheme
+from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
+from planmethod.solved.solution import Solution
+
+if TYPE_CHECKING:
+    from planmethod.render.pictures.positions import Positions
+
+
+@dataclass(slots=True)
+class _View:
+    """A drawn scheme and what is written on it."""
+
+    scheme: Scheme
+    arrows: list[Item] = field(default_factory=list)
+    labels: list[Label] = field(default_factory=list)
+
+    def items(self, marks: Sequence[Item] = ()) -> list[Item]:
+        """Return what is drawn, in order; ``marks`` are the joints of other positions."""
+        s = self.scheme
+        mechanism = before_links([*s.bodies, *s.lines, *s.corners, *marks, *s.joints])
+        return [*s.guides, *mechanism, *self.arrows]
+
+
+def _letter_points(view: _View, points: Sequence[str] | None = None) -> None:
+    scheme = view.scheme
+    for point in scheme.named if points is None else points:
+        place = scheme.at(point)
+        lines = scheme.directions(place)
+        view.labels.append(
+            Label(
+                typeset(point_name(point), scheme.letter_height),
+                place,
+                prefer=-sum(lines, 0j) if lines else 1 + 1j,
+                gap=1.5 * scheme.factor + 1.2,
+                priority=1,
+                name=f"point {point}",
+            )
+        )
+
+
+SMALL = 3.5
+"""Height of the smaller letters of a scheme, mm."""
+
+_LETTER = 6.0  # room of an axis's letter between the joints of other positions, mm
+
+
+def _letter_axes(view: _View, others: Sequence[complex] = ()) -> None:
+    """Letter the ends of the guides' axes, but for an end that lies on a link.
+
+    ``others`` are the joints in other positions, among which a letter would be lost.
+    """
+    scheme = view.scheme
+    for label, low, high in scheme.axis_ends:
+        names = label.split("-")
+        if len(names) != 2:
+            continue
+        ends = [(names[0], low, low - high), (names[1], high, high - low)]
+        free = [
+            min([scheme.clearance(end), *(abs(end - place) - _LETTER for place in others)])
+            for _, end, _ in ends
+        ]
+        for (text, place, away), room in zip(ends, free, strict=True):
+            if room > 4.0 or room == max(free):
+                view.labels.append(
+                    Label(typeset(text, scheme.letter_height), place, prefer=away, gap=1.0)
+                )
+
+
+def _letter_links(view: _View, others: Sequence[Item] = ()) -> None:
+    """Put the links' numbers down, and circular arrows for the senses of omega and epsilon.
+
+    Among the lines of ``others``, the other positions, only the driver has arrows.
+    """
+    scheme = view.scheme
+    small = scheme.letter_height
+    for link in scheme.solution.problem.mechanism.links:
+        parts = scheme.segments.get(link)
+        text = link
+        if parts:
+            start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
+            view.labels.append(segment_label(text, start, end, small, gap=1.2))
+        else:
+            first = next(iter(scheme.solution.problem.bodies[link].points))
+            view.labels.append(
+                Label(typeset(text, small), scheme.at(first), gap=5.5 * scheme.factor)
+            )
+        if not others or link == scheme.solution.problem.drive.link:
+            _senses(view, link, others)
+
+
+def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
+    """Draw the arrows of a link, among the lines of other positions where these leave room."""
+    scheme = view.scheme
+    motion = scheme.solution.links[link]
+    problem = scheme.solution.problem
+    body = problem.bodies[link].points
+    if link in problem.slides and len(body) == 1:
+        return  # the stone turns with the link that it slides on: one arrow for both
+    pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
+    parts = scheme.segments.get(link)
+    if not parts:
+        return
+    start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
+    if pivot is not None:
+        centre = scheme.at(pivot)
+        other = end if abs(end - centre) > abs(start - centre) else start
+        radius = max(10.0 * scheme.factor, min(20.0 * scheme.factor, 0.6 * abs(other - centre)))
+    else:
+        centre, other, radius = start + 0.4 * (end - start), end, 8.0 * scheme.factor
+    turn = angle_of(other - centre)
+    for symbol, value, shift in (
+        ("ω", float(motion.omega[scheme.index]), 0.0),
+        ("ε", float(motion.epsilon[scheme.index]), 3.5 * scheme.factor),
+    ):
+        if is_nothing(value, solution_peak(scheme.solution, symbol)):
+            continue
+        sense = 1 if value > 0 else -1
+        middle, sweep = turn, 70.0
+        if others and not shift:
+            around = [*others, *scheme.bodies, *scheme.lines, *scheme.joints]
+            turn = middle = turn + _roomy(centre, radius + 4.0, turn - sense * 18.0, around)
+        arrow = turn_arrow(
+            centre,
+            radius + shift,
+            sense,
+            middle=middle,
+            sweep=sweep,
+            length=3.5 * scheme.factor,
+            tag=f"{symbol} {link}",
+        )
+        view.arrows += arrow
+        tail = centre + (radius + shift) * cis(middle - sense * sweep / 2)
+        view.labels.append(
+            Label(
+                typeset(f"{symbol}_{{{link}}}", SMALL if others else scheme.letter_height),
+                tail,
+                along=(tail, centre + (radius + shift) * cis(middle)) if others else None,
+                prefer=tail - centre,
+                gap=0.8,
+                name=f"{symbol} {link}",
+            )
+        )
+
+
+def _roomy(centre: complex, radius: float, turn: float, items: Sequence[Item]) -> float:
+    """Return how far to turn about a centre from a direction to where a letter has room, deg."""
+    lines = [pair for item in items if isinstance(item, Stroke) for pair in pairwise(item.points)]
+    ends = np.asarray(lines)
+    ways = ends[:, 1] - ends[:, 0] + 1e-9
+    turns = (0.0, *(sign * k * 7.5 for k in range(1, 25) for sign in (1, -1)))
+
+    def room(by: float) -> float:
+        place = centre + radius * cis(turn + by)
+        part = np.clip(((place - ends[:, 0]) / ways).real, 0.0, 1.0)
+        return round(float(np.abs(place - ends[:, 0] - ways * part).min()) - abs(by) / 180.0, 3)
+
+    return max(turns, key=room)
+
+
+def _draw_angle(view: _View) -> None:
+    """Show the crank's angle phi from the horizontal."""
+    scheme = view.scheme
+    drive = scheme.solution.problem.drive
+    if drive.pivot is None:
+        return
+    phi = float(scheme.solution.positions[scheme.index]) % 360.0
+    if phi < 8 or phi > 352:
+        return
+    centre, radius = scheme.at(drive.pivot), 6.0 * scheme.factor + 2
+    support = angle_of(scheme.free_direction(centre)) % 360.0
+    if support < phi:
+        radius = (SIZES.support_height + SIZES.hatch_stroke + 4.0) * scheme.factor
+        pins = [scheme.at(p) for p in scheme.solution.problem.bodies[drive.link].points]
+        if max(abs(pin - centre) for pin in pins) < radius + 4.0:
+            return  # no room for an arc around the support: the statement tells the angle
+    scheme.guides.append(Stroke((centre, centre + radius + 6), Pen.THIN, tag="phi"))
+    scheme.guides += turn_arrow(centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, tag="phi")
+    view.labels.append(
+        Label(
+            typeset(f"φ_{{{drive.link}}}", SMALL),
+            centre + radius * cis(phi / 2),
+            prefer=cis(phi / 2),
+            gap=1.0,
+            name="phi",
+        )
+    )
+
+
+@lru_cache(maxsize=64)
+def scheme_picture(
+    solution: Solution,
+    index: int,
+    *,
+    letter_height: float = 5.0,
+    overlay: tuple[int, ...] = (),
+    errors: bool = False,
+) -> Picture:
+    """Return the scheme in one position as a picture, mm.
+
+    The positions of ``overlay`` are there in thin lines, their points lettered and numbered; the
+    arrows of the links but the driver's, and its angle, are left to the single position.
+    ``errors`` draws the ellipses of the drafting error around the moving points.
+    """
+    scheme = Scheme(solution, index, letter_height)
+    scheme.draw()
+    scheme.draw_joints()
+    view = _View(scheme)
+    many = len(overlay) > 1
+    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
+    if many:
+        from planmethod.render.pictures.positions import Positions
+
+        return _many_picture(view, Positions(solution, index, overlay, letter_height), ellipses)
+    for write in (_letter_points, _letter_axes, _letter_links, _draw_angle):
+        write(view)
+    # The ellipses after the joints, whose white would cover them.
+    items = [*view.items(), *ellipses.strokes]
+    return lettered(items, view.labels, clear=ellipses.grounds)
+
+
+SERIES_HEIGHTS = (SMALL, 2.5)
+"""Heights of the letters of many positions, mm: the smaller ones where the larger find no room."""
+
+UNTIDY = 0.03
+"""More `untidiness` for each label is a reason to take the smaller letters."""
+
+MOST = 14
+"""Positions that all have letters; of twice as many every other one has, and so on."""
+
+ROOM = 40.0
+"""Room around many positions for their letters, mm."""
+
+
+def _many_picture(view: _View, positions: Positions, ellipses: Ellipses) -> Picture:
+    """Return the scheme with other positions behind it; smaller letters where larger do not fit."""
+    from planmethod.render.labels.tidy import untidiness
+
+    scheme = view.scheme
+    fixed = scheme.solution.problem.bodies[FRAME].points
+    _letter_points(view, [point for point in scheme.named if point in fixed])
+    _letter_axes(view, positions.places())
+    others = positions.lines()
+    _letter_links(view, others)
+    own = [replace(label, manner=BUSY) for label in view.labels]
+    items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
+    left, low, right, high = ink_bounds(items)
+    bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
+    tries: list[list[Placed]] = []
+    for height in SERIES_HEIGHTS:
+        labels = [*own, *positions.labels(height, every=ceil(len(positions.overlay) / MOST))]
+        last = height == SERIES_HEIGHTS[-1]
+        tries.append(place_labels(labels, [*items, *ellipses.grounds], bounds, breaking=last))
+        if untidiness(tries[-1]) <= UNTIDY * len(labels):
+            break
+    placed = min(tries, key=untidiness)
+    whole = [*items, *(item for label in placed for item in label.items())]
+    return Picture(tuple(whole), ink_bounds(whole))

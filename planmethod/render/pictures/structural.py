@@ -1,0 +1,402 @@
+"""Structural pictures without scale (структурная схема, структурные группы).
+
+Links are bars and rigid triangles, revolute pairs circles, prismatic pairs rectangles on bars, the
+frame is hatched. A group taken apart keeps its outer joints open: a dashed stub shows where a link
+outside the group goes on, with that link's number.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import pairwise
+from math import radians
+
+from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.mechanism.structure import Structure
+from planmethod.render.ink.drawing import Item, Pen, Stroke
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label, place_labels, segment_label
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.chains import (
+    Chain,
+    Far,
+    Pin,
+    Shape,
+    Slide,
+    driver_chain,
+    group_chain,
+    mechanism_chain,
+    textbook_places,
+)
+from planmethod.render.pictures.embedding import embed, turned_outwards
+from planmethod.render.symbols import (
+    SIZES,
+    angle_of,
+    arrowhead,
+    before_links,
+    fixed_pivot,
+    guide_line,
+    revolute,
+    rigid_corner,
+    slider,
+    stiff_triangle,
+    turn_arrow,
+    unit,
+)
+
+MARGIN = 13.0
+"""Room about the joints for symbols and letters, mm."""
+
+LARGEST_STEP = 42.0
+"""Greatest length of a grid unit unless another is asked for, mm."""
+
+SMALLEST_STEP = 8.0
+"""Least length of a grid unit, mm: below it the symbols run into each other."""
+
+STUB = 13.0
+"""Length of the dashed stub of an open joint, mm."""
+
+
+def mechanism_picture(
+    mechanism: Mechanism,
+    structure: Structure,
+    *,
+    width: float,
+    height: float,
+    letter_height: float = 5.0,
+    largest: float = LARGEST_STEP,
+    sense: int = 1,
+) -> Picture:
+    """Return the structural scheme of a mechanism (структурная схема), mm.
+
+    Parameters
+    ----------
+    width, height : float, mm
+        Room to fill.
+    largest : float, mm
+        Greatest length of a grid unit: on a large sheet a simple mechanism does not fill the room.
+    sense : int
+        Of the driver's motion: +1 counter-clockwise or to the right, -1 the other way.
+    """
+    chain, found = _whole(mechanism, structure)
+    room = (width, height)
+    return _fitted(chain, found, room, letter_height, largest, mechanism.driver, sense)
+
+
+def driver_picture(
+    mechanism: Mechanism, *, width: float, height: float, letter_height: float = 5.0, sense: int = 1
+) -> Picture:
+    """Return the driver with the frame (первичный механизм), mm."""
+    chain = driver_chain(mechanism)
+    node = chain.net.nodes[0]
+    reach = min(38.0, width - 2 * MARGIN, height - 2 * MARGIN)
+    at = {node: 0j, f"{node}>": reach * cmath.exp(1j * radians(50))}
+    return _picture(chain, at, letter_height, mechanism.driver, sense)
+
+
+def group_picture(
+    mechanism: Mechanism,
+    group: AssurGroup,
+    *,
+    width: float,
+    height: float,
+    letter_height: float = 5.0,
+    largest: float = LARGEST_STEP,
+) -> Picture:
+    """Return a group taken apart (структурная группа), mm; outer joints open."""
+    chain, found = _apart(mechanism, group)
+    return _fitted(chain, found, (width, height), letter_height, largest)
+
+
+@lru_cache(maxsize=16)
+def _whole(mechanism: Mechanism, structure: Structure) -> tuple[Chain, Mapping[str, complex]]:
+    """Return the chain of a mechanism and its places: a sheet asks for several sizes."""
+    chain = mechanism_chain(mechanism, structure)
+    return chain, embed(chain.net)
+
+
+@lru_cache(maxsize=64)
+def _apart(mechanism: Mechanism, group: AssurGroup) -> tuple[Chain, Mapping[str, complex]]:
+    """Return the chain of a group and its places."""
+    chain = group_chain(mechanism, group)
+    return chain, textbook_places(chain) or embed(chain.net)
+
+
+def _fitted(
+    chain: Chain,
+    found: Mapping[str, complex],
+    room: tuple[float, float],
+    letter_height: float,
+    largest: float,
+    driver: str = "",
+    sense: int = 1,
+) -> Picture:
+    """Stretch places in grid units so that the picture with its letters fills a room, mm."""
+    xs, ys = [z.real for z in found.values()], [z.imag for z in found.values()]
+    wide, tall = max(max(xs) - min(xs), 1e-3), max(max(ys) - min(ys), 1e-3)
+    about = (2 * MARGIN, 2 * MARGIN)  # what symbols and letters take, until it is measured
+    for _ in range(3):
+        across = min(largest, max(SMALLEST_STEP, (room[0] - about[0]) / wide))
+        up = min(largest, max(SMALLEST_STEP, (room[1] - about[1]) / tall))
+        across, up = min(across, 1.3 * up), min(up, 1.3 * across)
+        at = {name: complex(z.real * across, z.imag * up) for name, z in found.items()}
+        made = _picture(chain, at, letter_height, driver, sense)
+        if made.width <= room[0] and made.height <= room[1]:
+            break
+        about = (made.width - across * wide + 0.5, made.height - up * tall + 0.5)
+    return made
+
+
+def _picture(
+    chain: Chain,
+    at: Mapping[str, complex],
+    letter_height: float,
+    driver: str = "",
+    sense: int = 1,
+) -> Picture:
+    draft = _Draft(chain, at, letter_height)
+    for shape in chain.shapes:
+        draft.draw_shape(shape)
+    for slide in chain.slides:
+        draft.draw_slide(slide)
+    for pin in chain.pins:
+        draft.draw_pin(pin)
+    if driver:
+        draft.draw_motion(driver, sense)
+    return draft.picture()
+
+
+@dataclass(slots=True)
+class _Draft:
+    """Picture being drawn: lines, sliders over them, joints on top (чертёж цепи)."""
+
+    chain: Chain
+    at: Mapping[str, complex]
+    letter_height: float
+    grounds: list[Item] = field(default_factory=list)
+    arms: list[Item] = field(default_factory=list)
+    stones: list[Item] = field(default_factory=list)
+    lines: list[Item] = field(default_factory=list)
+    joints: list[Item] = field(default_factory=list)
+    labels: list[Label] = field(default_factory=list)
+    segments: list[tuple[str, complex, complex]] = field(default_factory=list)
+
+    # Links -----------------------------------------------------------------------------------
+
+    def draw_shape(self, shape: Shape) -> None:
+        """Draw a link: a bar, a rigid polygon, and the parts that run through stones."""
+        link, at = shape.link, self.at
+        if len(shape.outline) == 2:
+            start, end = (at[node] for node in shape.outline)
+            # The line of an arm ends at the edge of the stone that it carries.
+            carried = any(
+                slide.stone == link and not slide.pinned and slide.node in shape.outline
+                for slide in self.chain.slides
+            )
+            target = self.arms if carried else self.lines
+            target.append(Stroke((start, end), tag=f"link {link}"))
+            stops = [start, *([at[shape.on]] if shape.on else []), end]
+            self.segments += [(link, a, b) for a, b in pairwise(stops)]
+        elif shape.outline:
+            ring = turned_outwards(shape.outline, at)
+            corners = [at[node] for node in ring]
+            # Hatched under the stones; the outline goes to the pins that stand on stones.
+            *hatching, outline = stiff_triangle(*corners, hatched=True)
+            self.arms += hatching
+            own = any(
+                slide.stone == link and slide.node in shape.outline for slide in self.chain.slides
+            )
+            (self.arms if own else self.lines).append(outline)
+            sides = zip(corners, [*corners[1:], corners[0]], strict=True)
+            self.segments += [(link, a, b) for a, b in sides]
+        for start_node, stone in shape.tips:
+            start, through = at[start_node], at[stone]
+            tip = through + unit(through - start) * (SIZES.slider_length / 2 + 5.0)
+            # Over the stone that slides on it, under a stone that it carries.
+            near = through - unit(through - start) * SIZES.slider_length / 2
+            self.arms.append(Stroke((start, near), tag=f"link {link}"))
+            self.lines.append(Stroke((near, tip), tag=f"link {link}"))
+            self.segments.append((link, start, tip))
+            others = [at[node] for node in shape.outline if node != start_node]
+            others += [at[other] for _, other in shape.tips if other != stone]
+            if others:
+                self.lines += rigid_corner(start, through, others[0])
+
+    def directions(self, place: complex, link: str | None = None) -> list[complex]:
+        """Return the directions in which lines (of one link) leave a place, or pass it."""
+        found = []
+        for owner, start, end in self.segments:
+            if link is not None and owner != link:
+                continue
+            span = abs(end - start)
+            along = (end - start) / span
+            foot = ((place - start) * along.conjugate()).real
+            if abs(start + along * foot - place) > 0.5 or not -0.5 < foot < span + 0.5:
+                continue
+            if foot > 0.5:
+                found.append(-along)
+            if foot < span - 0.5:
+                found.append(along)
+        return found
+
+    # Sliders ---------------------------------------------------------------------------------
+
+    def draw_slide(self, slide: Slide) -> None:
+        """Draw a stone and what it slides on."""
+        place = self.at[slide.node]
+        if slide.bar:
+            along = self.directions(place, slide.bar)
+            turn = along[0] if along else 1 + 0j
+        else:
+            turn = self._cross_direction(place, slide)
+        size = 0.85 if slide.bar else 1.0
+        self.stones += slider(place, angle=angle_of(turn), factor=size)
+        half = SIZES.slider_length / 2 * size
+        if slide.far is Far.FRAME:
+            reach = half + 6.0
+            self.grounds += guide_line(place, before=reach, after=reach)
+            edge = place + reach - 1j * SIZES.slider_width / 2
+            self._number(FRAME, edge, 1 + 0j, gap=1.2)
+        elif slide.far is Far.OPEN:
+            reach = half + 9.0
+            for way in (turn, -turn):
+                ends = (place + way * half, place + way * reach)
+                self.grounds.append(Stroke(ends, Pen.HIDDEN, tag="open"))
+            self._number(f"({slide.to})", place + turn * reach, turn, gap=1.2)
+        if slide.text:
+            if slide.far is Far.FRAME:
+                self._letter(slide.text, place - half, -1 + 0j, gap=1.2)
+            else:
+                lines = -sum(self.directions(place), 0j)
+                self._letter(slide.text, place, lines if abs(lines) > 0.3 else 1j * turn, gap=5.4)
+        if not self.chain.shape(slide.stone).outline and not self.chain.shape(slide.stone).tips:
+            if slide.far is Far.FRAME:
+                self._number(slide.stone, place + half, 1 + 0j, gap=1.2)
+            else:
+                # Beside an end of the stone, away from its letter.
+                lean = -sum(self.directions(place), 0j)
+                end = -turn if (lean * turn.conjugate()).real > 0 else turn
+                away = 1j * turn if (1j * turn).imag >= 0 else -1j * turn
+                self._number(slide.stone, place + end * 3.0, end + 1.6 * away, gap=4.0)
+
+    def _cross_direction(self, place: complex, slide: Slide) -> complex:
+        """Return the direction of a guide: level, or upright if a bar leaves along the level."""
+        if slide.far is Far.FRAME:
+            return 1 + 0j
+        opened = [other for other in self.chain.slides if other.far is Far.OPEN]
+        if len(opened) == 2 and opened[0] is slide:
+            return 1j  # two parallel guides would let the group slip
+        level = max((abs(u.real) for u in self.directions(place)), default=0.0)
+        return 1j if level > 0.9 else 1 + 0j
+
+    # Joints ----------------------------------------------------------------------------------
+
+    def draw_pin(self, pin: Pin) -> None:
+        """Draw a revolute joint with its support or its open end."""
+        place = self.at[pin.node]
+        busy = self.directions(place)
+        busy += [
+            way
+            for slide in self.chain.slides
+            if slide.node == pin.node and not slide.bar
+            for way in (1 + 0j, -1 + 0j)
+        ]
+        if pin.far is Far.FRAME:
+            down = _freest(busy, (-1j, -1 + 0j, 1 + 0j))
+            self.grounds += fixed_pivot(place, direction=down)
+            along = down * 1j
+            along = along if along.real > 0 or (along.real == 0 and along.imag > 0) else -along
+            foot = place + down * SIZES.support_height + along * SIZES.base / 2
+            self._number(FRAME, foot, along, gap=1.2)
+        elif pin.far is Far.OPEN:
+            way = _freest(busy, tuple(cmath.exp(1j * radians(15 * k)) for k in range(24)))
+            if len(busy) == 1:
+                # Bent a little from the line of the lead, and upright: groups stand side by side.
+                bends = [-busy[0] * cmath.exp(1j * radians(turn)) for turn in (35, -35)]
+                way = max(bends, key=lambda bend: round(abs(bend.imag), 6))
+            on_stone = any(slide.node == pin.node for slide in self.chain.slides)
+            end = place + way * (STUB + (4.0 if on_stone else 0.0))
+            self.grounds.append(Stroke((place, end), Pen.HIDDEN, tag="open"))
+            self.segments.append(("", place, end))
+            self._number(f"({pin.to})", end, way, gap=0.8)
+        self.joints += revolute(place, count=pin.count)
+        lines = self.directions(place)
+        away = -sum(lines, 0j)
+        stone = any(slide.node == pin.node for slide in self.chain.slides)
+        self._letter(pin.text, place, away if abs(away) > 0.3 else 1j, gap=5.5 if stone else 2.8)
+
+    # Motion and inscriptions -----------------------------------------------------------------
+
+    def draw_motion(self, driver: str, sense: int) -> None:
+        """Show what the driver is told to do: an arrow of ω or v."""
+        for pin in self.chain.pins:
+            if driver in pin.links and pin.far is Far.FRAME:
+                place = self.at[pin.node]
+                way = next(iter(self.directions(place, driver)), 1j)
+                # Ahead of the crank, so that the arrow does not cross it; outside a stone.
+                stone = any(slide.node == pin.node for slide in self.chain.slides)
+                middle = way * cmath.exp(1j * radians((-48 if stone else 48) * sense))
+                radius = 13.0 if stone else 10.0
+                self.grounds += turn_arrow(place, radius, sense, middle=angle_of(middle), sweep=76)
+                tail = place + radius * middle
+                self.labels.append(
+                    Label(
+                        typeset(f"ω_{{{driver}}}", self.letter_height),
+                        tail,
+                        prefer=tail - place,
+                        gap=0.8,
+                    )
+                )
+                return
+        for slide in self.chain.slides:
+            if slide.stone == driver and slide.far is Far.FRAME:
+                place = self.at[slide.node]
+                # Over the half of the slider that the link on its pin leaves free.
+                lean = sum(self.directions(place), 0j).real
+                middle = place - (7.5 if lean >= 0 else -7.5) + 1j * (SIZES.slider_width / 2 + 3.0)
+                middle = middle if self.directions(place) else middle + 7.5
+                start, end = middle - 6.0 * sense, middle + 6.0 * sense
+                self.grounds.append(Stroke((start, end - 3.0 * sense), Pen.THIN))
+                self.grounds += arrowhead(end, end - start, length=3.5)
+                mark = typeset(f"v_{{{driver}}}", self.letter_height)
+                self.labels.append(Label(mark, end, prefer=end - start, gap=1.0))
+
+    def _number(self, link: str, place: complex, prefer: complex, *, gap: float) -> None:
+        mark = typeset(link, self.letter_height)
+        self.labels.append(Label(mark, place, prefer=prefer, gap=gap))
+
+    def _letter(self, text: str, place: complex, prefer: complex, *, gap: float) -> None:
+        mark = typeset(text, self.letter_height)
+        self.labels.append(Label(mark, place, prefer=prefer, gap=gap, priority=1))
+
+    def picture(self) -> Picture:
+        """Return the picture with the links numbered and all inscriptions placed."""
+        longest: dict[str, tuple[complex, complex]] = {}
+        for link, start, end in self.segments:
+            old = longest.get(link)
+            if link and (old is None or abs(end - start) > abs(old[1] - old[0]) + 1e-6):
+                longest[link] = (start, end)
+        for link, (start, end) in longest.items():
+            self.labels.append(segment_label(link, start, end, self.letter_height))
+        items = before_links([*self.grounds, *self.arms, *self.stones, *self.lines, *self.joints])
+        left, low, right, high = ink_bounds(items)
+        room = (left - MARGIN, low - MARGIN, right + MARGIN, high + MARGIN)
+        for placed in place_labels(self.labels, items, room):
+            items += placed.items()
+        return Picture(tuple(items), ink_bounds(items))
+
+
+def _freest(busy: list[complex], choices: tuple[complex, ...]) -> complex:
+    """Return the first of the directions that is as far as can be from all busy ones."""
+
+    def room(way: complex) -> float:
+        return round(min([abs(cmath.phase(u / way)) for u in busy] or [3.2]), 3)
+
+    if choices[0] == -1j and room(choices[0]) > radians(50):
+        return choices[0]
+    return max(choices, key=room)

@@ -1,0 +1,205 @@
+"""Where supports and guides stand on a scheme (размещение опор и направляющих).
+
+A support is turned to the side that links leave free, down if it can be. Pivots so near that
+their supports would run into each other get one base, and where that cannot be, smaller supports.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import pi, radians, sin
+from typing import TYPE_CHECKING
+
+from planmethod.render.ink.drawing import Item, Stroke
+from planmethod.render.symbols import SIZES, fixed_pivots, foot_of
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+WAYS: tuple[tuple[complex, float], ...] = ((-1j, 0.0), (1j, 4.0), (-1 + 0j, 5.0), (1 + 0j, 5.0))
+"""Directions from a pivot to its base, and how little each is liked: mm of line under it."""
+
+_ROOM = 2.0  # mm: white wished between a support and a line
+_APART = 0.5  # mm: the same between two supports, from either
+_JOINED = 1.0  # what a common base costs against two of their own
+_OVERLAP = 10.0  # what it costs that two supports run into each other, and 1 for each mm²
+_ON_PIVOT = 30.0  # a base over another pivot
+_LEAST_FOOT = 1.5  # mm: half the width of the narrowest support on a common base
+_MOST_STEP = 6.0  # mm: how much higher a pivot may stand than another on its base
+_SMALLER = 0.65  # size of supports that overlap all the same
+
+
+@dataclass(frozen=True, slots=True)
+class Support:
+    """Pivots on one hatched base (опора).
+
+    Attributes
+    ----------
+    places : tuple of complex, mm
+        One pivot, or several on a common base.
+    direction : complex
+        From the pivots to the base, a unit vector.
+    factor : float
+        Size against the symbols of `SIZES`.
+    """
+
+    places: tuple[complex, ...]
+    direction: complex
+    factor: float = 1.0
+
+    def items(self) -> list[Item]:
+        """Return the legs and the hatched base; the joints are drawn over the links."""
+        return fixed_pivots(self.places, direction=self.direction, factor=self.factor, joints=False)
+
+
+def stand(
+    pivots: Sequence[complex], drawn: Iterable[Item], *, factor: float = 1.0
+) -> list[Support]:
+    """Choose the supports of the pivots of a scheme (выбор опор).
+
+    Parameters
+    ----------
+    pivots : sequence of complex, mm
+        No two in one place.
+    drawn : iterable of Item
+        The links and sliders that are there; only lines are looked at.
+    factor : float
+        Size of the symbols.
+
+    Returns
+    -------
+    list of Support
+        Each pivot is in one of them.
+    """
+    lines = _lines(drawn)
+    ways = [
+        {way: dislike + _under(lines, at, way, factor) for way, dislike in WAYS} for at in pivots
+    ]
+    chosen = [min(own, key=lambda way: own[way]) for own in ways]
+    for _ in range(2):
+        for k, own in enumerate(ways):
+            others = [j for j in range(len(pivots)) if j != k]
+
+            def cost(way: complex, k: int = k, others: list[int] = others) -> float:
+                near = (_against(pivots[k], way, pivots[j], chosen[j], factor) for j in others)
+                return ways[k][way] + sum(near)
+
+            chosen[k] = min(own, key=cost)
+    return _grouped(pivots, chosen, factor)
+
+
+def free_sides(
+    at: complex,
+    drawn: Iterable[Item],
+    *,
+    angle: float,
+    length: float,
+    width: float = SIZES.slider_width,
+    factor: float = 1.0,
+) -> tuple[int, ...]:
+    """Return on which sides of a slider a guide's plate is not crossed by lines.
+
+    The arguments are those of `guide_plates`; both sides where neither is free, for a slider needs
+    a guide.
+    """
+    from shapely import Polygon
+
+    lines = _lines(drawn)
+    turn = cmath.exp(1j * radians(angle))
+    half, edge = length / 2 * factor, width / 2 * factor
+    deep = edge + SIZES.hatch_stroke * sin(pi / 4) * factor
+    free = []
+    for side in (1, -1):
+        corners = [
+            at + turn * (x + 1j * side * y)
+            for x, y in ((-half, edge), (half, edge), (half, deep), (-half, deep))
+        ]
+        plate = Polygon([(p.real, p.imag) for p in corners]).buffer(0.4)
+        if lines is None or not lines.intersects(plate):
+            free.append(side)
+    return tuple(free) or (1, -1)
+
+
+def _lines(drawn: Iterable[Item]) -> BaseGeometry | None:
+    from shapely import MultiLineString
+
+    paths = [
+        [(p.real, p.imag) for p in ((*item.points, item.points[0]) if item.closed else item.points)]
+        for item in drawn
+        if isinstance(item, Stroke) and len(item.points) > 1
+    ]
+    return MultiLineString(paths) if paths else None
+
+
+def _ground(at: complex, way: complex, factor: float) -> BaseGeometry:
+    """Return what a support takes: legs, base and hatching, from the edge of the joint on."""
+    from shapely import Polygon
+
+    top = SIZES.joint * 0.8 * factor
+    foot = SIZES.support_height * factor
+    deep = foot + SIZES.hatch_stroke * sin(pi / 4) * factor
+    base, neck = SIZES.base / 2 * factor, SIZES.joint * 0.4 * factor
+    outline = ((top, -neck), (foot, -base), (deep, -base), (deep, base), (foot, base), (top, neck))
+    corners = [at + way * (x + 1j * y) for x, y in outline]
+    return Polygon([(p.real, p.imag) for p in corners])
+
+
+def _under(lines: BaseGeometry | None, at: complex, way: complex, factor: float) -> float:
+    """Return the length of lines that a support would stand on or near, mm."""
+    if lines is None:
+        return 0.0
+    ground = _ground(at, way, factor).buffer(_ROOM * factor, quad_segs=2)
+    return round(float(lines.intersection(ground).length), 3)
+
+
+def _meet(one: complex, way: complex, two: complex, other: complex, factor: float) -> float:
+    """Return how much two supports overlap, mm²."""
+    if abs(one - two) > 3 * SIZES.base * factor:
+        return 0.0
+    first = _ground(one, way, factor).buffer(_APART, quad_segs=2)
+    second = _ground(two, other, factor).buffer(_APART, quad_segs=2)
+    return float(first.intersection(second).area)
+
+
+def _joinable(one: complex, two: complex, way: complex, factor: float) -> bool:
+    """Tell whether two pivots can stand on one base."""
+    step = abs(((one - two) * way.conjugate()).real)
+    foot = foot_of((one, two), direction=way, factor=factor)
+    return step <= _MOST_STEP * factor and foot >= _LEAST_FOOT * factor
+
+
+def _against(one: complex, way: complex, two: complex, other: complex, factor: float) -> float:
+    """Return what it costs that two supports stand beside each other, mm of line."""
+    from shapely import Point
+
+    area = _meet(one, way, two, other, factor)
+    if way == other and _joinable(one, two, way, factor):
+        return _JOINED if area > 0.0 else 0.0
+    joint = Point(two.real, two.imag).buffer(SIZES.joint * factor, quad_segs=4)
+    if abs(one - two) < 3 * SIZES.base * factor and _ground(one, way, factor).intersects(joint):
+        return _ON_PIVOT + area
+    return _OVERLAP + area if area > 0.0 else 0.0
+
+
+def _grouped(pivots: Sequence[complex], chosen: Sequence[complex], factor: float) -> list[Support]:
+    """Join the pivots whose supports run into each other, or make those smaller."""
+    group = list(range(len(pivots)))
+    small: set[int] = set()
+    for i, j in combinations(range(len(pivots)), 2):
+        if _meet(pivots[i], chosen[i], pivots[j], chosen[j], factor) <= 0.0:
+            continue
+        if chosen[i] == chosen[j] and _joinable(pivots[i], pivots[j], chosen[i], factor):
+            old, new = group[j], group[i]
+            group = [new if own == old else own for own in group]
+        else:
+            small |= {i, j}
+    found = []
+    for own in dict.fromkeys(group):
+        members = [k for k in range(len(pivots)) if group[k] == own]
+        size = factor * _SMALLER if small & set(members) else factor
+        places = tuple(pivots[k] for k in members)
+        found.append(Support(places, chosen[members[0]], size))
+    return found

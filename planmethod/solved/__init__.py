@@ -1,0 +1,1 @@
+"""The solved problem: closings, scales, the readings of its program, what follows from them."""

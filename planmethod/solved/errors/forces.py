@@ -1,0 +1,202 @@
+"""Force plans as a hand draws them: what the ruler gives, and how far it may be off.
+
+The errors of position and acceleration plans go on into the force plans: it is one program.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Number
+from planmethod.construct.dual import angle
+from planmethod.construct.steps import Name, PointName
+from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind, Reading, number
+from planmethod.solved.errors.spread import Errors
+from planmethod.solved.solution import Reals
+
+if TYPE_CHECKING:
+    from planmethod.plans.forces.board import Force, Reaction
+    from planmethod.solved.forces.statics import JointForce, Statics
+
+BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
+"""Labels: what balances the driver by the force plans and by the lever, lever minus plans."""
+
+NOTHING_MM = 1e-9
+"""A force so long on its plan is rounding of none, and has no direction."""
+
+
+def size_label(joint: JointForce | Reaction) -> str:
+    """Return the label of the size of a reaction, N: ``F_2_1``, on link 2 from link 1."""
+    return f"F_{joint.on}_{joint.by}"
+
+
+def angle_label(joint: JointForce | Reaction) -> str:
+    """Return the label of the direction of a reaction, degrees."""
+    return f"angle_{size_label(joint)}"
+
+
+def moment_label(joint: JointForce | Reaction) -> str:
+    """Return the label of the moment in a prismatic pair, N·m."""
+    return f"M_{joint.on}_{joint.by}"
+
+
+@dataclass(frozen=True, slots=True)
+class Balances:
+    """What balances the driver by the force plans and by the lever, N·m or N, shape (n,)."""
+
+    plans: Reals
+    lever: Reals
+
+    def share(self, index: int) -> float | None:
+        """Return how far the lever is from the force plans, per cent; None where those give 0."""
+        plans, lever = float(self.plans[index]), float(self.lever[index])
+        return 100.0 * abs(lever - plans) / abs(plans) if plans else None
+
+
+class DrawnForces(Errors):
+    """Force plans of a draughtsman (планы сил на бумаге).
+
+    Labels: ``F_2_1`` (N), ``angle_F_2_1`` (degrees), ``M_5_0`` (N·m), ``balance``, ``lever`` and
+    ``difference`` (N·m or N).
+
+    Parameters
+    ----------
+    statics : Statics
+        Its solution names the hand and its profile.
+    """
+
+    def __init__(self, statics: Statics) -> None:
+        self.statics, self.solution = statics, statics.solution
+        # The poles and the first points of the plans may stand anywhere.
+        free = {plan.pole for plan in self.solution.construction.plans} | {*statics.board.starts}
+        super().__init__(
+            Drafted(
+                statics.program,
+                partial(statics.data, statics.per_mm),
+                len(self.solution.positions),
+                self.solution.profile,
+                frozenset(map(str, free)),
+                tuple(_items(statics)),
+                tuple(sorted(_ends(statics))),
+            )
+        )
+
+    @cached_property
+    def _by_hand(self) -> dict[str, Reals]:
+        shape, hand = self.solution.positions.shape, self.solution.hand
+        read = self.taken(Reading(self.statics.program, self.statics.by_hand, hand))
+        return {
+            label: np.broadcast_to(np.asarray(value, dtype=float), shape)
+            for label, value in read.items()
+        }
+
+    def read(self, label: str) -> Reals:
+        """Return a quantity as the ruler gives it, shape (n,)."""
+        return self._by_hand[label]
+
+    @property
+    def balance(self) -> Reals:
+        """What balances the driver by the force plans, as the ruler gives it, N·m or N."""
+        return self.read(BALANCE)
+
+    @property
+    def balances(self) -> Balances | None:
+        """The same by the force plans and by the lever; None where the driver stands."""
+        if LEVER not in self.items:
+            return None
+        return Balances(self.balance, self.read(LEVER))
+
+    @property
+    def discrepancy_sigma(self) -> Reals | None:
+        """Expected size of lever minus force plans: one sigma, N·m or N; shape (n,).
+
+        None where the driver stands.
+        """
+        return self.spreads[DIFFERENCE].sigma if DIFFERENCE in self.items else None
+
+
+def all_errors(statics: Statics) -> Errors:
+    """Return the errors of force plans and kinematics together: they have strokes in common."""
+    solution, drawn = statics.solution, statics.drawn.drawing
+    return Errors(
+        Drafted(
+            statics.board.draft.b.program(),
+            drawn.data,
+            drawn.count,
+            drawn.profile,
+            drawn.free,
+            (*solution.drafting.drawing.items, *drawn.items),
+        )
+    )
+
+
+def _ends(statics: Statics) -> set[PointName]:
+    """Return the points of the force plans that are drawn."""
+    return {
+        end
+        for plan in statics.board.plans
+        for edge in (*plan.polygon, *plan.wholes, *([] if plan.inner is None else [plan.inner]))
+        for end in (edge.tail, edge.head)
+    }
+
+
+def _items(statics: Statics) -> Iterator[Item]:
+    """Yield every quantity that the force plans and the lever give."""
+    for reaction in statics.board.reactions:
+        force, absent = reaction.force, partial(_absent, statics, reaction.force)
+        ends = (force.tail, force.head)
+        size, way = _size(force, statics.scale.per_mm), angle_label(reaction)
+        yield Item(size_label(reaction), ends, size, ItemKind.LENGTH, absent, direction=way)
+        yield Item(way, ends, _direction(force), ItemKind.DIRECTION, absent)
+        if reaction.couple is not None:
+            yield Item(moment_label(reaction), (reaction.couple,), number(reaction.couple))
+    driving, hung = statics.driving, statics.hung
+    needs: tuple[Name, ...] = (driving.moment,) if driving.moment is not None else ()
+    if driving.force is not None and driving.axis is not None:
+        needs = (driving.force.tail, driving.force.head, driving.axis)
+    balance = partial(_balance, statics)
+    yield Item(BALANCE, needs, balance)
+    if hung is not None:
+        lever = hung.balance
+        yield Item(LEVER, (lever,), number(lever))
+        yield Item(
+            DIFFERENCE,
+            (*needs, lever),
+            lambda reading: reading.trace.value[lever] - balance(reading),
+        )
+
+
+def _balance(statics: Statics, reading: Reading) -> Number:
+    return reading.once(BALANCE, lambda: statics.balance_in(reading.trace, reading.pencil))
+
+
+def _size(force: Force, mu: float) -> Callable[[Reading], Number]:
+    return lambda reading: reading.length(force.tail, force.head) * mu
+
+
+def _direction(force: Force) -> Callable[[Reading], Number]:
+    def take(reading: Reading) -> Number:
+        value = reading.trace.value
+        return angle(value[force.head] - value[force.tail], NOTHING_MM) * RADIAN
+
+    return take
+
+
+def _absent(statics: Statics, force: Force) -> Flags:
+    """Tell where the plan of a reaction has no force at all: nobody draws it."""
+    ends = {force.tail, force.head}
+    plan = next(
+        plan
+        for plan in statics.board.plans
+        if any({edge.tail, edge.head} == ends for edge in (*plan.polygon, *plan.reactions))
+    )
+    found = np.ones(statics.solution.positions.shape, dtype=bool)
+    for edge in plan.polygon:
+        tail, head = (statics.solution.complexes(statics.si, e) for e in (edge.tail, edge.head))
+        found &= head == tail
+    return found

@@ -1,0 +1,346 @@
+"""How far what a program draws may be off: sigma of every quantity, how they err together.
+
+The strokes are those of a pencil (`planmethod.construct.drafting`). First order where it holds,
+random sheets where it does not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Number
+from planmethod.construct.drafting import Counted, Propagated, Sampled
+from planmethod.construct.dual import as_dual
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.program import Program
+from planmethod.construct.steps import Name, PointName, operands
+from planmethod.errors import PlanMethodError
+from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind, Reading
+from planmethod.solved.solution import Reals
+
+Key = TypeVar("Key", bound=str)
+
+DRAWS = 4000
+"""Random sheets where first order does not hold."""
+
+STRAINED = 0.1
+"""Sigma of a step's margin, in parts of it, from which first order is not believed."""
+
+SHORT = 3.0
+"""Sigmas that a length must have for first order to be believed."""
+
+BLOCK = 32
+"""Positions propagated in one go: their slopes by every stroke are kept for all steps."""
+
+CENTRAL = (0.158655253931457, 0.841344746068543)
+"""Quantiles of one sigma either side of the mean of a normal error."""
+
+
+class UnknownItemError(PlanMethodError, ValueError):
+    """A covariance is asked of what a drawing does not give."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """Drafting error of one quantity in every position (погрешность построения).
+
+    Attributes
+    ----------
+    sigma : ndarray of shape (n,)
+        One standard deviation, in the quantity's unit. Where it was drawn at random: half of the
+        interval that holds the middle 68 % of the draws.
+    drawn : ndarray of bool of shape (n,)
+        First order does not hold there, and the sigma is that of random draws.
+    """
+
+    sigma: Reals
+    drawn: Flags
+
+
+class Errors:
+    """Drafting errors of a drawing (погрешности построения).
+
+    Parameters
+    ----------
+    drawing : Drafted
+    draws, seed : int
+        Of the random sheets.
+    """
+
+    def __init__(self, drawing: Drafted, *, draws: int = DRAWS, seed: int = 1) -> None:
+        self.drawing, self.profile = drawing, drawing.profile
+        self.draws, self.seed = draws, seed
+        self.items: dict[str, Item] = {item.label: item for item in drawing.items}
+        self._own: dict[int, _Slopes] = {}
+        self._sheets: dict[int, dict[str, float]] = {}
+
+    # First order -----------------------------------------------------------------------------
+
+    def _take(self, pencil: Any, chosen: npt.NDArray[np.intp]) -> tuple[Trace, dict[str, Number]]:
+        """Draw the construction with a pencil and take every quantity off it."""
+        program = self.drawing.program
+        trace = evaluate(program, self.drawing.data(chosen), pencil)
+        return trace, self.taken(Reading(program, trace, pencil))
+
+    def taken(self, reading: Reading) -> dict[str, Number]:
+        """Return every quantity as it is read."""
+        with np.errstate(all="ignore"):
+            return {item.label: item.take(reading) for item in self.items.values()}
+
+    @cached_property
+    def _causes(self) -> int:
+        counted = Counted(self.profile, self.drawing.free)
+        self._take(counted, np.zeros(1, dtype=int))
+        return counted.causes
+
+    def _propagate(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
+        pencil = Propagated(self.profile, self.drawing.free, self._causes)
+        trace, taken = self._take(pencil, chosen)
+        count = len(chosen)
+
+        def column(value: Number) -> Any:
+            return np.broadcast_to(np.atleast_1d(as_dual(value).value), (count,))
+
+        def slopes(value: Number) -> Any:
+            slope = as_dual(value).slope
+            return np.broadcast_to(0.0 if slope is None else slope, (self._causes, count))
+
+        return _Slopes(
+            {label: column(value) for label, value in taken.items()},
+            {label: slopes(value) for label, value in taken.items()},
+            {name: column(margin) for name, margin in trace.margin.items()},
+            {name: slopes(margin) for name, margin in trace.margin.items()},
+            {name: slopes(trace.value[name]) for name in self.drawing.points},
+            pencil.of,
+        )
+
+    @cached_property
+    def _first(self) -> _First:
+        """What first order says in all positions; slopes of one are found anew when asked for."""
+        count = self.drawing.count
+        parts = [
+            _reduced(self._propagate(np.arange(start, min(start + BLOCK, count))))
+            for start in range(0, count, BLOCK)
+        ]
+        return _First(
+            _joined([part.values for part in parts]),
+            _joined([part.sigmas for part in parts]),
+            _joined([part.strained for part in parts]),
+            _joined([part.points for part in parts]),
+        )
+
+    def _at(self, index: int) -> _Slopes:
+        """Return the slopes in one position."""
+        if index not in self._own:
+            self._own = {index: self._propagate(np.array([index]))}
+        return self._own[index]
+
+    # Where first order does not hold ---------------------------------------------------------
+
+    @cached_property
+    def _ancestors(self) -> dict[Name, frozenset[Name]]:
+        return _ancestors(self.drawing.program)
+
+    def strained(self, *names: Name) -> Flags:
+        """Tell where a step that some others hang on is as good as impossible for this hand.
+
+        Its margin there is not much larger than its own error.
+        """
+        found = np.zeros(self.drawing.count, dtype=bool)
+        above = frozenset[Name]().union(*(self._ancestors[name] for name in names))
+        for step, flags in self._first.strained.items():
+            if step in above:
+                found |= flags
+        return found
+
+    @cached_property
+    def spreads(self) -> Mapping[str, Spread]:
+        """Drafting error of every quantity, by its label; each is found when it is asked for."""
+        return _Spreads(self)
+
+    def _spread(self, label: str) -> Spread:
+        item, first = self.items[label], self._first
+        sigma = np.array(first.sigmas[label])
+        doubtful = ~np.isfinite(sigma) | self.strained(*item.needs)
+        if item.kind is not ItemKind.NUMBER:
+            size = first.values[label] if item.kind is ItemKind.LENGTH else RADIAN
+            doubtful |= (sigma > 0) & (size < SHORT * sigma)
+        if item.direction:
+            doubtful |= self.spreads[item.direction].drawn
+        if item.absent is not None:
+            absent = item.absent()
+            sigma[absent], doubtful = 0.0, doubtful & ~absent
+        for i in np.flatnonzero(doubtful):
+            sigma[i] = self._of_sheets(int(i))[label]
+        return Spread(sigma, doubtful)
+
+    def _of_sheets(self, index: int) -> dict[str, float]:
+        """Return the sigmas of all quantities that random sheets of one position give."""
+        if index not in self._sheets:
+            drawn = self.sample(index)
+            self._sheets[index] = {
+                label: _half_width(_unwound(drawn[label]) if _turns(item) else drawn[label])
+                for label, item in self.items.items()
+            }
+        return self._sheets[index]
+
+    def sample(
+        self, index: int, *, draws: int | None = None, seed: int | None = None
+    ) -> dict[str, Reals]:
+        """Return every quantity of one position from random sheets: arrays of shape (draws,)."""
+        count = self.draws if draws is None else draws
+        seed = (self.seed if seed is None else seed) * 1_000_003 + index
+        pencil = Sampled(self.profile, self.drawing.free, count, seed)
+        _, taken = self._take(pencil, np.array([index]))
+        return {
+            label: np.broadcast_to(np.asarray(value, dtype=float), (count,))
+            for label, value in taken.items()
+        }
+
+    # Together --------------------------------------------------------------------------------
+
+    def covariance(self, labels: Iterable[str], index: int = 0) -> Reals:
+        """Return the covariance matrix of some quantities in one position, to first order.
+
+        Returns
+        -------
+        ndarray of shape (k, k)
+            In products of the quantities' units.
+
+        Raises
+        ------
+        UnknownItemError
+        """
+        asked = list(labels)
+        self._check(asked)
+        slopes = self._at(index).slopes
+        rows = np.array([slopes[label][:, 0] for label in asked])
+        return np.asarray(rows @ rows.T, dtype=float)
+
+    def _check(self, labels: list[str]) -> None:
+        unknown = [label for label in labels if label not in self.items]
+        if unknown:
+            raise UnknownItemError(
+                f"a drawing does not give {', '.join(unknown)}. Known: {', '.join(self.items)}."
+            )
+
+    def ellipse(self, point: PointName, index: int) -> Reals:
+        """Return the covariance of a point on its plan, mm², ndarray of shape (2, 2)."""
+        if point not in self._first.points:
+            raise UnknownItemError(
+                f"no plan has a point {point}. Known: {', '.join(sorted(self._first.points))}."
+            )
+        return np.array(self._first.points[point][:, :, index])
+
+    def causes(self, label: str, index: int = 0) -> list[tuple[str, float]]:
+        """Return the steps by their share of a quantity's variance, the largest first."""
+        self._check([label])
+        here = self._at(index)
+        slope = here.slopes[label][:, 0] ** 2
+        shares: dict[str, float] = {}
+        for step, part in zip(here.strokes, slope, strict=True):
+            shares[step] = shares.get(step, 0.0) + float(part)
+        total = sum(shares.values()) or 1.0
+        ordered = sorted(shares.items(), key=lambda pair: -pair[1])
+        return [(step, part / total) for step, part in ordered if part > 0]
+
+
+class _Spreads(Mapping[str, Spread]):
+    """Spreads by label, each found once."""
+
+    def __init__(self, errors: Errors) -> None:
+        self._errors = errors
+        self._found: dict[str, Spread] = {}
+
+    def __getitem__(self, label: str) -> Spread:
+        if label not in self._found:
+            self._found[label] = self._errors._spread(label)
+        return self._found[label]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._errors.items)
+
+    def __len__(self) -> int:
+        return len(self._errors.items)
+
+
+@dataclass(frozen=True, slots=True)
+class _Slopes:
+    """Values, their slopes by cause (m, n), and the strokes behind the causes."""
+
+    values: dict[str, Reals]
+    slopes: dict[str, Reals]
+    margins: dict[Name, Reals]
+    margin_slopes: dict[Name, Reals]
+    points: dict[PointName, npt.NDArray[np.complex128]]
+    strokes: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class _First:
+    """First order: values, sigmas, strained steps, covariances of points (2, 2, n)."""
+
+    values: dict[str, Reals]
+    sigmas: dict[str, Reals]
+    strained: dict[Name, Flags]
+    points: dict[PointName, Reals]
+
+
+def _reduced(part: _Slopes) -> _First:
+    return _First(
+        part.values,
+        {label: _sigma(slopes) for label, slopes in part.slopes.items()},
+        {
+            name: ~(_sigma(part.margin_slopes[name]) <= STRAINED * np.abs(margin))
+            for name, margin in part.margins.items()
+        },
+        {name: _covariance(slopes) for name, slopes in part.points.items()},
+    )
+
+
+def _joined(parts: list[dict[Key, Any]]) -> dict[Key, Any]:
+    """Return blocks of positions as one."""
+    return {key: np.concatenate([part[key] for part in parts], -1) for key in parts[0]}
+
+
+def _sigma(slopes: Reals) -> Reals:
+    return np.asarray(np.sqrt((slopes**2).sum(axis=0)), dtype=float)
+
+
+def _covariance(slopes: npt.NDArray[np.complex128]) -> Reals:
+    rows = np.array([slopes.real, slopes.imag])
+    return np.asarray(np.einsum("amn,bmn->abn", rows, rows), dtype=float)
+
+
+def _half_width(values: Reals) -> float:
+    """Return half of the interval of the middle 68 % of what was drawn and could be."""
+    able = values[np.isfinite(values)]
+    if not able.size:
+        return float("nan")
+    low, high = np.quantile(able, CENTRAL)
+    return float(high - low) / 2
+
+
+def _turns(item: Item) -> bool:
+    return item.kind is ItemKind.DIRECTION
+
+
+def _unwound(degrees: Reals) -> Reals:
+    """Return directions from their mean one, in (-180, 180]: those about 180 lie together."""
+    ways = np.exp(1j * np.radians(degrees[np.isfinite(degrees)]))
+    return np.asarray(np.degrees(np.angle(ways / ways.sum())), dtype=float)
+
+
+def _ancestors(program: Program) -> dict[Name, frozenset[Name]]:
+    """Return for every step the steps that it depends on, itself among them."""
+    found: dict[Name, frozenset[Name]] = {}
+    for step in program.steps:
+        above = frozenset[Name]().union(*(found[name] for name, _ in operands(step)))
+        found[step.out] = above | {step.out}
+    return found

@@ -1,0 +1,1 @@
+"""Loads in numbers, reactions, the balancing moment, the lever (силовой расчёт)."""

@@ -1,0 +1,231 @@
+"""Forces over the course of the driver, as a smooth line needs them (силы за цикл).
+
+The asked positions are too few for a curve, so the force plans are read exactly at others between
+them. A load that jumps (a phase, a step of a table) leaves a gap in the curve just there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.errors import LayoutError
+from planmethod.problem.load_records import Dynamics, Over, Table
+from planmethod.solved.forces.reading import NOTHING, require_dynamics
+from planmethod.solved.forces.statics import JointForce
+from planmethod.solved.many.positions import impossible_steps
+from planmethod.solved.solution import Complexes, Reals, Solution
+from planmethod.solved.travel import Course
+
+STEP, LEAST = 1.0, 120
+"""Step of the crank, degrees, and number of steps at the least: no corner shows on the paper."""
+
+STEEP = 0.02
+"""Part of the largest value that a quantity changes by between two positions, to be looked at."""
+
+TIMES = 4.0
+"""How many times more than around it."""
+
+_AROUND = 4  # steps to both sides that a step is compared with
+_PARTS = 32  # parts that a suspected step is cut into
+_ROUNDS = 3
+
+Rows = npt.NDArray[np.complex128]
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Part of a curve without a jump or a gap: positions and values, ndarrays of shape (m,).
+
+    It may be one position alone, as the dead one in which a resistance is nothing.
+    """
+
+    positions: Reals
+    values: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """Largest size of a reaction, N, and the driver position where it is.
+
+    ``is_limit``: next to a jump it is only come near to, and may not be there in the position.
+    """
+
+    size: float
+    position: float
+    is_limit: bool
+
+
+class Cycle:
+    """Reactions and the balance over the course of the driver (реакции за цикл).
+
+    Parameters
+    ----------
+    solution : Solution
+        Of several positions of a problem with ``[dynamics]``.
+
+    Attributes
+    ----------
+    joints : list of JointForce
+        The reactions as the asked positions have them; a curve has its number among them.
+    smooth : bool
+        False where a load is known in the positions of the file only: then curves are chords.
+    positions : ndarray of shape (m,)
+        Driver positions, the asked ones among them.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        self.solution = solution
+        self.course = Course(solution, step=STEP, least=LEAST)
+        self.joints: list[JointForce] = solution.statics.reactions
+        assert solution.problem.dynamics is not None
+        self.smooth = not _only_in_positions(solution.problem.dynamics)
+        if self.smooth:
+            found = self._with_jumps(self.course.positions)
+        else:
+            found = self.course.drawn, self._asked(), np.zeros(len(self.course.drawn) - 1, bool)
+        self.positions, self._rows, self._jumps = found
+
+    def _asked(self) -> Rows:
+        """Return the values of the asked positions, in the order of `Course.drawn`."""
+        s = self.solution
+        order = np.unique(s.positions, return_index=True)[1]
+        if self.course.closed:
+            order = np.append(order, order[:1])
+        rows = [*(joint.force for joint in s.statics.reactions), s.statics.balance]
+        return np.array([np.asarray(row, dtype=complex)[order] for row in rows])
+
+    def _read(self, positions: Reals) -> Rows:
+        """Return all reactions and the balance, shape (k, m); NaN where there is none."""
+        able = np.arange(len(positions))
+        made = self._solved(positions)
+        there = impossible_steps(made) < 0
+        if not there.all():
+            able, made = able[there], self._solved(positions[there])
+        if able.size and not made.statics.closes.all():
+            there = made.statics.closes
+            able, made = able[there], self._solved(positions[able[there]])
+        rows = np.full((len(self.joints) + 1, len(positions)), np.nan, dtype=complex)
+        if able.size:
+            statics = made.statics
+            for k, joint in enumerate(statics.reactions):
+                rows[k, able] = joint.force
+            rows[-1, able] = statics.balance
+        return rows
+
+    def _solved(self, positions: Reals) -> Solution:
+        s = self.solution
+        return Solution(s.problem, positions=positions.tolist(), scales=s.scales)
+
+    # Jumps -----------------------------------------------------------------------------------
+
+    @cached_property
+    def _peaks(self) -> Reals:
+        """Largest force, and largest balance, of the asked positions, for every row."""
+        statics = self.solution.statics
+        forces = max((float(np.max(np.abs(j.force))) for j in self.joints), default=0.0)
+        balance = float(np.max(np.abs(statics.balance)))
+        return np.array([*([forces or 1.0] * len(self.joints)), balance or 1.0])[:, np.newaxis]
+
+    def _steps(self, rows: Rows) -> Reals:
+        """Return by how much the most changing quantity changes, as a part of its largest value."""
+        steps = np.max(np.abs(np.diff(rows / self._peaks, axis=1)), axis=0)
+        return np.asarray(np.nan_to_num(steps), dtype=float)
+
+    def _with_jumps(self, positions: Reals) -> tuple[Reals, Rows, npt.NDArray[np.bool_]]:
+        """Return positions, values, and between which of them something jumps."""
+        rows = self._read(positions)
+        steps = self._steps(rows)
+        steep = np.flatnonzero((steps > STEEP) & (steps > TIMES * _around(steps)))
+        low, high = positions[steep], positions[steep + 1]
+        for _ in range(_ROUNDS if steep.size else 0):
+            low, high = self._narrowed(low, high)
+        if steep.size:
+            ends = self._read(np.column_stack((low, high)).ravel())
+            real = self._steps(ends)[::2] > steps[steep] / 2
+            added = np.column_stack((low[real], high[real])).ravel()
+            rows = np.concatenate((rows, ends[:, np.repeat(real, 2)]), axis=1)
+            positions = np.concatenate((positions, added))
+            low = low[real]
+        positions, first = np.unique(positions, return_index=True)
+        return positions, rows[:, first], np.isin(positions[:-1], low)
+
+    def _narrowed(self, low: Reals, high: Reals) -> tuple[Reals, Reals]:
+        """Return of every interval the part in which the most happens."""
+        grid = low + (high - low) * np.linspace(0.0, 1.0, _PARTS + 1)[:, np.newaxis]
+        grid = grid.T  # (intervals, parts + 1)
+        rows = self._read(grid.ravel()).reshape(len(self._peaks), *grid.shape)
+        change = np.abs(np.diff(rows / self._peaks[:, :, np.newaxis], axis=2))
+        where = np.argmax(np.nan_to_num(np.max(change, axis=0)), axis=1)
+        lines = np.arange(len(low))
+        return grid[lines, where], grid[lines, where + 1]
+
+    # Curves ----------------------------------------------------------------------------------
+
+    def force(self, number: int) -> list[Piece]:
+        """Return the curve of a reaction, N, by its number among ``joints``."""
+        return list(self._pieces(self._rows[number]))
+
+    @property
+    def balance(self) -> list[Piece]:
+        """The curve of what balances the driver, N·m or N (a real number as a complex one)."""
+        return list(self._pieces(self._rows[-1]))
+
+    def peak(self, number: int) -> Peak:
+        """Return the largest size of a reaction and where it is."""
+        sizes = np.nan_to_num(np.abs(self._rows[number]), nan=-1.0)
+        k = int(np.argmax(sizes))
+        near = self._jumps[max(k - 1, 0) : k + 1]
+        return Peak(float(sizes[k]), float(self.positions[k]), bool(near.any()))
+
+    def is_nothing(self, number: int) -> bool:
+        """Tell whether a reaction is nothing beside the largest one, all over."""
+        largest = float(self._peaks[0, 0])
+        return self.peak(number).size <= NOTHING * largest
+
+    def _pieces(self, row: Complexes) -> Iterator[Piece]:
+        ends = np.flatnonzero(self._jumps) + 1
+        for part in np.split(np.arange(len(row)), ends):
+            gone = np.isnan(row[part])
+            for run in np.split(part, np.flatnonzero(gone)):
+                kept = run[~np.isnan(row[run])]
+                if kept.size:
+                    yield Piece(self.positions[kept], row[kept])
+
+
+def _around(steps: Reals) -> Reals:
+    """Return the middle one of the steps around each step."""
+    if not steps.size:
+        return steps
+    padded = np.pad(steps, _AROUND, mode="reflect" if len(steps) > _AROUND else "edge")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * _AROUND + 1)
+    return np.asarray(np.median(windows, axis=1), dtype=float)
+
+
+def _only_in_positions(dynamics: Dynamics) -> bool:
+    tables = (load.size for load in dynamics.loads if isinstance(load.size, Table))
+    return any(table.over is Over.POSITION for table in tables)
+
+
+@lru_cache(maxsize=4)
+def cycle(solution: Solution) -> Cycle:
+    """Return the forces over the course of a solution; kept, since several views show them.
+
+    Raises
+    ------
+    ProblemError
+        The problem file gives neither masses nor loads.
+    LayoutError
+        There is only one position.
+    """
+    require_dynamics(solution.problem)
+    if len(solution.positions) < 2:
+        raise LayoutError(
+            f"{solution.problem.name}: a layout with forces over the cycle needs several positions,"
+            " 1 is asked. Ask more: --phi 0:360:30, or phi = { from = 0, count = 12 } in [driver]."
+        )
+    return Cycle(solution)

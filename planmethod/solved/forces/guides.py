@@ -1,0 +1,119 @@
+"""Reactions of the guides in one position, as a hand reads them (реакции направляющих)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from planmethod.plans.forces.board import Reaction
+from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
+from planmethod.solved.forces.contact import Contact, EdgeForce
+from planmethod.solved.forces.reading import NOTHING, ForceReading
+
+
+@dataclass(frozen=True)
+class Guided:
+    """What one link of a prismatic pair does to the other, in one position.
+
+    Attributes
+    ----------
+    reading : ForceReading
+    number : int
+        Of the reaction, among those of the force analysis.
+    on, by : str
+        The link that the force acts on, and the link that exerts it.
+    """
+
+    reading: ForceReading
+    number: int
+    on: str
+    by: str
+
+    @property
+    def contact(self) -> Contact:
+        """The pair in all positions."""
+        return self.reading.statics.contacts[self.number]
+
+    @property
+    def reaction(self) -> Reaction:
+        """The reaction as the force plans have it."""
+        return self.reading.statics.board.reactions[self.number]
+
+    @property
+    def sense(self) -> int:
+        """-1 where the force plans have what acts back."""
+        return 1 if self.on == self.reaction.on else -1
+
+    @property
+    def own(self) -> Guided:
+        """The same as the force plans have it: distances and lengths have its letters."""
+        return Guided(self.reading, self.number, self.reaction.on, self.reaction.by)
+
+    def symbol(self, letter: str, primes: str = "") -> str:
+        """Return a letter with the numbers of both links: ``l_{50}``, ``F^{'}_{50}``."""
+        above = f"^{{{primes}}}" if primes else ""
+        return reaction_symbol(self.on, self.by, letter=letter + above)
+
+    @cached_property
+    def b(self) -> float | None:
+        """Where the force acts, m from the joint in the guide's direction; None of no force."""
+        if self.is_none:
+            return None
+        return 0.0 if self.is_no_couple else float(self.contact.b(NOTHING)[self.reading.index])
+
+    @property
+    def is_none(self) -> bool:
+        """Whether the force is nothing beside the others."""
+        size = abs(complex(self.contact.joint.force[self.reading.index]))
+        return size <= NOTHING * self.reading.peak
+
+    @property
+    def is_no_couple(self) -> bool:
+        """Whether the moment about the joint is nothing beside the others."""
+        moment = abs(float(self.contact.joint.moment[self.reading.index]))
+        return moment <= NOTHING * self.reading.peak_moment
+
+    @property
+    def edges(self) -> tuple[EdgeForce, ...]:
+        """Reactions at the edges where they act: ahead in the guide's direction, then behind."""
+        edges = self.contact.edges(self.reading.index)
+        return tuple(EdgeForce(edge.at, self.sense * edge.force) for edge in edges)
+
+    # As the hand has them --------------------------------------------------------------------
+
+    @property
+    def read_force(self) -> float:
+        """Size of the force as the ruler has it on the force plan, N."""
+        force, reading = self.reaction.force, self.reading
+        length = abs(reading.by_hand(force.tail, force.head))
+        return float(reading.solution.hand.ruled(length)) * reading.scale.per_mm
+
+    @property
+    def read_moment(self) -> float:
+        """Size of the moment about the joint, N·m."""
+        assert self.reaction.couple is not None
+        return abs(self.reading.read_number(self.reaction.couple))
+
+    @property
+    def centred(self) -> bool:
+        """Whether the middle of the contact lies across the guide from the joint."""
+        middle = abs(float(self.contact.middle[self.reading.index]))
+        return middle <= 1e-9 * (self.contact.length or 1.0)
+
+
+@lru_cache(maxsize=32)
+def guides(reading: ForceReading) -> Mapping[str, Guided]:
+    """Return the reactions of the guides by the letter of the force, each way: ``F_{50}``."""
+    found = {}
+    for number, contact in reading.statics.contacts.items():
+        joint = contact.joint
+        for on, by in ((joint.on, joint.by), (joint.by, joint.on)):
+            found[reaction_symbol(on, by)] = Guided(reading, number, on, by)
+    return found
+
+
+def guide_of(reading: ForceReading, couple: CoupleOn) -> Guided | None:
+    """Return the reaction of a guide whose moment a couple is."""
+    matching = (one for one in guides(reading).values() if one.symbol("M") == couple.symbol)
+    return next(matching, None)

@@ -1,0 +1,210 @@
+"""The Zhukovsky lever of one position as it is drawn and measured (рычаг Жуковского в масштабе).
+
+The velocity plan is turned by +90 degrees. A couple on a link stands there for its pair of forces
+in the link's points: its arm is a segment of the plan over the length of the link, and it turns the
+other way where the link goes counter-clockwise, for the segment then lies against the link.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from planmethod.construct.steps import NumberName, PointName
+from planmethod.plans.forces.board import Given
+from planmethod.plans.model import PlanKind
+from planmethod.plans.motion.board import letter
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.scaling import own_scale
+
+_Own: TypeAlias = tuple[
+    float,
+    tuple[complex, complex] | None,
+    tuple[PointName, PointName] | None,
+    tuple[str, str] | None,
+]
+
+
+@dataclass(frozen=True, slots=True)
+class HungForce:
+    """Force on the lever: letter, where it hangs (mm from the pole), N, and its arm, mm.
+
+    The arm is as the hand measures it, positive where the force turns counter-clockwise; ``size``
+    is the force as the hand has it, N. ``point`` is the point of the mechanism where it acts.
+    """
+
+    symbol: str
+    at: complex
+    force: complex
+    arm: float
+    size: float
+    point: str
+
+
+@dataclass(frozen=True, slots=True)
+class OnLink:
+    """Something on a link as the lever has the link.
+
+    ``segment`` is the segment of the plan, mm, that stands for the link, ``ends`` are its points,
+    ``joints`` those of the link. ``ratio`` is the link's |omega| as the hand has it over the plan's
+    scale, mm/m.
+    """
+
+    symbol: str
+    link: str
+    ratio: float
+    segment: tuple[complex, complex] | None
+    ends: tuple[PointName, PointName] | None
+    joints: tuple[str, str] | None
+
+
+@dataclass(frozen=True, slots=True)
+class HungCouple(OnLink):
+    """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
+
+    ``moment`` is that on the link as the hand has it, N·m.
+    """
+
+    moment: float
+    lever_moment: float
+
+
+@dataclass(frozen=True, slots=True)
+class HungShift(OnLink):
+    """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
+
+    ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``length`` is h as
+    the hand has it, m.
+    """
+
+    letters: tuple[str, str]
+    line: tuple[complex, complex]
+    length: float
+
+
+class LeverReading:
+    """The lever of one position.
+
+    Parameters
+    ----------
+    reading : ForceReading
+    common : bool
+        At the scale of all velocity plans, even where this position's is drawn smaller.
+
+    Attributes
+    ----------
+    forces : list of HungForce
+        Those that do work; last the balancing one of a driving slider.
+    couples : list of HungCouple
+        Those that do work; last the balancing one of a crank, as the hand finds it on the lever.
+    shifts : list of HungShift
+        Of the forces of inertia that are moved off the centre of mass.
+    """
+
+    def __init__(self, reading: ForceReading, *, common: bool = False) -> None:
+        solution, index = reading.solution, reading.index
+        assert reading.statics.hung is not None
+        self.reading = reading
+        scale = solution.scales[PlanKind.VELOCITY]
+        shown = scale if common else own_scale(solution, PlanKind.VELOCITY, index)
+        self.per_mm = shown.per_mm
+        self._share = scale.per_mm / self.per_mm
+        self.forces: list[HungForce] = []
+        self.couples: list[HungCouple] = []
+        self.shifts: list[HungShift] = []
+        for given, at in reading.statics.hung.hung:
+            one = given.applied
+            if at is None:
+                assert given.couple is not None
+                if abs(reading.number(given.couple)) > 1e-9 * reading.peak_moment:
+                    moment = reading.read_number(given.couple)
+                    self.couples.append(self._couple(one.name, one.link, moment))
+                continue
+            force, place = complex(one.force[index]), reading.end(at) * self._share
+            if abs(force) > 1e-9 * reading.peak:
+                assert given.force is not None and one.point is not None
+                drawn = reading.by_hand(given.force.tail, given.force.head)
+                spot = reading.by_hand(reading.statics.hung.pole, at) * self._share
+                size, arm = reading.read_load(given), self._arm(spot, drawn)
+                self.forces.append(HungForce(one.name, place, force, arm, size, one.point))
+                self._shift(given, place)
+        self._balance(reading.statics.hung.balance)
+
+    def _balance(self, balance: NumberName) -> None:
+        reading, drive = self.reading, self.reading.solution.problem.drive
+        driving = reading.statics.driving
+        if driving.force is None:
+            if self.forces or self.couples:  # where they cancel, too
+                moment = reading.read_number(balance)
+                self.couples.append(self._couple(reading.balancing_symbol, drive.link, moment))
+            return
+        motion = reading.solution.construction.kinematics.velocity
+        pin = reading.solution.problem.slides[drive.link].pin
+        force = reading.of_force(driving.force)
+        if force:
+            place = self.place(motion.point[drive.link, pin])
+            # Its arm is the driver's own velocity, which is laid off and not measured.
+            arm, size = _across(place, force), abs(reading.read_number(balance))
+            self.forces.append(HungForce(reading.balancing_symbol, place, force, arm, size, pin))
+
+    def _arm(self, place: complex, force: complex) -> float:
+        """Return the arm of a force about the pole as the hand measures it, mm."""
+        return float(self.reading.solution.hand.ruled(_across(place, force)))
+
+    def place(self, point: PointName) -> complex:
+        """Return a point of the velocity plan on the lever, mm from the pole."""
+        solution = self.reading.solution
+        at = complex(solution.complexes(solution.paper, point)[self.reading.index])
+        return 1j * at * self._share
+
+    def _couple(self, symbol: str, link: str, moment: float) -> HungCouple:
+        turned = -moment * self._omega(link) / self.per_mm
+        return HungCouple(symbol, link, *self._on(link), moment, turned)
+
+    def _shift(self, given: Given, place: complex) -> None:
+        """Note the shift of a force that hangs beside its centre of mass."""
+        link = given.applied.link
+        shift = self.reading.statics.board.shifts.get(link)
+        if shift is None or given.force is None or given.force.at != shift.at:
+            return
+        assert given.applied.point is not None
+        motion = self.reading.solution.construction.kinematics.velocity
+        centre = self.place(motion.point[motion.named[given.applied.point]])
+        letters = letter(given.applied.point), f"t{shift.letter[1:]}"
+        mu_l = self.reading.solution.scales[PlanKind.POSITION].per_mm
+        length, line = abs(self.reading.read_number(shift.length)) * mu_l, (centre, place)
+        self.shifts.append(HungShift(f"h_{{{link}}}", link, *self._on(link), letters, line, length))
+
+    def _omega(self, link: str) -> float:
+        """Return the angular velocity of a link as the hand has it, 1/s."""
+        solution = self.reading.solution
+        name = solution.construction.kinematics.omega[link]
+        return float(solution.reals(solution.by_hand, name)[self.reading.index])
+
+    def _on(self, link: str) -> _Own:
+        """Return the ratio of a link, its segment on the plan, its ends and their joints."""
+        solution = self.reading.solution
+        kin = solution.construction.kinematics
+        ends, joints = None, None
+        for (kind, other), turning in kin.turnings.items():
+            if kind is PlanKind.VELOCITY and kin.omega.get(other) == kin.omega.get(link):
+                ends = (turning.start, turning.head)
+                joints = (str(turning.joint), str(turning.place))
+        if ends is None and link == solution.problem.drive.link:
+            ends, joints = self._crank()
+        segment = None if ends is None else (self.place(ends[0]), self.place(ends[1]))
+        return abs(self._omega(link)) / self.per_mm, segment, ends, joints
+
+    def _crank(self) -> tuple[tuple[PointName, PointName], tuple[str, str]]:
+        """Return the pole and the point of the crank's end, and the crank's points."""
+        solution = self.reading.solution
+        drive, motion = solution.problem.drive, solution.construction.kinematics.velocity
+        assert drive.pivot is not None
+        own = solution.problem.bodies[drive.link].points
+        pin = next(point for point in own if point != drive.pivot)
+        return (motion.pole, motion.point[drive.link, pin]), (drive.pivot, pin)
+
+
+def _across(place: complex, force: complex) -> float:
+    """Return the arm of a force at a place about the origin, positive counter-clockwise."""
+    return (place.conjugate() * force).imag / abs(force) if abs(force) else 0.0

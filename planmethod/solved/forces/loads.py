@@ -1,0 +1,319 @@
+"""Given and inertia forces on the links in every position (заданные силы и силы инерции)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Number
+from planmethod.errors import Fault, ProblemError
+from planmethod.plans.build import Construction
+from planmethod.plans.forces.loads import Applied, LoadKind
+from planmethod.problem.bodies import rotation
+from planmethod.problem.load_records import (
+    Against,
+    Couple,
+    Dynamics,
+    Fixed,
+    Interpolation,
+    Load,
+    Mass,
+    Moving,
+    Over,
+    Phase,
+    Table,
+    Turning,
+)
+from planmethod.problem.model import Problem
+from planmethod.solved.solution import Complexes, LinkMotion, PointMotion, Reals
+
+STILL = 1e-10
+"""Share of the largest speed of a position below which a point or a link stands."""
+
+SLACK = 1e-9
+"""Rounding of an abscissa, degrees, or as a share of a table's span."""
+
+TURN = 360.0
+
+_AHEAD = {Moving.UP: 1j, Moving.DOWN: -1j, Moving.LEFT: -1 + 0j, Moving.RIGHT: 1 + 0j}
+
+Mask = npt.NDArray[np.bool_]
+
+
+class Moved(Protocol):
+    """What loads need to know of the motion; a `Solution` knows it.
+
+    ``positions`` is of shape (n,), as are the arrays of ``points`` and ``links``.
+    """
+
+    @property
+    def problem(self) -> Problem:
+        """The problem."""
+
+    @property
+    def positions(self) -> Reals:
+        """Positions of the driver, degrees or m."""
+
+    @property
+    def construction(self) -> Construction:
+        """Its construction: what can move at all."""
+
+    @property
+    def points(self) -> Mapping[str, PointMotion]:
+        """Motion of every named point."""
+
+    @property
+    def links(self) -> Mapping[str, LinkMotion]:
+        """Motion of every moving link."""
+
+
+def applied(solution: Moved) -> tuple[Applied, ...]:
+    """Return all that acts on the links beside the reactions, link by link.
+
+    A link has its weight, the main vector of its inertia forces Φ = -m·a_S (главный вектор сил
+    инерции), their main moment M_Φ = -J·ε (главный момент), then its external loads in file order.
+    What is zero by nature is left out: inertia of what cannot accelerate, loads of size zero.
+
+    Raises
+    ------
+    ProblemError
+        A load is known in the positions of the file only, and others are asked.
+    """
+    dynamics = solution.problem.dynamics
+    if dynamics is None:
+        return ()
+    found: list[Applied] = []
+    for link in solution.problem.mechanism.links:
+        mass = dynamics.masses.get(link)
+        if mass is not None:
+            found += _of_mass(solution, dynamics.gravity, link, mass)
+        found += _external(solution, dynamics, link)
+    return tuple(found)
+
+
+def changing(solution: Moved) -> dict[str, Applied]:
+    """Return the external loads that differ from position to position, by name.
+
+    Raises
+    ------
+    ProblemError
+        As of `applied`.
+    """
+    dynamics = solution.problem.dynamics
+    assert dynamics is not None, "who has no loads has none that change"
+    links = solution.problem.mechanism.links
+    found = (one for link in links for one in _external(solution, dynamics, link))
+    return {one.name: one for one in found if one.steady is None}
+
+
+def needs_motion(load: Load | Couple) -> bool:
+    """Whether a load is known only where the motion is, not by the driver's position alone."""
+    phase = load.phase
+    if isinstance(load.sense, Against):
+        return True
+    if phase is not None and (phase.moving is not None or phase.turning is not None):
+        return True
+    return isinstance(load.size, Table) and load.size.over in (Over.X, Over.Y)
+
+
+def _force(
+    solution: Moved, name: str, link: str, point: str, force: Number, kind: LoadKind
+) -> Applied:
+    shape = solution.positions.shape
+    whole = np.array(np.broadcast_to(force, shape), dtype=complex)
+    return Applied(name, link, point, whole, np.zeros(shape), kind, _steady(force))
+
+
+def _couple(solution: Moved, name: str, link: str, couple: Number, kind: LoadKind) -> Applied:
+    shape = solution.positions.shape
+    whole = np.array(np.broadcast_to(couple, shape), dtype=float)
+    return Applied(name, link, None, np.zeros(shape, dtype=complex), whole, kind, _steady(couple))
+
+
+def _steady(value: Number) -> complex | None:
+    return complex(value) if np.ndim(value) == 0 else None
+
+
+# Weight and inertia ------------------------------------------------------------------------------
+
+
+def _of_mass(solution: Moved, gravity: float, link: str, mass: Mass) -> Iterator[Applied]:
+    centre = mass.centre
+    if mass.mass and gravity and centre is not None:
+        weight = complex(0.0, -mass.mass * gravity)
+        yield _force(solution, f"G_{{{link}}}", link, centre, weight, LoadKind.WEIGHT)
+    if mass.mass and centre is not None and _may_accelerate(solution, link, centre):
+        inertia = -mass.mass * solution.points[centre].acceleration
+        yield _force(solution, f"Φ_{{{link}}}", link, centre, inertia, LoadKind.INERTIA)
+    if mass.inertia and _may_turn_unevenly(solution, link):
+        couple = -mass.inertia * solution.links[link].epsilon
+        yield _couple(solution, f"M_{{Φ{link}}}", link, couple, LoadKind.INERTIA_COUPLE)
+
+
+def _stands(solution: Moved) -> bool:
+    """Whether the driver stands, and all links with it."""
+    drive = solution.problem.drive
+    return drive.rate == 0 and drive.acceleration == 0
+
+
+def _may_accelerate(solution: Moved, link: str, point: str) -> bool:
+    drive, plan = solution.problem.drive, solution.construction.kinematics.acceleration
+    even = link == drive.link and not drive.is_crank and drive.acceleration == 0
+    return not even and not _stands(solution) and plan.point[link, point] != plan.pole
+
+
+def _may_turn_unevenly(solution: Moved, link: str) -> bool:
+    return not _stands(solution) and link in solution.construction.kinematics.epsilon
+
+
+# External loads ----------------------------------------------------------------------------------
+
+
+def _external(solution: Moved, dynamics: Dynamics, link: str) -> Iterator[Applied]:
+    for index, load in enumerate(dynamics.loads):
+        if load.link != link or _is_nothing(solution, load):
+            continue
+        size = _size(solution, load, index)
+        if load.phase is not None:
+            size = np.where(_acts(solution, load, load.phase), size, 0.0)
+        if isinstance(load, Load):
+            force = size * _direction(solution, load)
+            yield _force(solution, load.name, link, load.at, force, LoadKind.EXTERNAL)
+        else:
+            if load.sense is not None:
+                size = -size * _turning(solution, link)
+            yield _couple(solution, load.name, link, size, LoadKind.EXTERNAL)
+
+
+def _is_nothing(solution: Moved, load: Load | Couple) -> bool:
+    """Whether a load is zero by nature: of size zero, or against what never moves."""
+    if load.size == 0:
+        return True
+    if not isinstance(load.sense, Against):
+        return False
+    turns = isinstance(load, Load) or load.link in solution.construction.kinematics.omega
+    return _stands(solution) or not turns
+
+
+def _direction(solution: Moved, load: Load) -> Complexes | complex:
+    """Return the unit vector of a force; zero where it resists a point that stands."""
+    if isinstance(load.sense, Fixed):
+        return rotation(load.sense.angle)
+    velocity = solution.points[load.at].velocity
+    speed = np.abs(velocity)
+    moves = speed > STILL * _largest_speed(solution)
+    return np.where(moves, -velocity / np.where(moves, speed, 1.0), 0.0)
+
+
+def _turning(solution: Moved, link: str) -> Reals:
+    """Return the sense of a link's rotation: 1, -1, or 0 where it does not turn."""
+    omega = solution.links[link].omega
+    bodies = [solution.problem.bodies[name] for name in solution.problem.mechanism.links]
+    reach = max(abs(z) for body in bodies for z in body.points.values())
+    speeds = [np.abs(motion.omega) for motion in solution.links.values()]
+    largest = np.max([*speeds, _largest_speed(solution) / (reach or 1.0)], axis=0)
+    return np.where(np.abs(omega) > STILL * largest, np.sign(omega), 0.0)
+
+
+def _largest_speed(solution: Moved) -> Reals:
+    """Return the largest speed of a named point in each position, m/s."""
+    speeds = [np.abs(motion.velocity) for motion in solution.points.values()]
+    return np.asarray(np.max(speeds, axis=0), dtype=float)
+
+
+def _acts(solution: Moved, load: Load | Couple, phase: Phase) -> Mask:
+    """Whether a load acts, position by position."""
+    acts = np.ones(solution.positions.shape, dtype=bool)
+    if phase.phi:
+        spans = [_within(solution.positions, *span) for span in phase.phi]
+        acts &= np.any(spans, axis=0)
+    if phase.moving is not None and isinstance(load, Load):
+        ahead = (solution.points[load.at].velocity * _AHEAD[phase.moving].conjugate()).real
+        acts &= ahead > STILL * _largest_speed(solution)
+    if phase.turning is not None:
+        sign = 1.0 if phase.turning is Turning.CCW else -1.0
+        acts &= _turning(solution, load.link) == sign
+    return acts
+
+
+def _within(phi: Reals, start: float, end: float) -> Mask:
+    """Whether angles lie in a span, its ends included, degrees."""
+    width = (end - start) % TURN or TURN
+    return _from(phi, start) <= width + SLACK
+
+
+def _from(phi: Reals, start: float) -> Reals:
+    """Return angles counted from a start, degrees in [0, 360); rounding leaves the start 0."""
+    turned = np.mod(phi - start, TURN)
+    return np.where(turned > TURN - SLACK, 0.0, turned)
+
+
+# Tables ------------------------------------------------------------------------------------------
+
+
+def _size(solution: Moved, load: Load | Couple, index: int) -> Reals | float:
+    """Return the size of a load in every position, N or N·m."""
+    size = load.size
+    if not isinstance(size, Table):
+        return size
+    match size.over:
+        case Over.POSITION:
+            what = "force" if isinstance(load, Load) else "couple"
+            return np.asarray(size.values)[_numbers(solution, f"loads[{index}].{what}")]
+        case Over.PHI:
+            return _periodic(size, solution.positions)
+        case Over.S:
+            return _read(size, solution.positions)
+        case Over.X | Over.Y:
+            assert isinstance(load, Load), "a couple has no point"
+            place = solution.points[load.at].place
+            return _read(size, place.real if size.over is Over.X else place.imag)
+
+
+def _periodic(table: Table, phi: Reals) -> Reals:
+    """Read a table that repeats with every turn."""
+    start = table.at[0]
+    at = tuple(node - start for node in table.at)
+    values = table.values
+    if at[-1] < TURN:
+        at, values = (*at, TURN), (*values, values[0])
+    return _read(Table(table.over, at, values, table.interpolation), _from(phi, start))
+
+
+def _read(table: Table, at: Reals) -> Reals:
+    """Read a table; beyond its ends it keeps their values."""
+    nodes, values = np.asarray(table.at), np.asarray(table.values)
+    if table.interpolation is Interpolation.LINEAR:
+        return np.asarray(np.interp(at, nodes, values), dtype=float)
+    slack = SLACK * (nodes[-1] - nodes[0])
+    row = np.searchsorted(nodes, at + slack, side="right") - 1
+    return np.asarray(values[np.maximum(row, 0)], dtype=float)
+
+
+def _numbers(solution: Moved, path: str) -> npt.NDArray[np.intp]:
+    """Tell which positions of the file the asked ones are.
+
+    Raises
+    ------
+    ProblemError
+        With the first one that is none of them.
+    """
+    own, asked = np.asarray(solution.problem.drive.positions), solution.positions
+    if np.array_equal(own, asked):
+        return np.arange(len(own))
+    order = np.argsort(own, kind="stable")
+    number = order[np.minimum(np.searchsorted(own[order], asked - SLACK), len(own) - 1)]
+    strange = np.flatnonzero(~(np.abs(own[number] - asked) <= SLACK))
+    if strange.size:
+        what = "phi = {:g} deg" if solution.problem.drive.is_crank else "s = {:g} m"
+        first = what.format(float(asked[strange[0]]))
+        fault = Fault(
+            f"{path}.values",
+            f"given for the positions of the file, and {first} is none of them",
+            "Give the table over phi, s, x or y, or ask the file's own positions.",
+        )
+        raise ProblemError(solution.problem.name, [fault])
+    return number

@@ -1,0 +1,210 @@
+"""Force plans of one position, read at the scales of their drawings (планы сил в масштабе)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property, lru_cache
+
+from planmethod.construct.evaluate import Trace
+from planmethod.construct.scale import Scale
+from planmethod.construct.steps import NumberName, PointName
+from planmethod.errors import Fault, ProblemError
+from planmethod.plans.forces.board import Force, Given
+from planmethod.plans.forces.polygons import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    CoupleOn,
+    Edge,
+    ForcePlan,
+    Share,
+)
+from planmethod.problem.model import Problem
+from planmethod.solved.solution import Solution
+
+NOTHING = 1e-7
+"""Share of the largest force of a position below which a force is none."""
+
+
+class ForceReading:
+    """The forces of a solution in one position, as they are drawn and as a hand reads them.
+
+    Parameters
+    ----------
+    solution : Solution
+    index : int
+        Which position.
+
+    Raises
+    ------
+    ProblemError
+        The problem file gives neither masses nor loads.
+    """
+
+    def __init__(self, solution: Solution, index: int) -> None:
+        require_dynamics(solution.problem)
+        self.solution, self.index = solution, index
+        self.statics = solution.statics
+        self.plans: tuple[ForcePlan, ...] = tuple(self.statics.board.plans)
+
+    @property
+    def scale(self) -> Scale:
+        """Scale of all force plans, N per mm."""
+        return self.statics.scale
+
+    def _column(self, trace: Trace, name: PointName) -> complex:
+        return complex(self.solution.complexes(trace, name)[self.index])
+
+    # Places, forces, couples -----------------------------------------------------------------
+
+    def place(self, point: PointName) -> complex:
+        """Return a place of the position plan, mm; those of shifted forces are among them."""
+        return self._column(self._of_plan(point) or self.statics.paper, point)
+
+    def _of_plan(self, point: PointName) -> Trace | None:
+        """Return the position plan if it has a point."""
+        return self.solution.paper if point in self.solution.paper.value else None
+
+    def distance(self, one: str, other: str) -> float:
+        """Return how far two places of the position plan are apart, mm."""
+        return abs(self.place(PointName(other)) - self.place(PointName(one)))
+
+    def end(self, point: PointName) -> complex:
+        """Return an end of a force plan, or a point of the lever, mm."""
+        return self._column(self.statics.paper, point)
+
+    def vector(self, edge: Edge) -> complex:
+        """Return a force as its segment on the plan, mm."""
+        return self.end(edge.head) - self.end(edge.tail)
+
+    def force(self, edge: Edge) -> complex:
+        """Return a force, N."""
+        return self.of_force(Force(edge.at, edge.tail, edge.head))
+
+    def of_force(self, force: Force) -> complex:
+        """Return a force of the board, N."""
+        si = self.statics.si
+        return self._column(si, force.head) - self._column(si, force.tail)
+
+    def by_hand(self, tail: PointName, head: PointName) -> complex:
+        """Return a segment of a force plan, or of the lever, as the hand has drawn it, mm."""
+        hand = self.statics.by_hand
+        return self._column(hand, head) - self._column(hand, tail)
+
+    @cached_property
+    def _found(self) -> frozenset[frozenset[PointName]]:
+        """Segments that the plans find: their lengths are read with the ruler."""
+        edges = [edge for plan in self.plans for edge in plan.reactions]
+        return frozenset(frozenset((edge.tail, edge.head)) for edge in edges)
+
+    def length(self, edge: Edge) -> float:
+        """Return the length of a force on its plan, mm: laid off, or read where the plan finds it.
+
+        What was laid off was computed before, and nobody reads it.
+        """
+        drawn = abs(self.by_hand(edge.tail, edge.head))
+        found = frozenset((edge.tail, edge.head)) in self._found
+        return float(self.solution.hand.ruled(drawn)) if found else drawn
+
+    def read(self, edge: Edge) -> float:
+        """Return the size of a force as the hand has it from its plan, N."""
+        return self.length(edge) * self.scale.per_mm
+
+    def number(self, name: NumberName) -> float:
+        """Return a moment, N·m, or another computed number."""
+        return float(self.solution.reals(self.statics.si, name)[self.index])
+
+    def read_number(self, name: NumberName) -> float:
+        """Return a moment as the hand has it, N·m."""
+        return float(self.solution.reals(self.statics.by_hand, name)[self.index])
+
+    def read_load(self, given: Given) -> float:
+        """Return a given force as the hand lays it off, N, or a couple as it computes it, N·m."""
+        if given.force is not None:
+            return abs(self.by_hand(given.force.tail, given.force.head)) * self.scale.per_mm
+        assert given.couple is not None
+        return self.read_number(given.couple)
+
+    def arm(self, edge: Edge, about: PointName) -> float:
+        """Return the arm of a force about a point as the hand measures it, mm.
+
+        Positive where the force turns counter-clockwise. A shifted force acts where the hand has
+        laid off the h that follows from its own readings.
+        """
+        force, drawn = self.by_hand(edge.tail, edge.head), self.solution.by_hand
+        if not abs(force):
+            return 0.0
+        at = self._column(drawn if edge.at in drawn.value else self.statics.by_hand, edge.at)
+        lever = at - self._column(drawn, about)
+        return float(self.solution.hand.ruled((lever.conjugate() * force).imag / abs(force)))
+
+    @property
+    def balancing_symbol(self) -> str:
+        """The letter of what balances the driving link."""
+        return BALANCING_MOMENT if self.statics.driving.force is None else BALANCING_FORCE
+
+    # What there is to show -------------------------------------------------------------------
+
+    @cached_property
+    def peak(self) -> float:
+        """The largest force of the position, N."""
+        edges = [edge for plan in self.plans for edge in (*plan.polygon, *plan.wholes)]
+        return max((abs(self.force(edge)) for edge in edges), default=0.0)
+
+    @cached_property
+    def peak_moment(self) -> float:
+        """The largest moment that counts beside the forces, N·m."""
+        moments = [abs(self.number(one.moment)) for plan in self.plans for one in plan.couples]
+        lengths = [length for _, _, length in self.solution.problem.lengths]
+        return max([*moments, self.peak * max(lengths, default=0.0)])
+
+    def is_none(self, edge: Edge) -> bool:
+        """Tell whether a force is nothing beside the others."""
+        return abs(self.force(edge)) <= NOTHING * self.peak
+
+    def is_no_couple(self, couple: CoupleOn) -> bool:
+        """Tell whether a couple is nothing beside the others."""
+        return abs(self.number(couple.moment)) <= NOTHING * self.peak_moment
+
+    def shown(self, plan: ForcePlan) -> list[Edge]:
+        """Return the sides of a plan that are something.
+
+        A component that is the whole reaction, for the other is nothing, is so shown.
+        """
+        sides = [edge for edge in plan.polygon if not self.is_none(edge)]
+        parts = [(edge.on, edge.at) for edge in sides if edge.share is not Share.WHOLE]
+        return [
+            replace(edge, share=Share.WHOLE) if parts.count((edge.on, edge.at)) == 1 else edge
+            for edge in sides
+        ]
+
+    def wholes(self, plan: ForcePlan) -> list[Edge]:
+        """Return the reactions that are something and have two components."""
+        parts = [(e.on, e.at) for e in self.shown(plan) if e.share is not Share.WHOLE]
+        return [edge for edge in plan.wholes if (edge.on, edge.at) in parts]
+
+    def inner(self, plan: ForcePlan) -> Edge | None:
+        """Return the reaction in the inner joint, if it is something."""
+        return None if plan.inner is None or self.is_none(plan.inner) else plan.inner
+
+    def couples(self, plan: ForcePlan) -> list[CoupleOn]:
+        """Return the couples that are something."""
+        return [couple for couple in plan.couples if not self.is_no_couple(couple)]
+
+
+def require_dynamics(problem: Problem) -> None:
+    """Refuse a problem without masses and loads.
+
+    Raises
+    ------
+    ProblemError
+    """
+    if problem.dynamics is None:
+        hint = "Give the masses in [dynamics] and the loads in [[loads]]."
+        fault = Fault("dynamics", "missing, so there are no forces to analyse", hint)
+        raise ProblemError(problem.name, [fault])
+
+
+@lru_cache(maxsize=32)
+def force_reading(solution: Solution, index: int) -> ForceReading:
+    """Return the forces of a position; kept, since several views of a sheet show them."""
+    return ForceReading(solution, index)

@@ -1,0 +1,83 @@
+"""Forces among the results of a problem, and the steps that give them (искомые силы)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Number
+from planmethod.construct.steps import Name
+from planmethod.plans.forces.board import SCALE, Board, Reaction
+from planmethod.solved.forces.loads import applied
+from planmethod.solved.forces.statics import Planned, plan_forces
+from planmethod.solved.results import Result, ResultKind, Results
+from planmethod.solved.solution import Solution
+
+
+def force_row(reaction: Reaction) -> str:
+    """Return what the columns of a reaction are called: ``F.B.2-1``, on link 2 from link 1."""
+    return f"F.{reaction.joint}.{reaction.on}-{reaction.by}"
+
+
+def moment_row(reaction: Reaction) -> str:
+    """Return what the column of the moment of a reaction is called: ``M.B.2-1``."""
+    return f"M.{reaction.joint}.{reaction.on}-{reaction.by}"
+
+
+def with_forces(solution: Solution, results: Results) -> Results:
+    """Return the results of a solution and those of its force plans, in N and N·m.
+
+    The positions of the solution do not matter: what differs from one to another is left open.
+
+    Raises
+    ------
+    ProblemError
+        As of `loads.applied`.
+    """
+    planned = plan_forces(solution, results.draft.copy(), applied(solution))
+    board = planned.board
+    found = (*_reactions(board), *_balances(planned))
+    changing = tuple(board.changing)
+    open_names = {name for _, names in changing for name in names}
+    known = {name: _plain(value) for name, value in board.data.items() if name not in open_names}
+    return replace(
+        results,
+        program=board.draft.b.program(),
+        numbers={**board.draft.numbers, **known, SCALE: 1.0},
+        all=(*results.all, *found),
+        draft=board.draft,
+        changing=changing,
+    )
+
+
+def _plain(value: Number) -> complex | float:
+    return complex(value) if np.iscomplexobj(value) else float(value)
+
+
+def _reactions(board: Board) -> Iterator[Result]:
+    b = board.draft.b
+    for reaction in board.reactions:
+        force, index = reaction.force, f"{reaction.joint}_{reaction.on}/{reaction.by}"
+        vector = b.carry(board.name("R"), board.pole, force.tail, force.head)
+        yield Result(f"F_{index}", ResultKind.REACTION, vector, force_row(reaction))
+        if reaction.couple is not None:
+            moment = moment_row(reaction)
+            yield Result(f"M_{index}", ResultKind.MOMENT, reaction.couple, moment)
+
+
+def _balances(planned: Planned) -> Iterator[Result]:
+    """Yield what balances the driver, by the force plans and by the lever."""
+    board, driving = planned.board, planned.driving
+    letter, quantity, kind = "M", "moment", ResultKind.MOMENT
+    number: Name | None = driving.moment
+    if driving.force is not None:
+        assert driving.axis is not None
+        letter, quantity, kind = "F", "force", ResultKind.THRUST
+        tail, head = driving.force.tail, driving.force.head
+        number = board.draft.b.measure_along(board.name("F"), tail, head, driving.axis)
+    assert number is not None
+    yield Result(f"{letter}_dr", kind, number, f"driving.{quantity}")
+    if planned.lever is not None:
+        yield Result(f"{letter}_lever", kind, planned.lever.balance, f"lever.{quantity}")

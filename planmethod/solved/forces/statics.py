@@ -1,0 +1,281 @@
+"""Forces of a solved problem: reactions, balancing moment, Zhukovsky lever (кинетостатика).
+
+The force plans go on from the program of the kinematics, so that arms and accelerations are those
+of the drawings, whoever reads them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Arithmetic, Float64, Number
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.program import Program
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.steps import Name, NumberName
+from planmethod.errors import AssemblyError
+from planmethod.plans.draft import Draft
+from planmethod.plans.forces.board import SCALE, Board, Force, Reaction
+from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
+from planmethod.plans.forces.lever import Lever, hang
+from planmethod.plans.forces.loads import Applied
+from planmethod.plans.forces.polygons import ForcePlan
+from planmethod.problem.model import Convention
+from planmethod.solved.errors.forces import DrawnForces
+from planmethod.solved.forces.loads import applied
+from planmethod.solved.forces.resultants import Kept, singled
+from planmethod.solved.impossible import explain, failing
+from planmethod.solved.scaling import Box
+from planmethod.solved.solution import EVERY, UNIT_SCALES, Complexes, Reals, Solution
+
+if TYPE_CHECKING:
+    from planmethod.solved.forces.contact import Contact
+
+PLAN_BOX: Box = (100.0, 100.0)
+"""What the largest of the force plans shall fill, mm: a usual size on training drawings."""
+
+
+@dataclass(frozen=True, slots=True)
+class JointForce:
+    """Reaction in a joint in every position (реакция), N and N·m, ndarrays of shape (n,).
+
+    ``moment`` is about ``at`` (m, in the file's coordinates), counter-clockwise positive; zero in a
+    revolute pair.
+    """
+
+    joint: str
+    on: str
+    by: str
+    at: Complexes
+    force: Complexes
+    moment: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """Force plans of a problem as steps that go on from its kinematics (планы сил).
+
+    ``lever`` is None where the driver stands.
+    """
+
+    board: Board
+    driving: Driving
+    lever: Lever | None
+
+
+def plan_forces(
+    solution: Solution,
+    draft: Draft,
+    loads: Iterable[Applied],
+    single: Mapping[str, Applied] = MappingProxyType({}),
+) -> Planned:
+    """Plan the forces of a solution on a draft of its construction, from the last group on.
+
+    Parameters
+    ----------
+    draft : Draft
+        Is gone on with.
+    loads : iterable of Applied
+        What acts on the links beside the reactions.
+    single : mapping of str to Applied
+        Couples that the force of inertia of their link stands for as well, by link.
+    """
+    board = Board(draft, solution.construction.kinematics)
+    dynamics = solution.problem.dynamics
+    board.load({} if dynamics is None else dynamics.masses, loads, single)
+    for group in reversed(solution.structure.groups):
+        group_forces(board, group)
+    return Planned(board, drive_forces(board), hang(board))
+
+
+class Statics:
+    """Force analysis of a solution (силовой расчёт).
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a problem with ``[dynamics]``; every group must be a dyad.
+
+    Attributes
+    ----------
+    kept : tuple of Kept
+        Links that keep the couple of inertia although the file asks for the single resultant.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        self.solution = solution
+        loads = applied(solution)
+        single: Mapping[str, Applied] = {}
+        self.kept: tuple[Kept, ...] = ()
+        if solution.problem.dynamics is not None and solution.problem.dynamics.resultant:
+            single, self.kept = singled(solution, loads)
+        planned = plan_forces(solution, solution.construction.draft.copy(), loads, single)
+        self.board, self.driving, self.hung = planned.board, planned.driving, planned.lever
+        self.program: Program = self.board.draft.b.program().needed_for(self._asked())
+
+    def _asked(self) -> list[Name]:
+        asked: list[Name] = []
+        for shift in self.board.shifts.values():
+            asked += [shift.at, shift.length, shift.couple]
+        for reaction in self.board.reactions:
+            asked += [reaction.force.at, reaction.force.tail, reaction.force.head]
+            asked += [reaction.couple] if reaction.couple is not None else []
+        if self.driving.moment is not None:
+            asked.append(self.driving.moment)
+        if self.driving.force is not None:
+            asked += [self.driving.force.tail, self.driving.force.head]
+        if self.driving.axis is not None:
+            asked.append(self.driving.axis)
+        asked.append(self.board.scale)
+        return asked + ([self.hung.balance] if self.hung is not None else [])
+
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Trace:
+        """Read the force plans in an arithmetic, at scales of all plans (units per mm)."""
+        return evaluate(self.program, self.data(scales, EVERY), arithmetic)
+
+    def data(
+        self, scales: Mapping[str, float], chosen: npt.NDArray[np.intp] | slice
+    ) -> dict[str, Number]:
+        """Return the data of the program at given scales, for some positions."""
+        loads = {
+            name: value[chosen] if np.ndim(value) else value
+            for name, value in self.board.data.items()
+        }
+        return {**self.solution.data(scales, chosen), **loads}
+
+    @cached_property
+    def si(self) -> Trace:
+        """Exact reading: what is a millimetre of a force plan is here a newton.
+
+        Raises
+        ------
+        AssemblyError
+            Where a force plan does not close.
+        """
+        if not self.closes.all():
+            problem, at = self.solution.problem, self.solution.positions
+            raise AssemblyError(explain(problem, self.program, self._si, at, unit_scales=True))
+        return self._si
+
+    @cached_property
+    def _si(self) -> Trace:
+        self.solution.si  # noqa: B018 - an impossible position must be told first
+        return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
+
+    @cached_property
+    def failing(self) -> npt.NDArray[np.int64]:
+        """Number of the first step that fails in each position, or -1; shape (n,)."""
+        return failing(self.program, self._si, len(self.solution.positions))
+
+    @property
+    def closes(self) -> npt.NDArray[np.bool_]:
+        """Whether the force plans close, shape (n,)."""
+        return np.asarray(self.failing < 0)
+
+    def _vector(self, force: Force) -> Complexes:
+        return self.solution.complexes(self.si, force.head) - self.solution.complexes(
+            self.si, force.tail
+        )
+
+    def _number(self, name: NumberName | None) -> Reals:
+        if name is None:
+            return np.zeros(self.solution.positions.shape)
+        return self.solution.reals(self.si, name)
+
+    @cached_property
+    def reactions(self) -> list[JointForce]:
+        """Reactions in all joints, each once: what ``by`` does to ``on``."""
+        return [self._joint(reaction) for reaction in self.board.reactions]
+
+    def _joint(self, reaction: Reaction) -> JointForce:
+        return JointForce(
+            reaction.joint,
+            reaction.on,
+            reaction.by,
+            self.solution.place(reaction.force.at),
+            self._vector(reaction.force),
+            self._number(reaction.couple),
+        )
+
+    @cached_property
+    def contacts(self) -> Mapping[int, Contact]:
+        """The reactions of the guides, by their numbers: where they act."""
+        from planmethod.solved.forces.contact import contacts
+
+        return contacts(self)
+
+    def balance_in(self, trace: Trace, arithmetic: Arithmetic) -> Number:
+        """Return what balances the driver, N or N·m, as the force plans of a trace give it.
+
+        A force is read on its plan in the arithmetic of the trace.
+        """
+        if self.driving.moment is not None:
+            return trace.value[self.driving.moment]
+        assert self.driving.force is not None and self.driving.axis is not None
+        vector = trace.value[self.driving.force.head] - trace.value[self.driving.force.tail]
+        along = trace.value[self.driving.axis][1]
+        length = (vector * along.conjugate()).real / abs(along)
+        return arithmetic.read("balance", length) * trace.value[self.board.scale]
+
+    @cached_property
+    def balance(self) -> Reals:
+        """Balancing moment on the crank, N·m, or force along the guide of a driving slider, N."""
+        balance = self.balance_in(self.si, Float64())
+        return np.broadcast_to(np.asarray(balance, dtype=float), self.solution.positions.shape)
+
+    @cached_property
+    def lever(self) -> Reals | None:
+        """The same by the Zhukovsky lever; None where the driver stands."""
+        return None if self.hung is None else self._number(self.hung.balance)
+
+    def largest(self, index: int) -> float:
+        """Return the size of the largest force of a position, load or reaction, N."""
+        forces = [abs(joint.force[index]) for joint in self.reactions]
+        forces += [abs(given.applied.force[index]) for given in self.board.given]
+        return float(max(forces, default=0.0))
+
+    # Drawn -----------------------------------------------------------------------------------
+
+    @cached_property
+    def scale(self) -> Scale:
+        """Scale of the force plans (масштаб сил): the file's, or one of the series for all."""
+        scales = self.solution.problem.scales
+        if scales.mu_F is not None:
+            return Scale(SCALE, scales.mu_F, "N")
+        extents = [self._extent(plan) for plan in self.board.plans]
+        whole = (max(e[0] for e in extents), max(e[1] for e in extents))
+        inverse = scales.convention is Convention.MM_PER_UNIT
+        return Scale(SCALE, choose_scale(whole, PLAN_BOX, mm_per_unit=inverse), "N")
+
+    def _extent(self, plan: ForcePlan) -> Box:
+        """Return width and height of a plan in the position where it is the widest, N."""
+        ends = {end for edge in plan.polygon for end in (edge.tail, edge.head)}
+        places = np.asarray([self.solution.complexes(self.si, end) for end in sorted(ends)])
+        return float(np.ptp(places.real, axis=0).max()), float(np.ptp(places.imag, axis=0).max())
+
+    @property
+    def per_mm(self) -> dict[str, float]:
+        """Unit per millimetre of all plans, by the name that the program has for it."""
+        return {**self.solution.per_mm, SCALE: self.scale.per_mm}
+
+    @cached_property
+    def paper(self) -> Trace:
+        """Exact reading at the scales of the drawings: millimetres of the plans."""
+        return self.read(Float64(), self.per_mm)
+
+    @cached_property
+    def by_hand(self) -> Trace:
+        """Reading of a draughtsman who measures with a ruler, along his own chain."""
+        return self.read(self.solution.hand, self.per_mm)
+
+    @cached_property
+    def drawn(self) -> DrawnForces:
+        """What a hand makes of the force plans, and how far it may be off."""
+        return DrawnForces(self)

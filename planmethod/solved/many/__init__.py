@@ -1,0 +1,1 @@
+"""Positions by the thousand: sweeps and their gaps (развёртка)."""

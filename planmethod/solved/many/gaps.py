@@ -1,0 +1,89 @@
+"""A sweep and where it has gaps: what a command tells of any number of positions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+
+import numpy as np
+
+from planmethod.problem.model import Problem
+from planmethod.solved.many.positions import Codes, Gaps, blocks, evenly, examine, why
+from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.solution import Reals
+
+CHUNK = 16384
+"""Positions that are swept in one go."""
+
+
+class Swept:
+    """A sweep over positions that were looked at first.
+
+    Every position that a step fails in is found. The self-check of `selfcheck.verify` and the
+    doubts, which need all steps, see a thousand possible positions at most, evenly spread. Where
+    only some results are asked, positions that rounding spoils are doubts, not gaps.
+
+    Parameters
+    ----------
+    problem : Problem
+    positions : ndarray of shape (n,)
+    asked : iterable of str, optional
+        Labels of results; everything when absent.
+
+    Attributes
+    ----------
+    sweep : Sweep
+    gaps : Gaps
+    doubts : tuple of str
+
+    Raises
+    ------
+    UnknownResultError, StructureError, ProblemError, AssemblyError, SelfCheckError
+    """
+
+    def __init__(
+        self, problem: Problem, positions: Reals, asked: Iterable[str] | None = None
+    ) -> None:
+        labels = None if asked is None else tuple(asked)
+        self.problem, self.positions = problem, positions
+        self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None)
+        gaps = Gaps.of(self._failed(), self._why)
+        some = evenly(np.flatnonzero(gaps.reason < 0))
+        looked = examine(problem, positions[some], numbers=some)
+        self._found = len(gaps.told)
+        if labels is None:
+            self.gaps, self.doubts = gaps.joined(some, looked.gaps), looked.doubts
+        else:
+            self.gaps, self.doubts = gaps, (*looked.spoilt, *looked.doubts)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the rows."""
+        return tuple(row.name for row in self.sweep.rows)
+
+    def parts(self) -> Iterator[slice]:
+        """Yield the parts of the positions that are swept in one go."""
+        return blocks(len(self.positions), CHUNK)
+
+    def _failed(self) -> Codes:
+        failed = np.empty(self.positions.shape, np.int16)
+        work = np.empty((len(self.sweep.rows), CHUNK))
+        for part in self.parts():
+            here = self.positions[part]
+            self.sweep.run(here, out=work[:, : len(here)], failed=failed[part])
+        return failed
+
+    def _why(self, index: int) -> str:
+        position = float(self.positions[index])
+        return self.sweep.explain(position, number=index + 1) or why(self.problem, position, index)
+
+    def fill(self, out: Reals, part: slice) -> Reals:
+        """Fill a buffer of shape (k, m) with the results of a part of the positions.
+
+        NaN where a result does not exist, and no negative zeros.
+        """
+        self.sweep.run(self.positions[part], out=out)
+        if len(self.gaps.told) > self._found:
+            out[:, self.gaps.reason[part] >= self._found] = np.nan
+        out += 0.0
+        return out

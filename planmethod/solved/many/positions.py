@@ -1,0 +1,302 @@
+"""Positions by the thousand: each looked at before any is told, solved block by block."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.scale import Scale
+from planmethod.errors import AssemblyError
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Problem
+from planmethod.solved.impossible import failing
+from planmethod.solved.selfcheck import (
+    DOUBTFUL,
+    MOST_NAMED,
+    SPOILT,
+    SelfCheckError,
+    verify,
+    warnings,
+)
+from planmethod.solved.solution import Reals, Solution
+
+Codes = npt.NDArray[np.int16]
+Places = npt.NDArray[np.intp]
+
+BLOCK = 2048
+"""Positions that are solved in one go, with all their steps."""
+
+SAMPLE = 1000
+"""Positions that choose the scales of a large table, and that check a sweep."""
+
+_SPOILT = np.iinfo(np.int16).max
+"""Code of a position whose steps exist and whose results rounding spoils."""
+
+
+_AT, _THE = re.compile(r" at position \d+ \([^)]*\)"), re.compile(r"position \d+ \([^)]*\)")
+
+
+def _general(reason: str) -> str:
+    """Return a reason without what is true of its own position only."""
+    text = _THE.sub("this position", _AT.sub("", reason))
+    return re.sub(r", \|\w+\| = .*", ".", re.sub(r" \(margin [^)]*\)", "", text))
+
+
+@dataclass(frozen=True, slots=True)
+class Gaps:
+    """Positions without results, and why.
+
+    Attributes
+    ----------
+    reason : ndarray of int16 of shape (n,)
+        -1 where there are results, else an index into ``told``.
+    told : tuple of str
+        Why, for the first position of each kind; in the order of these positions.
+    unforced : int
+        The last kinds, so many, leave the motion as it is: only forces do not exist there.
+    """
+
+    reason: Codes
+    told: tuple[str, ...]
+    unforced: int = 0
+
+    @classmethod
+    def of(cls, codes: Codes, tell: Callable[[int], str]) -> Gaps:
+        """Return the gaps of positions with codes (-1 where there is none).
+
+        Parameters
+        ----------
+        tell : callable
+            Says why the position of an index is impossible; called once for each code.
+        """
+        bad = np.flatnonzero(codes >= 0)
+        _, first, which = np.unique(codes[bad], return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        rank = np.empty_like(order)
+        rank[order] = np.arange(len(order))
+        reason = np.full(codes.shape, -1, np.int16)
+        reason[bad] = rank[which]
+        return cls(reason, tuple(tell(int(bad[first[k]])) for k in order))
+
+    @property
+    def count(self) -> int:
+        """Positions without results."""
+        return int(np.count_nonzero(self.reason >= 0))
+
+    @property
+    def moving(self) -> npt.NDArray[np.bool_]:
+        """Positions where the motion exists, ndarray of shape (n,)."""
+        return (self.reason < 0) | (self.reason >= len(self.told) - self.unforced)
+
+    def more(self, count: int) -> str:
+        """Return how many positions share the lot of one that was told."""
+        if count < 2:
+            return ""
+        return f" The same holds at {count - 1} more of {len(self.reason)} positions."
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """Reasons, each with the number of positions that it holds for."""
+        counts = np.bincount(self.reason[self.reason >= 0], minlength=len(self.told))
+        return tuple(
+            text + self.more(int(count)) for text, count in zip(self.told, counts, strict=True)
+        )
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Reasons without the numbers of one position: they hold for every position of a kind."""
+        return tuple(_general(text) for text in self.told)
+
+    def refusal(self) -> str:
+        """Return the message of a request that is refused for its first impossible position."""
+        others = int(np.count_nonzero(self.reason > 0))
+        return self.sentences[0] + (f" Other steps fail at {others} positions." if others else "")
+
+    def warning(self) -> str:
+        """Return what is said of a request whose impossible positions stay empty."""
+        left = "is impossible and left empty" if self.count == 1 else "are impossible, left empty"
+        return f"{self.count} of {len(self.reason)} positions {left}. {self.told[0]}"
+
+    def joined(self, at: Places, other: Gaps) -> Gaps:
+        """Return these gaps and those found among the positions ``at``."""
+        reason = self.reason.copy()
+        inside = other.reason >= 0
+        reason[at[inside]] = other.reason[inside] + len(self.told)
+        return Gaps(reason, (*self.told, *other.told), other.unforced)
+
+
+@dataclass(frozen=True, slots=True)
+class Examined:
+    """Positions that were looked at.
+
+    Attributes
+    ----------
+    gaps : Gaps
+        Positions without results.
+    doubts : tuple of str
+        Warnings about the others.
+    spoilt : tuple of str
+        Which gap is there only because rounding spoils the worst results; at most one sentence.
+    """
+
+    gaps: Gaps
+    doubts: tuple[str, ...]
+    spoilt: tuple[str, ...]
+
+
+def blocks(count: int, size: int = BLOCK) -> Iterator[slice]:
+    """Yield slices of so many positions at most."""
+    for start in range(0, count, size):
+        yield slice(start, min(start + size, count))
+
+
+def evenly(places: Places, most: int = SAMPLE) -> Places:
+    """Return so many of some places at most, evenly spread, the first and the last among them."""
+    if len(places) <= most:
+        return places
+    return places[np.linspace(0, len(places) - 1, most).round().astype(np.intp)]
+
+
+def examine(
+    problem: Problem, positions: Reals, *, numbers: Places | None = None, forces: bool = False
+) -> Examined:
+    """Check every position as `verify` does and estimate its error, block by block.
+
+    Parameters
+    ----------
+    positions : ndarray of shape (n,)
+    numbers : ndarray of shape (n,), optional
+        Numbers of the positions, from 0, where they are a part of others.
+    forces : bool
+        Look at the force plans, too.
+
+    Raises
+    ------
+    SelfCheckError
+    StructureError, ProblemError, AssemblyError
+        When the mechanism itself cannot be assembled.
+    """
+    count = len(positions)
+    numbers = np.arange(count) if numbers is None else numbers
+    codes, estimate = np.full(count, -1, np.int16), np.zeros(count)
+    unforced = np.full(count, -1, np.int16)
+    for part in blocks(count):
+        left = np.arange(part.start, part.stop)
+        solution = Solution(problem, positions=_listed(positions[left]))
+        codes[left] = impossible_steps(solution)
+        if (codes[left] >= 0).any():
+            left = left[codes[left] < 0]
+            solution = Solution(problem, positions=_listed(positions[left]))
+        if not left.size:
+            continue
+        estimate[left] = solution.doubt
+        spoilt = ~(estimate[left] <= SPOILT)
+        if spoilt.any():
+            codes[left[spoilt]] = _SPOILT
+            left = left[~spoilt]
+            if not left.size:
+                continue
+            solution = Solution(problem, positions=_listed(positions[left]))
+        try:
+            verify(solution)
+        except SelfCheckError as error:
+            raise SelfCheckError(_renumbered(str(error), numbers[left])) from error
+        if forces:
+            unforced[left] = solution.statics.failing
+
+    def tell(index: int) -> str:
+        return why(problem, float(positions[index]), int(numbers[index]), forces=forces)
+
+    estimate[codes >= 0] = 0.0
+    gaps = Gaps.of(codes, tell)
+    kinds = sorted(set(gaps.reason[codes == _SPOILT].tolist()))
+    doubts = _doubts(problem, positions, numbers, estimate)
+    if forces:
+        other = Gaps.of(unforced, tell)
+        gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.told)))
+    return Examined(gaps, tuple(doubts), tuple(gaps.sentences[k] for k in kinds))
+
+
+def _listed(positions: Reals) -> list[float]:
+    listed: list[float] = positions.tolist()
+    return listed
+
+
+def impossible_steps(solution: Solution) -> Codes:
+    """Return for each position the number of the first step that fails, or -1."""
+    try:
+        _ = solution.si
+    except AssemblyError:
+        trace = solution.read(Float64(), {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
+        program = solution.construction.program
+        return failing(program, trace, len(solution.positions)).astype(np.int16)
+    return np.full(solution.positions.shape, -1, np.int16)
+
+
+def why(problem: Problem, position: float, number: int, *, forces: bool = False) -> str:
+    """Return why one position has no results; its number, from 0, is for the message.
+
+    Parameters
+    ----------
+    forces : bool
+        The forces are among the results.
+    """
+    alone = Solution(problem, positions=[position])
+    try:
+        verify(alone)
+        if forces:
+            _ = alone.statics.si
+    except AssemblyError as error:
+        return _renumbered(str(error), np.array([number]))
+    # Alone it can just be assembled: arrays round otherwise than single numbers do.
+    name, unit = ("phi", "deg") if problem.drive.is_crank else ("s", "m")
+    return f"Position {number + 1} ({name} = {position:.10g} {unit}) is at an impossible one."
+
+
+_NUMBER = re.compile(r"\bposition (\d+)(?= \((?:phi|s) = |\. This is a fault)")
+
+
+def _renumbered(text: str, numbers: Places) -> str:
+    """Return a message about some positions with the numbers they have among all."""
+    return _NUMBER.sub(lambda found: f"position {numbers[int(found[1]) - 1] + 1}", text)
+
+
+def _doubts(problem: Problem, positions: Reals, numbers: Places, estimate: Reals) -> Iterator[str]:
+    """Yield the warnings of `selfcheck.warnings` for all blocks together."""
+    doubtful = np.flatnonzero(estimate > DOUBTFUL)
+    if not doubtful.size:
+        return
+    named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MOST_NAMED:]])
+    for said in warnings(Solution(problem, positions=_listed(positions[named]))):
+        yield _renumbered(said, numbers[named])
+    if len(named) < len(doubtful):
+        more = len(doubtful) - len(named)
+        yield f"so are {more} more of {len(positions)} positions, less badly."
+
+
+def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:
+    """Return the scales of the plans in all positions, chosen by a thousand of them at most."""
+    some = evenly(np.flatnonzero(gaps.moving))
+    if not some.size:
+        units = {"mu_l": "m", "mu_v": "m/s", "mu_a": "m/s²"}
+        return {
+            kind: Scale(symbol, 1.0, unit)
+            for kind, (symbol, unit) in zip(PlanKind, units.items(), strict=True)
+        }
+    return Solution(problem, positions=_listed(positions[some])).scales
+
+
+def with_force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> Problem:
+    """Return a problem that asks for one scale of forces, chosen as `common_scales` chooses."""
+    some = evenly(np.flatnonzero(gaps.reason < 0))
+    if problem.dynamics is None or problem.scales.mu_F is not None:
+        return problem
+    scale = 1.0
+    if some.size:
+        scale = Solution(problem, positions=_listed(positions[some])).statics.scale.per_mm
+    return replace(problem, scales=replace(problem.scales, mu_F=scale))

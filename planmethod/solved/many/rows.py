@@ -1,0 +1,90 @@
+"""Rows of a sweep: which numbers of a tape a result consists of, and what they are called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from planmethod.construct.compiled.symbolic import Symbol, Written
+from planmethod.construct.compiled.tape import Ref
+from planmethod.solved.results import FORCES, NUMBERS, Result, ResultKind
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One row of a sweep's output.
+
+    Attributes
+    ----------
+    name : str
+        ``B.x``, ``B.vy``, ``2.phi_deg``, ``2.cos``, ``2.omega``, ``F.B.2-1.x``: the columns of
+        ``solve --csv``.
+    label : str
+        The result it belongs to, as it is asked for: ``B``, ``v_B``, ``phi_2``.
+    """
+
+    name: str
+    label: str
+
+
+SUFFIX: Mapping[ResultKind, tuple[str, ...]] = {
+    ResultKind.PLACE: (".x", ".y"),
+    ResultKind.VELOCITY: (".vx", ".vy"),
+    ResultKind.ACCELERATION: (".ax", ".ay"),
+    ResultKind.DIRECTION: (".phi_deg",),
+    ResultKind.UNIT: (".cos", ".sin"),
+    ResultKind.OMEGA: (".omega",),
+    ResultKind.EPSILON: (".epsilon",),
+    ResultKind.SLIDING: (),
+    ResultKind.REACTION: (".x", ".y", ""),
+    ResultKind.MOMENT: ("",),
+    ResultKind.THRUST: ("",),
+}
+"""What the names of the rows of a result end with."""
+
+
+def rows_of(
+    chosen: Sequence[Result], written: Written, origin: complex, moved: Sequence[Result] = ()
+) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
+    """Return the rows of some results: their names, their numbers on the tape, their guards.
+
+    Parameters
+    ----------
+    origin : complex, m
+        From which the places on the tape count.
+    moved : sequence of Result
+        What the loads depend on, and all forces with them.
+    """
+    loaded = frozenset[int]().union(*(written.depends[result.name] for result in moved))
+    rows: list[Row] = []
+    refs: list[Ref] = []
+    depends: list[frozenset[int]] = []
+    for result in chosen:
+        parts = list(_parts(result, written))
+        if result.kind is ResultKind.PLACE:
+            here = zip(parts, (origin.real, origin.imag), strict=True)
+            parts = [written.tape.add(part, at) for part, at in here]
+        suffixes = SUFFIX[result.kind]
+        names = [result.of + suffix for suffix in suffixes] or [result.label]
+        rows += [Row(name, result.label) for name in names]
+        refs += parts
+        mine = written.depends[result.name]
+        depends += [mine | loaded if result.kind in FORCES else mine] * len(parts)
+    return tuple(rows), refs, depends
+
+
+def _parts(result: Result, written: Written) -> Iterator[Ref]:
+    """Yield the numbers of the tape that a result consists of."""
+    value, tape = written.value[result.name], written.tape
+    if isinstance(value, tuple):
+        along: Symbol = value[1]
+        if result.kind is ResultKind.DIRECTION:
+            x, y = along.re, 0.0 if along.im is None else along.im
+            yield tape.make("degrees", tape.make("atan2", y, x))
+            return
+        value = along / abs(along)
+    yield value.re
+    if result.kind not in NUMBERS:
+        yield 0.0 if value.im is None else value.im
+    if result.kind is ResultKind.REACTION:
+        yield abs(value).re

@@ -1,0 +1,360 @@
+"""Any number of positions in one call: a program compiled once, run in blocks (развёртка)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.compiled.blocks import Blocks
+from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
+from planmethod.construct.compiled.symbolic import write
+from planmethod.construct.evaluate import evaluate
+from planmethod.errors import PlanMethodError
+from planmethod.plans.model import FORCE_PREFIX
+from planmethod.problem.model import Problem
+from planmethod.solved.closings import drive_data
+from planmethod.solved.impossible import explain, failing
+from planmethod.solved.many.rows import Row, rows_of
+from planmethod.solved.results import FORCES, Result, ResultKind, Results, results_for
+from planmethod.solved.solution import Solution
+
+if TYPE_CHECKING:
+    from planmethod.solved.many.loads import LoadColumns
+
+Array = npt.NDArray[Any]
+
+FEW = 40
+"""Positions up to which a line of Python is quicker than NumPy's calls."""
+
+
+class SweepError(PlanMethodError, ValueError):
+    """Parameters or variants that one sweep cannot hold."""
+
+
+class Sweep:
+    """Results of a problem in any number of positions (развёртка по положениям).
+
+    The program is cut down to what is asked, compiled once, and run in blocks that stay in the
+    cache: memory holds the answers, not the steps.
+
+    Parameters
+    ----------
+    problem : Problem
+    asked : iterable of str, optional
+        Labels of results (``v_E``, ``omega_3``, ``F_B_2/1``), or ``positions``, ``velocities``,
+        ``accelerations``, ``forces``, ``units``; everything of the motion when absent.
+    varied : sequence of str
+        Known numbers that `run` will be given: ``l_BC``, ``omega_1``; see `parameters`. They are
+        numbers of the construction: a third point keeps its coordinates along and across its link
+        (``x_D``, ``y_D``) when a length of the link is varied, and a length must stay positive.
+    dtype : dtype
+        float64; float32 is for pictures only.
+    forces : bool
+        Where nothing is asked by name: everything of the forces, too.
+
+    Attributes
+    ----------
+    rows : tuple of Row
+    parameters : dict
+        Every known number of the motion and its value, SI and degrees.
+    forces : bool
+        Forces are among the results.
+    loads : LoadColumns or None
+        Loads that must be told for every position.
+    steps : int
+        Steps of the program that are needed.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError, UnknownResultError, SweepError
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        asked: Iterable[str] | None = None,
+        *,
+        varied: Sequence[str] = (),
+        dtype: npt.DTypeLike = np.float64,
+        forces: bool = False,
+    ) -> None:
+        self.problem = problem
+        if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
+            raise SweepError(f"a sweep is float64 or float32, not {np.dtype(dtype).name}")
+        asked = (asked,) if isinstance(asked, str) else None if asked is None else tuple(asked)
+        varied = (varied,) if isinstance(varied, str) else varied
+        solution = Solution(problem, positions=[])
+        results = results_for(solution, asked, forces=forces)
+        chosen = results.choose(asked)
+        self.forces = any(result.kind in FORCES for result in chosen)
+        self.loads = self._changing(solution, results)
+        # Loads against a motion are known only where all steps of that motion exist.
+        moved = _motion(results) if self.loads is not None and self.loads.need_motion else []
+        self.program = results.program.needed_for([r.name for r in (*chosen, *moved)])
+        self.steps = len(self.program.steps)
+        self.driver = "phi" if problem.drive.is_crank else "s"
+        data = drive_data(problem, results.draft, np.zeros(1))
+        data.update(results.numbers)
+        self.constants: dict[str, complex | float] = {
+            name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
+            for name, value in data.items()
+            if name != self.driver
+        }
+        self.parameters: dict[str, float] = {
+            name: value
+            for name, value in self.constants.items()
+            if isinstance(value, float) and not name.startswith(("mu_", FORCE_PREFIX))
+        }
+        self._check(varied)
+        self.varied = tuple(varied)
+        fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
+        given = () if self.loads is None else self.loads.names
+        written = write(self.program, fixed, (self.driver, *self.varied, *given))
+        self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved)
+        self._refs, self._written = refs, written
+        self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
+        self._straight: Straight | None = None
+
+    def _changing(self, solution: Solution, results: Results) -> LoadColumns | None:
+        """Return the loads that must be told for every position; None if there are none."""
+        if not (self.forces and results.changing):
+            return None
+        from planmethod.solved.many.loads import LoadColumns
+
+        motion: list[Sweep] = []
+
+        def swept(positions: Array) -> dict[str, Array]:
+            if not motion:
+                motion.append(Sweep(self.problem))
+            return motion[0].table(positions)
+
+        return LoadColumns(self.problem, solution.construction, results.changing, swept)
+
+    @property
+    def operations(self) -> int:
+        """Real operations for one position, after folding."""
+        return self._blocks.operations
+
+    def _check(self, varied: Sequence[str]) -> None:
+        unknown = [name for name in varied if name not in self.parameters]
+        if unknown:
+            known = ", ".join(sorted(self.parameters))
+            raise SweepError(f"no parameter {', '.join(unknown)} to vary. Known: {known}.")
+        if varied and self.forces:
+            raise SweepError(
+                "parameters are varied for results of the motion only: ask for no forces, or sweep "
+                "every value alone"
+            )
+
+    def run(
+        self,
+        positions: npt.ArrayLike,
+        parameters: Mapping[str, npt.ArrayLike] | None = None,
+        *,
+        out: Array | None = None,
+        failed: npt.NDArray[np.int16] | None = None,
+    ) -> Array:
+        """Return the results of some positions.
+
+        Parameters
+        ----------
+        positions : ndarray of shape (n,)
+            phi in degrees, or s in metres.
+        parameters : mapping of str to ndarray of shape (n,), (v, 1) or scalar, optional
+            Values of `varied`. Of shape (v, 1) they make v variants of every position.
+        out : ndarray of shape (k, ...), optional
+            Buffer for the results; a fresh one costs more time than the arithmetic.
+        failed : ndarray of int16 of the shape of the positions, optional
+            Filled with -1, or with the number of the first impossible step's guard (`reason`).
+
+        Returns
+        -------
+        ndarray of shape (k, n), or (k, v, n) for variants
+            NaN where a step that the result depends on is impossible.
+
+        Raises
+        ------
+        SweepError
+            When the shapes do not go together.
+        """
+        angle = np.asarray(positions, dtype=self._blocks.dtype)
+        alone = not self.varied and not parameters and angle.ndim == 1
+        if alone and out is None and failed is None and len(angle) <= FEW:
+            found = self._in_line(angle, self._loaded(angle), len(angle))
+            if found is not None:
+                return found
+        parameters = parameters or {}
+        if set(parameters) != set(self.varied):
+            raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
+        extra = [np.asarray(parameters[name], dtype=self._blocks.dtype) for name in self.varied]
+        shape = self._shape(angle, extra, out, failed)
+        if out is None:
+            quick = len(shape) == 1 and shape[0] <= FEW and failed is None
+            if quick:
+                found = self._in_line(angle, [*extra, *self._loaded(angle)], shape[0])
+                if found is not None:
+                    return found
+            out = np.empty((len(self.rows), *shape), self._blocks.dtype)
+        if len(shape) == 1:
+            columns = [np.broadcast_to(value, shape) if value.ndim else value for value in extra]
+            here = np.broadcast_to(angle, shape)
+            self._blocks.run([here, *columns, *self._loaded(here)], out, failed)
+            return out
+        wide = [np.broadcast_to(value, (shape[0], (value.shape or (1,))[-1])) for value in extra]
+        for i in range(shape[0]):
+            columns = [
+                value[i, 0] if value.shape[1] == 1 else np.broadcast_to(value, shape)[i]
+                for value in wide
+            ]
+            here = np.broadcast_to(angle, shape)[i]
+            columns += self._loaded(here)
+            self._blocks.run([here, *columns], out[:, i], None if failed is None else failed[i])
+        return out
+
+    def _loaded(self, positions: Array) -> list[Array]:
+        """Return the columns of the loads that differ from position to position."""
+        if self.loads is None:
+            return []
+        return [column.astype(self._blocks.dtype) for column in self.loads.at(positions)]
+
+    def _shape(
+        self, angle: Array, extra: list[Array], out: Array | None, failed: Array | None
+    ) -> tuple[int, ...]:
+        """Return the shape of the positions with their parameters, the buffers being of it."""
+        try:
+            shape = np.broadcast_shapes(angle.shape, *(value.shape for value in extra))
+        except ValueError:
+            told = ", ".join(f"{n} {v.shape}" for n, v in zip(self.varied, extra, strict=True))
+            raise SweepError(
+                f"positions of shape {angle.shape} do not go with parameters of shape {told}"
+            ) from None
+        if len(shape) not in (1, 2):
+            raise SweepError(
+                f"positions and parameters make an array of shape {shape}; positions are of shape "
+                "(n,), parameters of shape (n,), (v, 1) or one number"
+            )
+        for name, buffer, wanted in (
+            ("out", out, (len(self.rows), *shape)),
+            ("failed", failed, shape),
+        ):
+            if buffer is not None and getattr(buffer, "shape", None) != wanted:
+                given = getattr(buffer, "shape", type(buffer).__name__)
+                raise SweepError(f"{name} must be an array of shape {wanted}, got {given}")
+        if failed is not None and not np.issubdtype(failed.dtype, np.signedinteger):
+            raise SweepError(f"failed must be of a signed integer type, got {failed.dtype}")
+        return shape
+
+    def _in_line(self, angle: Array, extra: list[Array], count: int) -> Array | None:
+        """Run few positions as one line of Python; None where a step is impossible."""
+        if self._blocks.dtype != np.float64:
+            return None
+        if self._straight is None:
+            self._straight = straight(self._written.tape, self._refs, self._written.guards)
+        buffer = bytearray(8 * len(self._refs) * count)
+        columns = [
+            (value if value.shape == (count,) else np.broadcast_to(value, (count,))).tolist()
+            for value in (angle, *extra)
+        ]
+        try:
+            self._straight(columns, buffer)
+        except (ImpossibleError, ArithmeticError, ValueError):
+            return None
+        return np.frombuffer(buffer).reshape(count, len(self._refs)).T
+
+    def table(
+        self, positions: npt.ArrayLike, parameters: Mapping[str, npt.ArrayLike] | None = None
+    ) -> dict[str, Array]:
+        """Return the results by the names of their rows."""
+        found = self.run(positions, parameters)
+        return {row.name: values for row, values in zip(self.rows, found, strict=True)}
+
+    def reason(self, guard: int) -> str:
+        """Return the step behind a guard's number; empty for -1, which no guard has."""
+        return "" if guard < 0 else str(self._written.guards[guard].step)
+
+    def explain(self, position: float, *, number: int = 1) -> str:
+        """Return why a position is impossible, in the words and numbers of the drawing.
+
+        Parameters
+        ----------
+        number : int
+            Number of the position, from 1, for the message.
+
+        Returns
+        -------
+        str
+            Empty if every step that the sweep needs exists there.
+        """
+        if not np.isfinite(position):
+            return f"Position {number} is not a number ({position})."
+        at = np.array([position], dtype=float)
+        data: dict[str, Any] = {**self.constants, self.driver: at}
+        if self.loads is not None:
+            data.update(zip(self.loads.names, self.loads.at(at), strict=True))
+        trace = evaluate(self.program, data, Float64())
+        if failing(self.program, trace, 1)[0] < 0:
+            return ""
+        said = explain(self.problem, self.program, trace, at, unit_scales=True)
+        return said.replace("position 1 (", f"position {number} (", 1)
+
+
+def sweep_variants(
+    problems: Sequence[Problem], positions: npt.ArrayLike, asked: Iterable[str] | None = None
+) -> tuple[tuple[Row, ...], Array]:
+    """Return the results of several variants of one problem in the same positions.
+
+    Variants that are built by the same steps and differ in numbers only go through one compiled
+    program.
+
+    Returns
+    -------
+    rows : tuple of Row
+    values : ndarray of shape (k, v, n)
+
+    Raises
+    ------
+    SweepError
+        When the variants are not built by the same steps, or a fixed point moves.
+    """
+    labels = None if asked is None else tuple(asked)
+    each = [Sweep(problem, labels) for problem in problems]
+    first = each[0]
+    if any(sweep.forces for sweep in each):
+        raise SweepError("variants are swept together without forces: sweep each alone")
+    for other in each[1:]:
+        if other.program != first.program:
+            raise SweepError(
+                f"{_named(other.problem)} is not built by the same steps as "
+                f"{_named(first.problem)}: sweep it alone"
+            )
+    differing = {
+        name
+        for other in each[1:]
+        for name, value in other.constants.items()
+        if value != first.constants[name]
+    }
+    moved = sorted(name for name in differing if name not in first.parameters)
+    if moved:
+        raise SweepError(f"the variants differ in the places of {', '.join(moved)}: sweep each")
+    varied = sorted(differing)
+    values = {name: np.array([[s.parameters[name]] for s in each]) for name in varied}
+    whole = Sweep(first.problem, labels, varied=varied)
+    angle = np.asarray(positions, dtype=float)
+    if not varied:
+        one = whole.run(angle)
+        return whole.rows, np.repeat(one[:, np.newaxis], len(each), axis=1)
+    return whole.rows, whole.run(angle, values)
+
+
+def _named(problem: Problem) -> str:
+    return problem.name + (f" ({problem.variant})" if problem.variant else "")
+
+
+def _motion(results: Results) -> list[Result]:
+    """Return the results that loads may depend on: places, velocities, rotations."""
+    kinds = (ResultKind.PLACE, ResultKind.VELOCITY, ResultKind.OMEGA)
+    return [result for result in results.all if result.kind in kinds]

@@ -1,0 +1,386 @@
+"""A solved problem: its plans read in numbers, each made when it is first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Arithmetic, Float64
+from planmethod.construct.drafting import PROFILES, Profile
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.hand import Hand
+from planmethod.construct.scale import Scale
+from planmethod.construct.steps import LayOff, Name, PointName
+from planmethod.errors import AssemblyError
+from planmethod.mechanism.structure import Structure, analyse
+from planmethod.plans.build import Construction, build, measured_segments
+from planmethod.plans.model import Plan, PlanKind
+from planmethod.plans.motion.leads import Relative
+from planmethod.problem.model import Problem
+from planmethod.solved.closings import choose_closings, drive_data
+from planmethod.solved.impossible import explain, failing
+from planmethod.solved.scaling import Views, choose_scales
+
+if TYPE_CHECKING:
+    from planmethod.solved.errors.motion import Drafting
+    from planmethod.solved.forces.statics import Statics
+
+UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
+"""Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
+
+EVERY = slice(None)
+
+Complexes = npt.NDArray[np.complex128]
+Reals = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class PointMotion:
+    """Place, velocity and acceleration of a point in every position, SI, ndarrays of shape (n,)."""
+
+    place: Complexes
+    velocity: Complexes
+    acceleration: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class LinkMotion:
+    """Direction of a link's own axis (degrees in (-180, 180]), omega (1/s), epsilon (1/s²)."""
+
+    phi_deg: Reals
+    omega: Reals
+    epsilon: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One segment of a plan, mm, ndarrays of shape (n,): exact and read with the ruler."""
+
+    name: str
+    exact: Reals
+    read: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeMotion:
+    """Sliding of a point of link ``of`` on link ``to``, SI, ndarrays of shape (n,) (vectors)."""
+
+    point: str
+    of: str
+    to: str
+    velocity: Complexes
+    coriolis: Complexes
+    acceleration: Complexes
+
+
+@dataclass(frozen=True, slots=True)
+class HandResults:
+    """Quantities that follow from the read segments, SI, ndarrays of shape (n,).
+
+    ``points`` holds (v, a), ``links`` (omega, epsilon), ``relatives`` (v, Coriolis, relative
+    acceleration) in the order of `Solution.relatives`.
+    """
+
+    points: dict[str, tuple[Reals, Reals]]
+    links: dict[str, tuple[Reals, Reals]]
+    relatives: list[tuple[Reals, Reals, Reals]]
+
+
+class Solution:
+    """Solved task (решённая задача).
+
+    Parameters
+    ----------
+    problem : Problem
+    positions : sequence of float, optional
+        Other positions of the driver than the file asks (degrees, or m for a driving slider). The
+        closings of the groups stay those of the file's own positions.
+    ruler : float, mm, optional
+        Step of the ruler with which the hand reads the plans; the profile's when absent.
+    profile : Profile
+        How well the hand draws: what the drafting errors follow from.
+    views : Views, optional
+        Boxes that the plans shall fill where the file gives no scale.
+    scales : mapping of PlanKind to Scale, optional
+        Scales of the plans, where neither the file nor the views shall tell them.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError
+        When the mechanism cannot be analysed or assembled.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        *,
+        positions: Sequence[float] | None = None,
+        ruler: float | None = None,
+        profile: Profile = PROFILES["board"],
+        views: Views | None = None,
+        scales: Mapping[PlanKind, Scale] | None = None,
+    ) -> None:
+        self.problem = problem
+        asked = problem.drive.positions if positions is None else positions
+        self.positions: Reals = np.asarray(asked, dtype=float)
+        self.profile = profile if ruler is None else replace(profile, ruler=ruler)
+        self.hand = Hand(ruler=self.profile.ruler)
+        self.structure: Structure = analyse(problem.mechanism)
+        self.construction: Construction = build(
+            problem, self.structure, choose_closings(problem, self.structure)
+        )
+        self._views = views
+        self._scales = scales
+
+    # Readings --------------------------------------------------------------------------------
+
+    def data(
+        self,
+        scales: Mapping[str, float] = UNIT_SCALES,
+        chosen: npt.NDArray[np.intp] | slice = EVERY,
+    ) -> dict[str, Any]:
+        """Return the data of the program at given scales (unit per mm), for some positions."""
+        draft = self.construction.draft
+        data: dict[str, Any] = {**drive_data(self.problem, draft, self.positions[chosen]), **scales}
+        for name, place in draft.places.items():
+            data[name] = place / scales["mu_l"]
+        return data
+
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float] = UNIT_SCALES) -> Trace:
+        """Read the whole program in an arithmetic at given scales (unit per mm)."""
+        return evaluate(self.construction.program, self.data(scales), arithmetic)
+
+    @cached_property
+    def si(self) -> Trace:
+        """Exact reading at unit scales: what is a millimetre of a plan is here a metre (m/s, m/s²).
+
+        Raises
+        ------
+        AssemblyError
+            When a step is impossible in some position.
+        """
+        trace = self.read(Float64())
+        program = self.construction.program
+        if (failing(program, trace, len(self.positions)) >= 0).any():
+            raise AssemblyError(
+                explain(self.problem, program, trace, self.positions, unit_scales=True)
+            )
+        return trace
+
+    @cached_property
+    def scales(self) -> dict[PlanKind, Scale]:
+        """Scales of the plans: given, the file's, or chosen from the series to fill the views."""
+        return choose_scales(self) if self._scales is None else dict(self._scales)
+
+    @property
+    def views(self) -> Views:
+        """Boxes that the plans shall fill."""
+        return self._views or Views.for_problem(self.problem, len(self.positions))
+
+    @property
+    def per_mm(self) -> dict[str, float]:
+        """Unit per millimetre of each plan, by the name that the program has for it."""
+        return {scale.symbol: scale.per_mm for scale in self.scales.values()}
+
+    @cached_property
+    def paper(self) -> Trace:
+        """Exact reading at the plans' scales: millimetres on the paper."""
+        self.si  # noqa: B018 - an impossible step must be told first, in metres
+        return self.read(Float64(), self.per_mm)
+
+    @cached_property
+    def by_hand(self) -> Trace:
+        """Reading of a draughtsman with a ruler, along his own chain."""
+        self.si  # noqa: B018
+        return self.read(self.hand, self.per_mm)
+
+    def _complex_column(self, value: object) -> Complexes:
+        return np.broadcast_to(np.asarray(value, dtype=complex), self.positions.shape)
+
+    def _real_column(self, value: object) -> Reals:
+        return np.broadcast_to(np.asarray(value, dtype=float), self.positions.shape)
+
+    def complexes(self, trace: Trace, name: Name) -> Complexes:
+        """Return a point of a trace as an ndarray of shape (n,)."""
+        return self._complex_column(trace.value[name])
+
+    def reals(self, trace: Trace, name: Name) -> Reals:
+        """Return a number of a trace as an ndarray of shape (n,)."""
+        return self._real_column(trace.value[name])
+
+    def place(self, name: PointName) -> Complexes:
+        """Return the place of a point in the file's coordinates, m, ndarray of shape (n,)."""
+        return self.complexes(self.si, name) + self.construction.draft.origin
+
+    # Results ---------------------------------------------------------------------------------
+
+    @cached_property
+    def margin(self) -> Reals:
+        """Least margin of all steps in each position: nearness to a dead position."""
+        margins = [self._real_column(m) for m in self.si.margin.values()]
+        return np.asarray(np.min([*margins, np.ones(self.positions.shape)], axis=0), dtype=float)
+
+    @cached_property
+    def points(self) -> dict[str, PointMotion]:
+        """Motion of every named point, and of the coincident points that move differently."""
+        kin = self.construction.kinematics
+        result: dict[str, PointMotion] = {}
+        for name, (link, place) in kin.velocity.named.items():
+            result[name] = PointMotion(
+                self.place(PointName(place)),
+                self.complexes(self.si, kin.velocity.point[link, place]),
+                self.complexes(self.si, kin.acceleration.point[link, place]),
+            )
+        return result
+
+    @cached_property
+    def links(self) -> dict[str, LinkMotion]:
+        """Motion of every moving link."""
+        kin, draft = self.construction.kinematics, self.construction.draft
+        zero = np.zeros(self.positions.shape)
+        result: dict[str, LinkMotion] = {}
+        for link in self.problem.mechanism.links:
+            direction = self.si.value[draft.axes[link]][1] if link in draft.axes else None
+            if direction is None:
+                p, q = draft.reference(link)
+                points = self.problem.bodies[link].points
+                drawn = self.complexes(self.si, PointName(q)) - self.complexes(
+                    self.si, PointName(p)
+                )
+                direction = drawn * np.conj(points[q] - points[p])
+            angle: Reals = np.degrees(np.angle(self._complex_column(direction)))
+            omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
+            result[link] = LinkMotion(
+                np.where(angle <= -180.0, 180.0, angle),
+                zero if omega is None else self.reals(self.si, omega),
+                zero if epsilon is None else self.reals(self.si, epsilon),
+            )
+        return result
+
+    @cached_property
+    def relatives(self) -> list[RelativeMotion]:
+        """Sliding in every prismatic pair that the plans' equations use."""
+        return [self._relative(r) for r in self.construction.kinematics.relatives.values()]
+
+    def _relative(self, r: Relative) -> RelativeMotion:
+        def vector(tail: PointName | None, head: PointName | None) -> Complexes:
+            assert tail is not None and head is not None
+            return self.complexes(self.si, head) - self.complexes(self.si, tail)
+
+        return RelativeMotion(
+            r.point,
+            r.of,
+            r.to,
+            vector(r.start, r.head),
+            vector(r.a_start, r.a_turned),
+            vector(r.a_turned, r.a_head),
+        )
+
+    @cached_property
+    def laid_off(self) -> set[tuple[PointName, PointName]]:
+        """Return the segments whose length was computed and laid off: nobody reads them again."""
+        steps = self.construction.program.steps
+        return {(step.origin, step.out) for step in steps if isinstance(step, LayOff)}
+
+    def read_mm(self, tail: PointName, head: PointName) -> Reals:
+        """Return a segment of the hand's own plan, mm: read with the ruler, or as laid off."""
+        ends = self.complexes(self.by_hand, head) - self.complexes(self.by_hand, tail)
+        drawn = np.asarray(np.abs(ends), dtype=float)
+        if (tail, head) in self.laid_off:
+            return drawn
+        return np.asarray(self.hand.ruled(drawn), dtype=float)
+
+    def _read_length(self, kind: PlanKind, tail: PointName, head: PointName) -> Reals:
+        """Return a segment as the hand knows it, times its scale."""
+        return np.asarray(self.read_mm(tail, head) * self.scales[kind].per_mm, dtype=float)
+
+    @cached_property
+    def by_hand_results(self) -> HandResults:
+        """What a student computes from the segments he read."""
+        kin = self.construction.kinematics
+        v, a = PlanKind.VELOCITY, PlanKind.ACCELERATION
+        zero = np.zeros(self.positions.shape)
+        points = {
+            name: (
+                self._read_length(v, kin.velocity.pole, kin.velocity.point[at]),
+                self._read_length(a, kin.acceleration.pole, kin.acceleration.point[at]),
+            )
+            for name, at in kin.velocity.named.items()
+        }
+        links = {}
+        for link in self.problem.mechanism.links:
+            omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
+            links[link] = (
+                zero if omega is None else self.reals(self.by_hand, omega),
+                zero if epsilon is None else self.reals(self.by_hand, epsilon),
+            )
+        relatives = []
+        for r in kin.relatives.values():
+            assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
+            relatives.append(
+                (
+                    self._read_length(v, r.start, r.head),
+                    self._read_length(a, r.a_start, r.a_turned),
+                    self._read_length(a, r.a_turned, r.a_head),
+                )
+            )
+        return HandResults(points, links, relatives)
+
+    @cached_property
+    def doubt(self) -> Reals:
+        """Bound of the relative error of the worst results, ndarray of shape (n,)."""
+        from planmethod.solved.trust.conditioning import doubt
+
+        return doubt(self)
+
+    @cached_property
+    def drafting(self) -> Drafting:
+        """How far the hand's drawing may be off."""
+        from planmethod.solved.errors.motion import Drafting
+
+        return Drafting(self)
+
+    @cached_property
+    def statics(self) -> Statics:
+        """Reactions and balancing moment; of a problem with ``[dynamics]``."""
+        from planmethod.solved.forces.statics import Statics
+
+        return Statics(self)
+
+    def segments(self, kind: PlanKind) -> list[Segment]:
+        """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
+        if kind is PlanKind.POSITION:
+            pairs = [
+                (f"{p}-{q}", PointName(p), PointName(q))
+                for p, q in measured_segments(self.problem, self.construction.draft)
+            ]
+        else:
+            plan = self.construction.plan(kind)
+            pairs = [
+                (f"{plain(plan, v.tail)}-{plain(plan, v.head)}", v.tail, v.head)
+                for v in plan.vectors
+            ]
+        result = []
+        for name, tail, head in pairs:
+            ends = self.complexes(self.paper, head) - self.complexes(self.paper, tail)
+            exact = np.asarray(np.abs(ends), dtype=float)
+            result.append(Segment(name, exact, self.read_mm(tail, head)))
+        return result
+
+
+def plain(plan: Plan, point: PointName) -> str:
+    """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
+    if point == plan.pole:
+        return "p" if plan.kind is PlanKind.VELOCITY else "π"
+    first = plan.letters.get(point, str(point)).split(", ")[0]
+    head, brace, tail = first.partition("_{")
+    if not brace:
+        return first
+    tail = tail.rstrip("}")
+    return f"{head}_{tail}" if head in ("n", "k") else f"{head}{tail}"

@@ -1,0 +1,98 @@
+"""How far the results of a solution can be trusted: their conditioning, position by position."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.condition import UNIT_ROUNDOFF, reach
+from planmethod.construct.steps import Join
+from planmethod.solved.results import NOTHING, Result, ResultKind, natural_size, results_of
+from planmethod.solved.solution import UNIT_SCALES, Reals, Solution
+
+MULTIPLE = 16
+"""Forward error of a result in units of u times its reach that is allowed for."""
+
+SCALES = frozenset(UNIT_SCALES)
+"""Data that carry no rounding."""
+
+SAFE = 2e-3
+"""Margin, and share of a difference in its terms, above which a position needs no closer look."""
+
+FEW, BLOCK = 64, 256
+"""Positions that are all looked at closely; positions looked at in one go."""
+
+JUDGED = (
+    ResultKind.PLACE,
+    ResultKind.VELOCITY,
+    ResultKind.OMEGA,
+    ResultKind.ACCELERATION,
+    ResultKind.EPSILON,
+)
+
+
+def doubt(solution: Solution) -> Reals:
+    """Return a bound of the relative error of the worst results, ndarray of shape (n,).
+
+    It is ``16 u`` times the reach of a result (see `planmethod.construct.condition`) over the
+    largest value of its kind in the position. Positions far from any cancellation are not
+    computed: their bound is given as ``16 u / SAFE**3``, which none of them reaches.
+    """
+    solution.si  # noqa: B018 - what does not exist is told first
+    bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
+    results = [r for r in results_of(solution.construction).all if r.name != NOTHING]
+    for chosen in _blocks(_suspects(solution)):
+        bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, results, chosen)
+    return bound
+
+
+def _blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
+    for start in range(0, len(suspects), BLOCK):
+        yield suspects[start : start + BLOCK]
+
+
+def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
+    """Return the positions that a cheap look does not clear."""
+    count = len(solution.positions)
+    if count <= FEW:
+        return np.arange(count)
+    least = solution.margin
+    ends = _extent(solution)
+    value = solution.si.value
+    for step in solution.construction.program.steps:
+        if isinstance(step, Join):
+            gap = np.abs(value[step.head] - value[step.tail])
+            least = np.minimum(least, gap / (ends or 1.0))
+    return np.flatnonzero(~(least > SAFE))
+
+
+def _extent(solution: Solution) -> float:
+    """Return the size of what places are differences of: the longest length or distance given."""
+    draft = solution.construction.draft
+    lengths = [abs(v) for name, v in draft.numbers.items() if name.startswith(("l_", "x_", "y_"))]
+    lengths += [abs(place) for place in draft.places.values()]
+    if not solution.problem.drive.is_crank:
+        lengths.append(float(np.max(np.abs(solution.positions))))
+    return max(lengths)
+
+
+def _relative_reach(
+    solution: Solution, results: Sequence[Result], chosen: npt.NDArray[np.intp]
+) -> Reals:
+    found = reach(solution.construction.program, solution.data(chosen=chosen), SCALES)
+    worst = np.ones(len(chosen))
+    largest = dict.fromkeys(JUDGED, np.zeros(len(chosen)))
+    for kind in JUDGED:
+        names = [r.name for r in results if r.kind is kind]
+        for name in names:
+            whole = np.broadcast_to(np.abs(solution.si.value[name]), solution.positions.shape)
+            largest[kind] = np.maximum(largest[kind], whole[chosen])
+        size = natural_size(kind, largest)
+        spans = np.array([np.broadcast_to(found[name], size.shape) for name in names])
+        some = size > 0
+        if names and some.any():
+            spans = np.where(np.isnan(spans), np.inf, spans)
+            worst[some] = np.fmax(worst[some], spans.max(axis=0)[some] / size[some])
+    return worst
