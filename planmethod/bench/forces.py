@@ -38,8 +38,7 @@ SI = {**UNIT_SCALES, SCALE: 1.0}
 def forces_of(statics: Statics, value: Any) -> list[Number]:
     """Return the reactions and the balance of a trace."""
     found = [value[r.force.head] - value[r.force.tail] for r in statics.board.reactions]
-    assert statics.driving.moment is not None
-    return [*found, value[statics.driving.moment]]
+    return [*found, value[statics.driving.balance]]
 
 
 def _error(statics: Statics, found: Sequence[Array]) -> float:

@@ -17,9 +17,10 @@ import numpy as np
 from planmethod.construct.condition import UNIT_ROUNDOFF
 from planmethod.construct.referee import DIGITS
 from planmethod.errors import PlanMethodError
+from planmethod.plans.legend import QuantityKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
-from planmethod.solved.results import ResultKind, natural_size
+from planmethod.solved.results import natural_size
 from planmethod.solved.selfcheck import SelfCheckError, verify, warnings
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Examined, Verdict, examine
@@ -228,16 +229,16 @@ def _add(row: HardRow, found: Examined) -> HardRow:
     )
 
 
-def sizes(verdicts: Iterable[Verdict]) -> dict[ResultKind, float]:
+def sizes(verdicts: Iterable[Verdict]) -> dict[QuantityKind, float]:
     """Return what a result of each kind is small against in a position, by the referee.
 
     It is the natural size of the kind, a sliding speed being a velocity.
     """
-    size = dict.fromkeys(ResultKind, 0.0)
+    size = dict.fromkeys(QuantityKind, 0.0)
     for verdict in verdicts:
         size[verdict.kind] = max(size[verdict.kind], verdict.size)
-    fast = max(size[ResultKind.VELOCITY], size[ResultKind.SLIDING])
-    size[ResultKind.VELOCITY] = size[ResultKind.SLIDING] = fast
+    fast = max(size[QuantityKind.VELOCITY], size[QuantityKind.SLIDING])
+    size[QuantityKind.VELOCITY] = size[QuantityKind.SLIDING] = fast
     return {kind: float(natural_size(kind, size)) for kind in size}
 
 

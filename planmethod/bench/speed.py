@@ -17,9 +17,10 @@ from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
+from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.results import NOTHING, NUMBERS, Result, ResultKind, results_of
+from planmethod.solved.results import results_of
 from planmethod.solved.solution import Solution
 
 Array = npt.NDArray[Any]
@@ -65,7 +66,7 @@ def _spread(count: int) -> Array:
     return np.unique(np.linspace(0, count - 1, min(count, JUDGED)).astype(int))
 
 
-def _right(problem: Problem, results: Sequence[Result], position: float) -> list[Number]:
+def _right(problem: Problem, results: Sequence[Quantity], position: float) -> list[Number]:
     """Return results of one position by the referee."""
     solution = Solution(problem, positions=[position])
     whole = results_of(solution.construction)
@@ -97,7 +98,7 @@ def right_rows(scene: str, count: int) -> tuple[Array, Array]:
         column: list[float] = []
         for result, value in zip(results, _right(problem, results, angles[i]), strict=True):
             column.append(float(value.real))
-            if result.kind not in NUMBERS:
+            if not result.kind.is_number:
                 column.append(float(value.imag))
         columns.append(column)
     return chosen, np.array(columns).T
@@ -109,7 +110,7 @@ def scene_of(scene: str) -> tuple[Problem, Sequence[str] | None]:
         return fourbar(), FOURBAR_ROWS
     problem = slotted()
     whole = results_of(Solution(problem, positions=[0.0]).construction)
-    return problem, [r.label for r in whole.all if r.kind is not ResultKind.DIRECTION]
+    return problem, [r.label for r in whole.all if r.kind is not QuantityKind.DIRECTION]
 
 
 def row_error(scene: str, count: int, found: Array) -> float:
@@ -193,9 +194,7 @@ def _read(solution: Solution, arithmetic: Any) -> dict[Any, Number]:
 def _trace_error(problem: Problem, solution: Solution, position: float, arithmetic: Any) -> float:
     """Return the largest error of a result in units of the largest result of its kind."""
     results = [
-        r
-        for r in results_of(solution.construction).all
-        if r.kind not in LINES and r.name != NOTHING
+        r for r in results_of(solution.construction).all if r.kind not in LINES and r.name != ZERO
     ]
     right = _right(problem, results, position)
     found = _read(solution, arithmetic)
@@ -212,7 +211,7 @@ def _trace_error(problem: Problem, solution: Solution, position: float, arithmet
     return worst
 
 
-LINES = (ResultKind.DIRECTION, ResultKind.UNIT)
+LINES = (QuantityKind.DIRECTION, QuantityKind.UNIT)
 
 
 def _exact(value: Number) -> Number:
@@ -221,11 +220,12 @@ def _exact(value: Number) -> Number:
 
 def _hand_error(solution: Solution) -> float:
     """Return the largest error of what the hand finds in units of the largest of its kind."""
-    hand, worst = solution.by_hand_results, 0.0
-    for column, part in ((0, "velocity"), (1, "acceleration")):
+    worst = 0.0
+    for letter, part in (("v", "velocity"), ("a", "acceleration")):
         exact = {name: abs(getattr(m, part)[0]) for name, m in solution.points.items()}
         size = max(exact.values()) or 1.0
-        worst = max(worst, *(abs(hand.points[n][column][0] - v) / size for n, v in exact.items()))
+        read = {name: solution.read_off(f"{letter}_{name}")[0] for name in exact}
+        worst = max(worst, *(abs(read[name] - value) / size for name, value in exact.items()))
     return float(worst)
 
 

@@ -125,6 +125,19 @@ class Draft:
         self.read.append((p, q))
         return self.b.measure(name, PointName(p), PointName(q))
 
+    def segments(self) -> tuple[tuple[str, str], ...]:
+        """Return the segments worth reading: given lengths, and what no length tells."""
+        pairs: list[tuple[str, str]] = []
+        for link, body in self.problem.bodies.items():
+            if link == FRAME:
+                continue
+            points = list(body.points)
+            first = body.axis[0] if body.axis else points[0]
+            pairs.extend((first, other) for other in points if other != first)
+        pairs.extend(self.read)
+        unique = {frozenset(pair): pair for pair in reversed(pairs)}
+        return tuple(reversed(unique.values()))
+
     def drawn(self, metres: NumberName) -> NumberName:
         """Return a known length in millimetres of the drawing."""
         name = f"|{metres.removeprefix('l_')}|"

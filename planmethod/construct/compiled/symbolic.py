@@ -12,7 +12,9 @@ from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import apply, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
+    Carry,
     LayOff,
+    MeasureAlong,
     MeetCircles,
     MeetLineCircle,
     Name,
@@ -207,6 +209,14 @@ class Symbolic(Exact):
             return Symbol(self.tape, re)
         return Symbol(self.tape, re, self.tape.make("at_zero", size.re, d, b))
 
+    def share(self, length: Number, vector: Number) -> Number:
+        """Return 1 where the length is that of the vector: measured on it, or laid off to it."""
+        drawn, told = abs(vector), abs(length)
+        noted = self.sizes.get(self._key(vector))
+        if same(drawn.re, told.re) or (noted is not None and same(noted, told.re)):
+            return 1.0
+        return super().share(length, vector)
+
     def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
         """Return the smaller and the larger of two real numbers."""
         make, (a, b) = self.tape.make, (one.re, two.re)
@@ -316,6 +326,13 @@ def _note_lengths(step: Step, env: Mapping[Name, Any], ar: Symbolic) -> None:
             pairs = ((c, r),)
         case LayOff(out, o, _, length):
             pairs = ((o, length),)
+        case MeasureAlong(out, tail, head, _):  # a segment of the line along which it is measured
+            ar.note(env[head] - env[tail], env[out])
+            return
+        case Carry(out, o, _, _, length, times, _) if length is not None:
+            scaled = env[length] if times is None else env[length] * env[times]
+            ar.note(env[out] - env[o], abs(scaled))
+            return
         case _:
             return
     for centre, radius in pairs:

@@ -150,8 +150,22 @@ class Tape:
             a, negative = self.nodes[int(a)].operands[0], not negative
         if self._is(b, "neg"):
             b, negative = self.nodes[int(b)].operands[0], not negative
-        product = self.make("mul", *self._sorted(a, b))
+        undone = self._undone(a, b)
+        undone = self._undone(b, a) if undone is None else undone
+        product = self.make("mul", *self._sorted(a, b)) if undone is None else undone
         return self.neg(product) if negative else product
+
+    def _undone(self, a: Ref, b: Ref) -> Ref | None:
+        """Return x where a is x/b, or 0 where b is 0 and else x/b; None of anything else."""
+        if self._is(a, "at_zero"):
+            size, other, value = self.nodes[int(a)].operands
+            if not (same(size, b) and same(other, 0.0)):
+                return None
+            a = value
+        if self._is(a, "div"):
+            one, two = self.nodes[int(a)].operands
+            return one if same(two, b) else None
+        return None
 
     def div(self, a: Ref, b: Ref) -> Ref:
         """Return a / b."""

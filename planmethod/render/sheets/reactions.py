@@ -74,11 +74,11 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 def _balances(reading: ForceReading) -> list[TableColumn]:
     """Return the columns of what balances the driver, by both methods."""
     symbol = reading.balancing_symbol
-    unit = UNITS_RU["N·m" if reading.statics.driving.moment is not None else "N"]
+    unit = UNITS_RU["N·m" if reading.statics.driving.force is None else "N"]
     exact = float(reading.statics.balance[reading.index])
     plans, lever = both_balances(reading)
     share = difference(reading)
-    sense = reading.statics.driving.moment is not None
+    sense = reading.statics.driving.force is None
 
     def cell(value: float | None) -> Cell:
         if value is None:

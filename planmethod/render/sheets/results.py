@@ -31,8 +31,7 @@ def _sense(value: float) -> int:
 
 def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple[Cell, Cell]:
     """Return what was read on the drawing, to the place of its error, and the error."""
-    hand, which = solution.by_hand_results, symbol in "aε"
-    read = float((hand.links if symbol in "ωε" else hand.points)[name][which][index])
+    read = float(solution.read_off(label_of(symbol, name))[index])
     sigma, mark = marked(solution.drafting, label_of(symbol, name), index)
     turns = symbol in "ωε"
     return (

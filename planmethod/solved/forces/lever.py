@@ -112,9 +112,9 @@ class LeverReading:
         self.forces: list[HungForce] = []
         self.couples: list[HungCouple] = []
         self.shifts: list[HungShift] = []
-        for given, at in reading.statics.hung.hung:
-            one = given.applied
-            if at is None:
+        for hung in reading.statics.hung.hung:
+            given, at, one = hung.given, hung.at, hung.given.applied
+            if at is None or hung.arm is None:
                 assert given.couple is not None
                 if abs(reading.number(given.couple)) > 1e-9 * reading.peak_moment:
                     moment = reading.read_number(given.couple)
@@ -123,9 +123,7 @@ class LeverReading:
             force, place = complex(one.force[index]), reading.end(at) * self._share
             if abs(force) > 1e-9 * reading.peak:
                 assert given.force is not None and one.point is not None
-                drawn = reading.by_hand(given.force.tail, given.force.head)
-                spot = reading.by_hand(reading.statics.hung.pole, at) * self._share
-                size, arm = reading.read_load(given), self._arm(spot, drawn)
+                size, arm = reading.read_load(given), reading.read_number(hung.arm) * self._share
                 self.forces.append(HungForce(one.name, place, force, arm, size, one.point))
                 self._shift(given, place)
         self._balance(reading.statics.hung.balance)
@@ -146,10 +144,6 @@ class LeverReading:
             # Its arm is the driver's own velocity, which is laid off and not measured.
             arm, size = _across(place, force), abs(reading.read_number(balance))
             self.forces.append(HungForce(reading.balancing_symbol, place, force, arm, size, pin))
-
-    def _arm(self, place: complex, force: complex) -> float:
-        """Return the arm of a force about the pole as the hand measures it, mm."""
-        return float(self.reading.solution.hand.ruled(_across(place, force)))
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever, mm from the pole."""

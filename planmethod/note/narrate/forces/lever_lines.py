@@ -47,7 +47,7 @@ def difference(reading: ForceReading) -> float | None:
 
 def lever_unit(reading: ForceReading, say: Notation = RUSSIAN) -> str:
     """Return the unit of what balances the driving link."""
-    return say.units["N" if reading.statics.driving.moment is None else "N·m"]
+    return say.units["N·m" if reading.statics.driving.force is None else "N"]
 
 
 def lever_lines(reading: ForceReading) -> list[str]:
