@@ -246,6 +246,26 @@ class Draft:
         self._feet += 1
         return f"{of}~{self._feet}"
 
+    def in_line(self, link: str, *places: str) -> bool:
+        """Tell whether places of a link lie on one line, wherever sliders stand on it."""
+        body, lines = self.problem.bodies[link].points, []
+        for place in places:
+            if place in body:
+                continue
+            slides = (s for s in self.problem.slides.values() if (s.host, s.pin) == (link, place))
+            slide = next(slides, None)
+            if slide is None:
+                return False
+            along = cis(slide.angle)
+            lines.append((slide.base + 1j * along * slide.offset, along))
+        fixed = [body[place] for place in places if place in body]
+        if not lines:
+            far = max(fixed, key=lambda z: abs(z - fixed[0]))
+            lines.append((fixed[0], far - fixed[0]))
+        start, along = lines[0]
+        off = [abs(((z - start) * along.conjugate()).imag) for z in fixed]
+        return len(lines) == 1 and max(off) <= TINY * self.size(link) * abs(along)
+
     # Slide lines -----------------------------------------------------------------------------
 
     def base(self, slide: Slide) -> PointName:

@@ -114,9 +114,9 @@ class MotionVoice:
         ):
             if step.out in table.values():
                 return self._turning(step, kind)
-        plan = self._values.get(step.out)
-        if plan is None or step.powers[0][0] not in SCALE_KIND:
+        if not self.is_value(step):
             return []
+        plan = self._values[step.out]
         text = self.say.read(step, plan)
         for relative in self.kin.relatives.values():
             if relative.to == FRAME and step.out in (relative.speed, self._along(relative)):
@@ -129,6 +129,10 @@ class MotionVoice:
                 own = plain_text(vector.symbol) if vector else whole
                 return [text.replace(whole, f"{whole} = {own}", 1) if own != whole else text]
         return [text]
+
+    def is_value(self, step: Compute) -> bool:
+        """Tell whether a step is what a segment of a plan stands for, by its length."""
+        return step.out in self._values and step.powers[0][0] in SCALE_KIND
 
     def _along(self, relative: Relative) -> NumberName | None:
         """Return the number of a relative acceleration."""

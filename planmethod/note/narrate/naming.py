@@ -224,6 +224,8 @@ class Names:
                     seen.add(number)
                     yield number, f"{letter}_{{{link}}}"
         for motion in (self.kin.velocity, self.kin.acceleration):
+            for ends, number in motion.segments.lengths.items():
+                yield number, f"({self.segment(*ends)})"
             for ends, number in motion.segments.values.items():
                 whole = self.absolute(ends[1]) if ends[0] == motion.pole else ""
                 vector = self.vector(*ends)

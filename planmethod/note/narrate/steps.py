@@ -67,8 +67,10 @@ class Narrator:
         }
 
     def is_reading(self, step: Step) -> bool:
-        """Tell whether a step is the value of a segment that is measured for it alone."""
-        return isinstance(step, Compute) and any(n in self._told_later for n, _ in step.powers)
+        """Tell whether a step is the value of a segment that is read for it alone."""
+        if not (isinstance(step, Compute) and self.motion.is_value(step)):
+            return False
+        return not isinstance(self.names.step[step.powers[1][0]], MeasureAlong)
 
     def tell(self, step: Step) -> list[str]:
         """Return the lines that tell a step; none when another step tells it."""

@@ -299,20 +299,23 @@ def _similar(
 ) -> PointName:
     """Find a point by similarity; its distances from the two known points are computed."""
     b, name, segments = kin.draft.b, motion.name(motion.label(link, place)), motion.segments
-    ends = tuple(motion.point[link, point] for point in known)
-    side, span = segments.length(*ends), _on_drawing(kin.draft, link, *known)
-    arms = [_on_drawing(kin.draft, link, point, place) for point in known]
-    for end, arm, letter in zip(ends, arms, "bc", strict=True):
-        length = b.compute(f"|{name}|{letter}", (side, 1), (arm, 1), (span, -1))
-        segments.lengths[end, PointName(name)] = length
+    one, two = motion.point[link, known[0]], motion.point[link, known[1]]
+    side, span = segments.length(one, two), _on_drawing(kin.draft, link, *known)
+    arm = _on_drawing(kin.draft, link, known[0], place)
+    first = b.compute(f"|{name}|", (side, 1), (arm, 1), (span, -1))
+    segments.lengths[one, PointName(name)] = first
+    if not kin.draft.in_line(link, *known, place):  # then the corner of a triangle, by two arcs
+        other = _on_drawing(kin.draft, link, known[1], place)
+        second = b.compute(f"|{name}|*", (side, 1), (other, 1), (span, -1))
+        segments.lengths[two, PointName(name)] = second
     given = kin.draft.problem.bodies[link].points
     return b.similar(
         name,
-        ends,
+        (one, two),
         (PointName(known[0]), PointName(known[1]), PointName(place)),
         side,
         span=None if set(known) <= set(given) else span,
-        arm=None if {known[0], place} <= set(given) else arms[0],
+        arm=None if {known[0], place} <= set(given) else arm,
     )
 
 
