@@ -119,11 +119,15 @@ class Draft:
     def measured(self, p: str, q: str) -> NumberName:
         """Return the distance of two places read on the drawing, mm."""
         p, q = sorted((p, q))
-        name = f"({p}{q})"
         if (p, q) in self.read:
-            return NumberName(name)
+            return self.measured_before(p, q)
         self.read.append((p, q))
-        return self.b.measure(name, PointName(p), PointName(q))
+        return self.b.measure(f"({p}{q})", PointName(p), PointName(q))
+
+    def measured_before(self, p: str, q: str) -> NumberName:
+        """Return the distance of two places that has been read."""
+        p, q = sorted((p, q))
+        return NumberName(f"({p}{q})")
 
     def segments(self) -> tuple[tuple[str, str], ...]:
         """Return the segments worth reading: given lengths, and what no length tells."""

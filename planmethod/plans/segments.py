@@ -39,10 +39,17 @@ class Segments:
     prefix: str = ""
     lengths: dict[Ends, NumberName] = field(default_factory=dict)
     values: dict[Ends, NumberName] = field(default_factory=dict)
+    _measured: set[NumberName] = field(default_factory=set)
 
     def on(self, b: Builder) -> Segments:
         """Return the same segments for a construction that goes on from here."""
-        return replace(self, b=b, lengths=dict(self.lengths), values=dict(self.values))
+        return replace(
+            self,
+            b=b,
+            lengths=dict(self.lengths),
+            values=dict(self.values),
+            _measured=set(self._measured),
+        )
 
     def compute(
         self, name: str, *powers: tuple[NumberName, int], factor: float = 1.0, size: bool = False
@@ -59,6 +66,7 @@ class Segments:
             return self.drawn((tail, head))
         name = self.b.measure(f"|{tail}–{head}|", tail, head)
         self.lengths[tail, head] = name
+        self._measured.add(name)
         return name
 
     def value(self, tail: PointName, head: PointName, name: str) -> NumberName:
@@ -68,6 +76,11 @@ class Segments:
         length = self.length(tail, head)
         self.values[tail, head] = self.compute(name, (self.scale, 1), (length, 1))
         return self.values[tail, head]
+
+    def read(self, ends: Ends) -> NumberName | None:
+        """Return the length that the ruler gives of a segment, mm; None of what was laid off."""
+        length = self.length(*ends)
+        return length if length in self._measured else None
 
     def drawn(self, ends: Ends) -> NumberName:
         """Return the length of a segment that has been drawn and read, mm."""
@@ -79,10 +92,11 @@ class Segments:
 
     def read_along(self, tail: PointName, head: PointName, line: LineName, name: str) -> NumberName:
         """Read a segment along its line, with a sign, and return what it stands for."""
-        length = self.b.measure_along(f"|{tail}–{head}|", tail, head, line)
-        self.lengths[tail, head] = length
-        self.values[tail, head] = self.compute(name, (self.scale, 1), (length, 1))
-        return self.values[tail, head]
+        length = self.b.measure_along(f"|{tail}–{head}|{line}", tail, head, line)
+        value = self.compute(name, (self.scale, 1), (length, 1))
+        self.lengths[tail, head], self.values[tail, head] = length, value
+        self._measured.add(length)
+        return value
 
     def lay_off(self, out: str, start: PointName, along: LineName, value: NumberName) -> PointName:
         """Lay off a vector of a computed size along a line."""

@@ -297,7 +297,7 @@ def test_causes_are_told_in_plain_words() -> None:
     assert causes.tell("line1") == "откладывание угла φ₁ (план положений)"
     assert causes.tell("B") == "откладывание отрезка от точки A до точки B (план положений)"
     assert causes.tell("v:B3") == "отметка точки b₃ в пересечении прямых (план скоростей)"
-    assert causes.tell("v:0-v:D") == "снятие отрезка pd (план скоростей)"
+    assert causes.tell("|v:0–v:B3|line19") == "снятие отрезка pb₃ (план скоростей)"
     assert causes.tell("a:D") == "построение точки d по подобию (план ускорений)"
     english = Causes(Names(worked("linkages/ex2"), wording("en")))
     assert english.tell("B") == "fixing point B with an arc (position plan)"

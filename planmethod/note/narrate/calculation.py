@@ -79,9 +79,8 @@ class Calculation:
         for body in s.problem.bodies.values():
             if p in body.points and q in body.points:
                 return abs(body.points[q] - body.points[p])
-        ends = s.complexes(s.by_hand, PointName(q)) - s.complexes(s.by_hand, PointName(p))
-        millimetres = float(s.hand.ruled(abs(ends[self.index])))
-        return millimetres * s.scales[PlanKind.POSITION].per_mm
+        read = s.construction.draft.measured_before(p, q)
+        return abs(self._number(read)) * s.scales[PlanKind.POSITION].per_mm
 
     def _length(self, p: str, q: str) -> str:
         """Return a length's symbol with the letters in the order of the statement."""

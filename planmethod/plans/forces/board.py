@@ -255,8 +255,11 @@ class Board:
         return end
 
     def _carried(self, origin: PointName, tail: PointName, head: PointName) -> PointName:
-        """Return where a force ends that is laid off again from another point."""
-        length = self.segments.length(tail, head)
+        """Return where a force ends that is carried to another point.
+
+        What one plan has given to another is read there and laid off here.
+        """
+        length = self.segments.read((tail, head))
         return self.draft.b.carry(self.name("c"), origin, tail, head, length)
 
     def couples_on(self, *links: str) -> tuple[CoupleOn, ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
@@ -63,10 +65,6 @@ class ForceReading:
         """Return the position plan if it has a point."""
         return self.solution.paper if point in self.solution.paper.value else None
 
-    def distance(self, one: str, other: str) -> float:
-        """Return how far two places of the position plan are apart, mm."""
-        return abs(self.place(PointName(other)) - self.place(PointName(one)))
-
     def end(self, point: PointName) -> complex:
         """Return an end of a force plan, or a point of the lever, mm."""
         return self._column(self.statics.paper, point)
@@ -108,6 +106,10 @@ class ForceReading:
     def read_number(self, name: NumberName) -> float:
         """Return a moment as the hand has it, N·m."""
         return float(self.solution.reals(self.statics.by_hand, name)[self.index])
+
+    def read_product(self, powers: Iterable[tuple[NumberName, int]]) -> float:
+        """Return a product of powers as the hand has it."""
+        return math.prod(self.read_number(name) ** power for name, power in powers)
 
     def read_load(self, given: Given) -> float:
         """Return a given force as the hand has it, N, or a couple as it computes it, N·m."""

@@ -128,7 +128,7 @@ class Statics:
             asked += [reaction.force.at, reaction.force.tail, reaction.force.head]
             asked += [reaction.couple] if reaction.couple is not None else []
         asked.append(self.driving.balance)
-        asked += self.board.segments.values.values()
+        asked += [*self.board.segments.values.values(), *self.board.segments.lengths.values()]
         asked += self.board.arms.values()
         asked.append(self.board.scale)
         return asked + ([self.hung.balance, self.hung.difference] if self.hung else [])
