@@ -11,7 +11,7 @@ from loaded import loaded_problem
 from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
 
-from planmethod.bench.hard_problems import rocker
+from benchmarks.hard_problems import rocker
 from planmethod.errors import AssemblyError
 from planmethod.note.narrate.forces.formulas import closing_formula
 from planmethod.note.narrate.forces.lever_lines import lever_equation

@@ -7,7 +7,7 @@ from functools import cache
 
 from worked import problem_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.note.narrate.protocol import protocol
 from planmethod.note.plaintext import WIDTH, width
 from planmethod.problem import loads

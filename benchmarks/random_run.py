@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.solved.many.sweep import Sweep

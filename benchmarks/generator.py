@@ -14,7 +14,7 @@ import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from planmethod.bench.generator_text import FRAME, Draft, Line, Link, TextBuilder
+from benchmarks.generator_text import FRAME, Draft, Line, Link, TextBuilder
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 
