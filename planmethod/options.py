@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -152,8 +153,6 @@ def hand_options(command: F) -> F:
 
 def drawn_by(profile: str, ruler: float | None) -> Profile:
     """Return the hand of a profile, with another ruler if one is given."""
-    from dataclasses import replace
-
     from planmethod.construct.drafting import PROFILES
 
     hand = PROFILES[profile]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -104,8 +105,6 @@ def _unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
 
 
 def _with_variants(problem: Problem, names: tuple[str, ...], variant: str | None) -> Problem:
-    from dataclasses import replace
-
     return replace(problem, variants=names, variant=variant)
 
 

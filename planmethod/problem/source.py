@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.problem.names import describe_lookalikes, fold, looks_latin
+from planmethod.problem.names import describe_lookalikes, fold, looks_latin, near
 
 SIZE_LIMIT = 256 * 1024
 LINE_LIMIT = 8192
@@ -131,8 +131,6 @@ def _too_large(name: str) -> ProblemError:
 
 def _nearby(path: Path) -> str:
     """Hint for a missing file: the nearest name in its folder."""
-    from planmethod.problem.names import near
-
     try:
         names = [p.name for _, p in zip(range(1000), path.parent.glob("*.toml"), strict=False)]
     except (OSError, ValueError):

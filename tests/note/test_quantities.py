@@ -8,7 +8,8 @@ from math import sqrt
 import pytest
 from slotted import R, problem_of
 
-from planmethod.note.audit.quantities import Quantities, UnansweredError, Why
+from planmethod.note.audit.published import Quantities
+from planmethod.note.audit.quantities import UnansweredError, Why
 from planmethod.problem.selector import QUANTITIES, parse_selector
 from planmethod.solved.solution import Solution
 

@@ -12,7 +12,7 @@ from loaded import with_resultant
 from test_forces_sheet import arrows, computed, couples, shown, views, within
 from worked import problem_of
 
-from planmethod.note.audit.quantities import Quantities
+from planmethod.note.audit.published import Quantities
 from planmethod.note.narrate.forces.formulas import load_lines
 from planmethod.note.narrate.forces.lever_lines import lever_lines
 from planmethod.note.narrate.forces.moment_lines import plan_moments

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import threading
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -374,6 +375,4 @@ def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
 
 
 def _names(text: str) -> list[str]:
-    import re
-
     return re.findall(r"\b[xob]\d+\b", text)

@@ -15,7 +15,7 @@ import numpy as np
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import LayOff, NumberName, PointName
-from planmethod.note.audit.quantities import Quantities, Reading, UnansweredError, Why
+from planmethod.note.audit.quantities import MotionQuantities, Reading, UnansweredError, Why
 from planmethod.plans.forces.board import SCALE, Force, Given
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.model import PlanKind
@@ -88,12 +88,12 @@ class ForceQuantities:
 
     Parameters
     ----------
-    at : Quantities
+    at : MotionQuantities
     mu_f : float or None, N/mm
         Scale of the source's force plans; the program's own where the source tells none.
     """
 
-    def __init__(self, at: Quantities, mu_f: float | None = None) -> None:
+    def __init__(self, at: MotionQuantities, mu_f: float | None = None) -> None:
         if at.solution.problem.dynamics is None:
             raise UnansweredError(Why.NO_FORCES)
         self.at = at

@@ -1,4 +1,4 @@
-"""Quantities of a solved problem by the short grammar of ``[published]``: exact, and by hand.
+"""Quantities of the motion by the short grammar of ``[published]``: exact, and by hand.
 
 Both are the same formulas over two readings of one program: the exact one at unit scales, and the
 draughtsman's, where every length is read with the ruler and carried on along his chain.
@@ -10,8 +10,6 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property
-from typing import TYPE_CHECKING
 
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
@@ -21,9 +19,6 @@ from planmethod.plans.motion.board import Motion
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.selector import FORCES, POLE, Selector
 from planmethod.solved.solution import Solution
-
-if TYPE_CHECKING:
-    from planmethod.note.audit.forces import ForceQuantities
 
 PLANS: Mapping[str, PlanKind] = {
     "length": PlanKind.POSITION,
@@ -119,36 +114,20 @@ class Reading:
         return self.measure(kind, length)
 
 
-class Quantities:
-    """Values of selectors in one position of a solution.
+class MotionQuantities:
+    """Values of selectors of the motion in one position of a solution.
 
     Parameters
     ----------
     solution : Solution
     position : int
         From 0.
-    mu_f : float or None, N/mm
-        Scale of the source's force plans; the program's own where the source tells none.
     """
 
-    def __init__(self, solution: Solution, position: int = 0, mu_f: float | None = None) -> None:
+    def __init__(self, solution: Solution, position: int = 0) -> None:
         self.solution = solution
         self.position = position
-        self.mu_f = mu_f
         self.kin = solution.construction.kinematics
-
-    @cached_property
-    def forces(self) -> ForceQuantities:
-        """Quantities of the force analysis.
-
-        Raises
-        ------
-        UnansweredError
-            When the file has neither masses nor loads.
-        """
-        from planmethod.note.audit.forces import ForceQuantities
-
-        return ForceQuantities(self, self.mu_f)
 
     @property
     def si(self) -> Reading:
@@ -220,8 +199,6 @@ class Quantities:
 
     def _value(self, selector: Selector, reading: Reading) -> float:
         kind, names = selector.kind, selector.names
-        if kind in FORCES:
-            return self.forces.value(selector, reading)
         if kind in COMPONENTS:
             plan = COMPONENTS[kind]
             head, pole = (self.plan_point(plan, name) for name in (names[0], POLE))
