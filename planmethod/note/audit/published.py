@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from planmethod.note.audit.forces import ForceQuantities
 from planmethod.note.audit.quantities import MotionQuantities, Reading
 from planmethod.problem.selector import FORCES, Selector
 from planmethod.solved.solution import Solution
+
+if TYPE_CHECKING:
+    from planmethod.note.audit.forces import ForceQuantities
 
 
 class Quantities(MotionQuantities):
@@ -35,6 +38,8 @@ class Quantities(MotionQuantities):
         UnansweredError
             When the file has neither masses nor loads.
         """
+        from planmethod.note.audit.forces import ForceQuantities
+
         return ForceQuantities(self, self.mu_f)
 
     def _value(self, selector: Selector, reading: Reading) -> float:
