@@ -25,7 +25,7 @@ FORMATS = ("svg", "pdf", "png")
 WATCHED = (
     "click", "numpy", "shapely", "svgwrite", "reportlab", "PIL", "matplotlib", "mpmath", "ezdxf",
 )  # fmt: skip
-"""Third parties whose import a command may pay for."""
+"""Third parties whose import a command may have to pay for."""
 
 COMMANDS = (
     ("--version", ()),
@@ -132,7 +132,7 @@ PEAK = (
     "lines = status.read_text().splitlines() if status.exists() else []\n"
     "peak = max((int(s.split()[1]) / 1024 for s in lines if s.startswith('VmHWM')), default=0.0)"
 )
-"""Lines that find the peak of a process itself, MB; what was before it started is not its own."""
+"""Lines that find the peak of a process itself, MB; what came before it started is not counted."""
 
 MEMORY = (
     ("interpreter and NumPy", "import numpy"),
@@ -163,7 +163,7 @@ def memory() -> list[tuple[str, float]]:
 def clock_processes(commands: Sequence[Sequence[str]], *, runs: int = 5) -> list[Timing]:
     """Time whole processes, taking turns so that a slow moment falls on all of them.
 
-    The first round warms the disk and lets Python keep what it compiled, as an installed package
+    The first round warms the disk and lets Python cache what it compiled, as an installed package
     has it kept.
     """
     times: list[list[float]] = [[] for _ in commands]

@@ -1,4 +1,4 @@
-"""Speed of this package on one four-bar beside its peers, and what its cost grows with."""
+"""Speed of this package on one four-bar beside its peers, and how its cost grows."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
     return found
 
 
-# What grows with what ---------------------------------------------------------------------------
+# How cost grows ---------------------------------------------------------------------------
 
 
 def by_positions(counts: Sequence[int]) -> list[tuple[int, float]]:
@@ -135,7 +135,7 @@ SCENES: tuple[tuple[str, tuple[str, ...] | None], ...] = (
     ("velocities", ("velocities",)),
     ("everything", None),
 )
-"""What scenes may ask for, least first."""
+"""What scenes may ask for, the least first."""
 
 
 def by_scene(count: int = 10_000) -> list[tuple[str, int, int, float, float]]:

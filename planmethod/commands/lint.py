@@ -55,7 +55,7 @@ def lint(
     as_json: bool,
     lang: str,
 ) -> None:
-    """Look the sheets over and say what a norm inspector would mark (нормоконтроль).
+    """Check the sheets and say what a norm inspector would mark (нормоконтроль).
 
     PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
     with the same options, and are not written. Exit code 0 when there is nothing to correct, 1 when

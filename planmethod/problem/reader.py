@@ -37,7 +37,7 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     Raises
     ------
     ProblemError
-        With every fault of the file: path, what was expected, what came, the next action.
+        With every fault of the file: path, what was expected, what was found, the next action.
     """
     path = Path(path)
     table = parse(read_source(path), name=str(path))
