@@ -184,7 +184,7 @@ _SHEET_OPTIONS = (
         metavar="FILE",
         help="Config file instead of the usual one.",
     ),
-    click.option("--no-config", is_flag=True, help="Read no config file."),
+    click.option("--no-config", is_flag=True, help="Do not read a config file."),
 )
 
 
