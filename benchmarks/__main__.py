@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
 
 from benchmarks import report
 from benchmarks.whole import SECTIONS, make
+from planmethod.commands.problems import guarded
 from planmethod.problem import load
 from planmethod.render.backends.output import write
 
@@ -36,6 +38,7 @@ from planmethod.render.backends.output import write
     multiple=True,
     help="Print these sections instead of writing the document.",
 )
+@guarded
 def main(
     problems: tuple[Path, ...], out: Path, quick: bool, count: int | None, only: tuple[str, ...]
 ) -> None:
@@ -44,6 +47,8 @@ def main(
     The drafting errors are compared for each PROBLEM given. Everything together takes some
     minutes; the peers run when they are installed (pip install -e '.[bench]').
     """
+    if find_spec("mpmath") is None:
+        raise click.UsageError("mpmath, the judge, is missing: pip install -e '.[bench]'")
     loaded = [load(path) for path in problems]
     if count is None:
         count = 200 if quick else 10_000

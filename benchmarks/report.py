@@ -79,8 +79,8 @@ def rivals_section(compared: Sequence[rivals.Rival]) -> Table:
         "## One four-bar, with peers",
         "",
         "Warm, one core, medians, all of them taking turns in one run; every answer goes to a "
-        "buffer that was there before, but where a peer cannot take one. The error is the largest "
-        "over the three sizes.",
+        "buffer that was there before, except where a peer cannot take one. The error is the "
+        "largest over the three sizes.",
         "",
         *table(("who", *header, "largest error"), rows),
         "",
