@@ -324,7 +324,7 @@ class _Drawing:
     # Rule of assembly
 
     def _write_rule(self, point: str, mirror: complex, known: list[str]) -> None:
-        """Say which closing is meant, in words that fit it better than the other one."""
+        """Say which closing is meant in words that are true of it and less so of the other one."""
         draft, rng = self.draft, self.rng
         z = draft.place[point]
         phrases: list[str | complex] = []

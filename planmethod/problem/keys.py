@@ -72,9 +72,9 @@ STAMP = (
 )
 SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering")
 FORMS = ("1", "1+2a", "2", "2a")
-"""Forms of the title block: for every sheet, or for the first and for the later ones."""
+"""Forms of the title block: of every sheet, or of the first and of the later ones."""
 LETTERINGS = ("A", "A-upright", "B", "B-upright")
-"""Types of the lettering of GOST 2.304, slanted unless stated otherwise."""
+"""Types of the lettering of GOST 2.304, slanted where nothing else is said."""
 SHEET_CHOICES = {"form": FORMS, "lettering": LETTERINGS}
 """Keys of ``[sheet]`` that take one of some names."""
 CONFIG = ("stamp", "sheet")
