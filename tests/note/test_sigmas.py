@@ -13,9 +13,9 @@ from worked import SIX, problem_of
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.narrate.given import asked_links, asked_points
 from planmethod.note.narrate.naming import Names
+from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.causes import Causes
 from planmethod.note.tables.results import result_tables
-from planmethod.note.tables.sigmas import rounded_to, sigma_text
 from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution

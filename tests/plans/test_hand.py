@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from worked import SIX, exact_values, problem_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.construct.steps import Compute, Name, NumberName, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads

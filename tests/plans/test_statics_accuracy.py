@@ -14,7 +14,7 @@ from full_system import Acting, Answer, Pose, cross, slide_between, solve_all
 from loaded import loaded_problem, with_resultant
 from worked import problem_of
 
-from planmethod.bench import hard_problems as texts
+from benchmarks import hard_problems as texts
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach
 from planmethod.construct.evaluate import evaluate

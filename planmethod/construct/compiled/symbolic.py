@@ -144,7 +144,7 @@ class Guard:
 
 @dataclass
 class Symbolic(Exact):
-    """Arithmetic that writes down what is to be computed, and knows lengths before they are.
+    """Arithmetic that writes down what is to be computed, and knows some lengths beforehand.
 
     Attributes
     ----------
@@ -185,11 +185,11 @@ class Symbolic(Exact):
         return Symbol(self.tape, self.tape.make("sqrt", largest))
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
-        """Return the value; who runs the tape looks at the margins."""
+        """Return the value; whoever runs the tape looks at the margins."""
         return value
 
     def nonzero(self, value: Number) -> Number:
-        """Return the value; who runs the tape looks at the margins."""
+        """Return the value; whoever runs the tape looks at the margins."""
         return value
 
     def solid(self, length: Number) -> Number:
@@ -246,7 +246,7 @@ class Written:
     value : mapping
         Symbol of every point and number; pair of symbols of every line.
     guards : tuple of Guard
-        Every margin that is not a constant good for all positions.
+        Every margin except constants that hold in all positions.
     depends : mapping of name to frozenset of int
         Guards that a result depends on, by their place in ``guards``.
     inputs : tuple of str
@@ -302,7 +302,7 @@ def write(
 
 
 def _watched(guard: Guard, tape: Tape) -> Guard | None:
-    """Return a guard without what need not be computed to look at it; None if it always holds."""
+    """Return a guard stripped of what need not be computed for it; None if it always holds."""
     margin, limit = guard.margin, guard.limit
     while type(margin) is int:
         kind, refs = tape.nodes[margin]

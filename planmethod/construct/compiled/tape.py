@@ -60,14 +60,14 @@ class Tape:
     """Operations in order, each made once.
 
     An operation on constants is carried out at once, and one that changes nothing (times 1, plus
-    0, a + b - a) is not made at all: the straight line has no step that a person would skip.
+    0, a + b - a) is not made at all: the tape has no step that a person would skip.
     """
 
     nodes: list[Node] = field(default_factory=list)
     _made: dict[tuple[Any, ...], int] = field(default_factory=dict)
 
     def make(self, kind: str, *operands: Ref) -> Ref:
-        """Return a node for an operation, an earlier one of the same if there is."""
+        """Return a node for an operation, an earlier one of the same kind if there is one."""
         if kind in FOLD and all(type(operand) is float for operand in operands):
             return FOLD[kind](*operands)
         key = _key(kind, operands)

@@ -31,7 +31,8 @@ from planmethod.construct.steps import (
 from planmethod.note.narrate.given import asked_links, asked_points
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
-from planmethod.note.tables.sigmas import label_of, marked, rounded_to, sigma_text
+from planmethod.note.rounding import rounded_to, sigma_text
+from planmethod.note.tables.sigmas import label_of, marked
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.spread import SHORT
 

@@ -12,8 +12,8 @@ from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
-from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.reactionerrors import (
     angle_column,
     balance_columns,

@@ -8,12 +8,13 @@ import numpy as np
 
 from planmethod.note.narrate.given import asked_links, asked_points, number, solution_peak
 from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
-from planmethod.note.tables.sigmas import DRAWN, as_long, label_of, marked, rounded_to, sigma_text
+from planmethod.note.rounding import as_long, rounded_to, sigma_text
+from planmethod.note.tables.sigmas import DRAWN, label_of, marked
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
-from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.model import Manner
 from planmethod.solved.solution import Reals, Solution
 
 

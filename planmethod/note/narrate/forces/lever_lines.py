@@ -9,7 +9,7 @@ import numpy as np
 from planmethod.note.narrate.forces.formulas import arm_symbol, signed_sum
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.numbers import RUSSIAN, Notation
-from planmethod.note.tables.sigmas import sigma_text
+from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.solved.forces.lever import HungShift, LeverReading, OnLink

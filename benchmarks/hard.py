@@ -2,7 +2,7 @@
 
 Every row is solved in float64 and judged by the referee (`planmethod.solved.trust.accuracy`), and
 asked of the package as a user asks it. A row may be good, warned of, or refused with a reason; a
-number that is wrong and not warned of is a fault, wherever it comes from.
+wrong number without a warning is a fault, wherever it comes from.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Examined, Verdict, examine
 
 WRONG = 1e-6
-"""Relative error above which a result that nobody warned of is a wrong one."""
+"""Relative error above which a result without a warning is a wrong one."""
 
 CROWD = 65
-"""Positions asked at once where many are meant: more than are all looked at closely."""
+"""Positions asked for at once where many are meant: too many for all to be examined closely."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +157,7 @@ def _examine_row(case: str, row: HardInput, digits: int) -> HardRow:
     try:
         problem = loads(row.text, name=case)
         positions = row.positions or problem.drive.positions
-        # Whether numpy grumbles about what does not exist is another test's matter.
+        # Whether NumPy warns about what does not exist is the matter of another test.
         with np.errstate(all="ignore"):
             judged = _judge_positions(blank, row, problem, positions, digits)
     except PlanMethodError as error:
@@ -230,7 +230,7 @@ def _add(row: HardRow, found: Examined) -> HardRow:
 
 
 def sizes(verdicts: Iterable[Verdict]) -> dict[QuantityKind, float]:
-    """Return what a result of each kind is small against in a position, by the referee.
+    """Return the size beside which a result of each kind is small in a position, by the referee.
 
     It is the natural size of the kind, a sliding speed being a velocity.
     """
