@@ -8,8 +8,53 @@ from enum import Enum
 
 from planmethod.construct.steps import PointName
 
-FORCE_PREFIX = "f:"
-"""What the names of the points and numbers of the force plans begin with."""
+
+class PlanKind(Enum):
+    """Which plan (вид плана)."""
+
+    POSITION = "position"
+    VELOCITY = "velocity"
+    ACCELERATION = "acceleration"
+    FORCE = "force"
+    LEVER = "lever"
+
+
+@dataclass(frozen=True, slots=True)
+class PlanFacts:
+    """What goes with a kind of plan (масштаб, полюс и единица плана).
+
+    Attributes
+    ----------
+    pole : str
+        Letter of the pole; empty where a plan has none.
+    letter : str
+        Of the vectors: ``v``; the length of a link on the position plan.
+    scale : str
+        Name of the scale: ``mu_v``, in letters ``μ_{v}``.
+    unit : str
+        What a segment stands for.
+    prefix : str
+        What the names of the plan's points begin with in a program.
+    """
+
+    pole: str
+    letter: str
+    scale: str
+    unit: str
+    prefix: str = ""
+
+
+FACTS: dict[PlanKind, PlanFacts] = {
+    PlanKind.POSITION: PlanFacts("", "l", "mu_l", "m"),
+    PlanKind.VELOCITY: PlanFacts("p", "v", "mu_v", "m/s", "v:"),
+    PlanKind.ACCELERATION: PlanFacts("π", "a", "mu_a", "m/s²", "a:"),
+    PlanKind.FORCE: PlanFacts("", "F", "mu_F", "N", "f:"),
+    PlanKind.LEVER: PlanFacts("p", "v", "mu_v", "m/s", "f:"),
+}
+"""The one table of the kinds of plans."""
+
+MOTION = (PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION)
+"""Plans that every problem has, in the order in which they are drawn."""
 
 
 class VectorKind(Enum):
@@ -103,14 +148,6 @@ class VectorEquation:
 
     left: Vector
     right: tuple[Vector, ...]
-
-
-class PlanKind(Enum):
-    """Which plan (вид плана)."""
-
-    POSITION = "position"
-    VELOCITY = "velocity"
-    ACCELERATION = "acceleration"
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,7 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.problem import loads
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 READINGS = (Measure, MeasureAlong, MeasureArm)
@@ -68,10 +69,10 @@ def drawn(name: str) -> Drawn:
     solution = solved(name)
     if solution.problem.dynamics is None:
         data = solution.data(solution.per_mm)
-        return Drawn(solution.construction.program, data, solution.by_hand, solution.hand)
-    statics = solution.statics
+        return Drawn(solution.construction.program, data, solution.by_hand.trace, solution.hand)
+    statics = statics_of(solution)
     data = statics.data(statics.per_mm, slice(None))
-    return Drawn(statics.program, data, statics.by_hand, solution.hand)
+    return Drawn(statics.program, data, statics.by_hand.trace, solution.hand)
 
 
 def flat(value: Any) -> Any:

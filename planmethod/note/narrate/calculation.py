@@ -5,14 +5,19 @@ from __future__ import annotations
 from planmethod.construct.steps import Compute, NumberName, PointName, Similar
 from planmethod.note.narrate.letters import mark, segment
 from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
-from planmethod.plans.model import Known, PlanKind, Relation, Vector, VectorEquation, VectorKind
-from planmethod.plans.motion.board import PREFIX
+from planmethod.plans.model import (
+    FACTS,
+    Known,
+    PlanKind,
+    Relation,
+    Vector,
+    VectorEquation,
+    VectorKind,
+)
 from planmethod.plans.motion.leads import Relative, Turning
 from planmethod.problem.model import Convention
 from planmethod.solved.solution import Solution
 
-UNIT = {PlanKind.VELOCITY: "m/s", PlanKind.ACCELERATION: "m/s²"}
-LETTER = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
 TURNING = {PlanKind.VELOCITY: ("ω", "1/s"), PlanKind.ACCELERATION: ("ε", "1/s²")}
 
 
@@ -39,7 +44,7 @@ class Calculation:
         motion = self.kin.velocity if kind is PlanKind.VELOCITY else self.kin.acceleration
         self.segments = motion.segments
         self.mu = solution.scales[kind].per_mm
-        self.unit = UNITS_RU[UNIT[kind]]
+        self.unit = UNITS_RU[FACTS[kind].unit]
 
     def lines(self) -> list[str]:
         """Return one formula a line, in the order in which each becomes known."""
@@ -51,7 +56,7 @@ class Calculation:
         similar = {
             step.out: step
             for step in self.solution.construction.program.steps
-            if isinstance(step, Similar) and step.out.startswith(PREFIX[self.kind])
+            if isinstance(step, Similar) and step.out.startswith(FACTS[self.kind].prefix)
         }
         result: list[str] = []
         for vector in self.plan.vectors:
@@ -71,7 +76,7 @@ class Calculation:
         return abs(self._number(self.segments.drawn((tail, head))))
 
     def _number(self, name: NumberName) -> float:
-        return float(self.solution.reals(self.solution.by_hand, name)[self.index])
+        return float(self.solution.by_hand.number(name)[self.index])
 
     def _distance(self, p: str, q: str) -> float:
         """Return the distance of two places of the mechanism as the hand knows it, m."""
@@ -108,7 +113,7 @@ class Calculation:
         if source is not None:
             value = f"{_found(self.mu * mm)} {self.unit}"
             return f"{vector.symbol} = {source}{value};  {letters} = {_mm(mm)} мм"
-        scale = f"μ_{{{LETTER[self.kind]}}}"
+        scale = f"μ_{{{FACTS[self.kind].letter}}}"
         value = f"{_found(self.mu * mm)} {self.unit}"
         if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
             quotient = f"{_mm(mm)}/{_given(1.0 / self.mu)}"
@@ -183,7 +188,7 @@ class Calculation:
     def _similar(self, step: Similar) -> str:
         """Return how a point is found by the similarity theorem."""
         s, b, c = step.link_s, step.link_b, step.link_c
-        drawn = [self.solution.complexes(self.solution.by_hand, p)[self.index] for p in (s, b, c)]
+        drawn = [self.solution.by_hand.point(p)[self.index] for p in (s, b, c)]
         arm, span = drawn[0] - drawn[1], drawn[2] - drawn[1]
         if abs((arm * span.conjugate()).imag) > 1e-9 * abs(arm) * abs(span):
             letters = [self._letters(step.plan_b, p)[1:-1] for p in (step.plan_c, step.out)]

@@ -3,27 +3,16 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import PointName
-from planmethod.plans.model import Direction, Plan, PlanKind, Relation
-from planmethod.problem.model import Convention, Problem
+from planmethod.plans.model import Direction, Plan, Relation
+from planmethod.plans.motion.board import is_primed, pole_letter
+from planmethod.problem.model import Problem
 
 SIGN = {Relation.ALONG: "∥", Relation.ACROSS: "⊥"}
 
 
-def _is_primed(problem: Problem, kind: PlanKind) -> bool:
-    """Tell whether a plan's letters carry a prime: the acceleration plan of the mm/unit books."""
-    return kind is PlanKind.ACCELERATION and problem.scales.convention is Convention.MM_PER_UNIT
-
-
-def pole_letter(problem: Problem, kind: PlanKind) -> str:
-    """Return the letter of the pole: p; π on the acceleration plan, or p′ in the mm/unit books."""
-    if kind is PlanKind.VELOCITY:
-        return "p"
-    return "p′" if _is_primed(problem, kind) else "π"
-
-
 def shown_letters(problem: Problem, plan: Plan) -> dict[PointName, list[str]]:
     """Return the letters of every plan point; those of the pole begin with the pole's own."""
-    primed = _is_primed(problem, plan.kind)
+    primed = is_primed(problem, plan.kind)
     letters = {
         at: [_primed(letter) if primed else letter for letter in text.split(", ")]
         for at, text in plan.letters.items()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from planmethod.construct.steps import Compute, LayOff, LineName, NumberName, PointName, Similar
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.formulas import NOTHING, TURNING_UNIT, Formulas
+from planmethod.note.narrate.formulas import NOTHING, Formulas
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import given, plain_text
@@ -150,9 +150,10 @@ class MotionVoice:
             exact = self.say.exactly(abs(self.say.exact(step.out)))
             sides = self.say.product(step.powers, step.factor)
             more = f"{exact}, {sense}."
+            unit = self.solution.legend[str(step.out)].kind.unit
             said = {"place": read.place, "joint": read.joint, "link": link, "sense": sense}
             lines = [
-                self.say.formula(symbol, sides, abs(value), TURNING_UNIT[kind], more),
+                self.say.formula(symbol, sides, abs(value), unit, more),
                 words.turning.format(segment=f"({segment})", **said),
             ]
         table = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon

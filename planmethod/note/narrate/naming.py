@@ -21,23 +21,26 @@ from planmethod.construct.steps import (
     Touch,
 )
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.letters import pole_letter, shown_letters
+from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
-from planmethod.plans.model import STILL, Direction, Plan, PlanKind, Relation, Vector, VectorKind
+from planmethod.plans.model import (
+    FACTS,
+    MOTION,
+    STILL,
+    Direction,
+    Plan,
+    PlanKind,
+    Relation,
+    Vector,
+    VectorKind,
+)
+from planmethod.plans.motion.board import pole_letter
 from planmethod.problem.model import Convention
 from planmethod.solved.solution import Solution
 
-SCALE_KIND = {
-    "mu_l": PlanKind.POSITION,
-    "mu_v": PlanKind.VELOCITY,
-    "mu_a": PlanKind.ACCELERATION,
-}
-SCALE_SYMBOL = {
-    PlanKind.POSITION: "μ_l",
-    PlanKind.VELOCITY: "μ_v",
-    PlanKind.ACCELERATION: "μ_a",
-}
+SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
+SCALE_SYMBOL = {kind: f"μ_{FACTS[kind].letter}" for kind in MOTION}
 
 
 @dataclass(frozen=True, slots=True)

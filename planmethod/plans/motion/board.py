@@ -13,6 +13,7 @@ from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import (
+    FACTS,
     STILL,
     Direction,
     Known,
@@ -22,14 +23,10 @@ from planmethod.plans.model import (
     VectorKind,
 )
 from planmethod.plans.segments import Segments
+from planmethod.problem.model import Convention, Problem
 
-PREFIX = {PlanKind.VELOCITY: "v:", PlanKind.ACCELERATION: "a:"}
-SYMBOL = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
 UNKNOWN_KINDS = (VectorKind.RELATIVE, VectorKind.SLIDING)
 """Components that end in a middle joint: from the pole they are its absolute vector as well."""
-
-POLE = {PlanKind.VELOCITY: "p", PlanKind.ACCELERATION: "π"}
-SCALE = {PlanKind.VELOCITY: "mu_v", PlanKind.ACCELERATION: "mu_a"}
 
 
 def letter(point: str) -> str:
@@ -81,16 +78,16 @@ class Motion:
     @classmethod
     def start(cls, kind: PlanKind, draft: Draft) -> Motion:
         """Put the pole down: the fixed points are there."""
-        pole = draft.b.given(PREFIX[kind] + "0")
+        pole = draft.b.given(FACTS[kind].prefix + "0")
         draft.places[pole] = 0j
-        motion = cls(kind, draft, pole, Segments(draft.b, draft.b.known(SCALE[kind])))
+        motion = cls(kind, draft, pole, Segments(draft.b, draft.b.known(FACTS[kind].scale)))
         for point in draft.problem.bodies[FRAME].points:
             motion.put(FRAME, point, pole, show=bool(motion.sharers(point, FRAME)))
         return motion
 
     def name(self, point: str) -> str:
         """Return the plan's name of a point."""
-        return PREFIX[self.kind] + point
+        return FACTS[self.kind].prefix + point
 
     def sharers(self, point: str, link: str) -> list[str]:
         """Return the other links that a point is a revolute joint of."""
@@ -136,7 +133,7 @@ class Motion:
             self.segments.value(vector.tail, vector.head, _number(vector))
         for name, at in self.named.items():
             if self.point[at] != self.pole:
-                number = f"{SYMBOL[self.kind]}_{name}"
+                number = f"{FACTS[self.kind].letter}_{name}"
                 self.segments.value(self.pole, self.point[at], number)
 
     # Vectors ---------------------------------------------------------------------------------
@@ -155,14 +152,24 @@ class Motion:
     def absolute(self, name: str, at: PointName, known: Known = Known.BOTH) -> Vector:
         """Return the vector of a point from the pole."""
         direction = STILL if at == self.pole else None
-        symbol = f"{SYMBOL[self.kind]}_{{{name}}}"
+        symbol = f"{FACTS[self.kind].letter}_{{{name}}}"
         return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, direction))
+
+
+def is_primed(problem: Problem, kind: PlanKind) -> bool:
+    """Tell whether a plan's letters carry a prime: the acceleration plan of the mm/unit books."""
+    return kind is PlanKind.ACCELERATION and problem.scales.convention is Convention.MM_PER_UNIT
+
+
+def pole_letter(problem: Problem, kind: PlanKind) -> str:
+    """Return the letter of a plan's pole: p, π; p′ for the latter in the mm/unit books."""
+    return "p′" if is_primed(problem, kind) else FACTS[kind].pole
 
 
 def plain_letter(motion: Motion, point: PointName) -> str:
     """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
     if point == motion.pole:
-        return POLE[motion.kind]
+        return pole_letter(motion.draft.problem, motion.kind)
     first = motion.letters.get(point, [str(point)])[0]
     head, brace, tail = first.partition("_{")
     if not brace:

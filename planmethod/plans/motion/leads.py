@@ -17,6 +17,7 @@ from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import (
+    FACTS,
     Direction,
     Known,
     PlanKind,
@@ -27,7 +28,7 @@ from planmethod.plans.model import (
     across,
     towards,
 )
-from planmethod.plans.motion.board import SYMBOL, Motion, Ray
+from planmethod.plans.motion.board import Motion, Ray
 from planmethod.problem.model import Problem, Slide
 
 
@@ -202,7 +203,7 @@ def prismatic_ray(
     both = f"{motion.label(of, place)}{base}"
     problem = kin.draft.problem
     direction = track_direction(slide, problem)
-    symbol = SYMBOL[motion.kind]
+    symbol = FACTS[motion.kind].letter
     terms: list[Vector] = [motion.absolute(base, start)]
     if motion.kind is PlanKind.VELOCITY:
         line = b.parallel(start, guide)
