@@ -85,11 +85,13 @@ class Picture:
 class Line:
     """One typeset line (строка); the block's box is its ink box.
 
-    ``underline`` draws a thin line under it, as under the name of a view.
+    ``underline`` draws a thin line under it, as under the name of a view; ``tag`` is that of its
+    letters.
     """
 
     inscription: Inscription
     underline: bool = False
+    tag: str = ""
 
     @property
     def width(self) -> float:
@@ -107,7 +109,7 @@ class Line:
 
     def place(self, corner: complex) -> list[Item]:
         """Return the letters and the underline."""
-        items = self.inscription.at(corner - 1j * self.inscription.ascent)
+        items = self.inscription.at(corner - 1j * self.inscription.ascent, tag=self.tag)
         if self.underline:
             left = corner - 1j * self.height
             items.append(Stroke((left, left + self.width), Pen.THIN))

@@ -19,6 +19,7 @@ from planmethod.render.ink.drawing import Bounds, Drawing, Span, Text, View
 from planmethod.render.sheets.composition.model import Composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
+from planmethod.render.sheets.texts import CALCULATION
 
 LARGEST = 20.0
 """A segment that so large a plan shows no better is nothing in that position."""
@@ -226,7 +227,7 @@ def _has_room(view: View, times: float, inner: Bounds) -> bool:
 def _told(drawings: Sequence[Drawing]) -> int:
     """Return how many calculations are beside the plans: a scale is not to push them out."""
     texts = (item for drawing in drawings for item in drawing.items if isinstance(item, Text))
-    return sum(text.text.startswith("Расчёт") for text in texts)
+    return len({text.label for text in texts if text.tag == CALCULATION})
 
 
 def _spans(views: Sequence[View], finding: Finding) -> list[Span]:
