@@ -18,7 +18,7 @@ from planmethod import loads
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.records.solution import record
 from planmethod.note.tables.results import result_tables
-from planmethod.note.wording import wording
+from planmethod.note.wording import language, wording
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.ellipses import vertex_ellipses
@@ -41,6 +41,8 @@ from planmethod.solved.errors.forces import DrawnForces, angle_label, moment_lab
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
+
+RU = language("ru")
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 NEAR_DEAD = (230.0, 240.0, 250.0)
@@ -105,7 +107,7 @@ def test_a_driver_that_stands_has_a_dash_for_the_lever() -> None:
     sheets = kinematics_sheets(problem, layout="forces", errors=True, sigma=True)
     assert errors_in(sheets) == []
     reading = ForceReading(Solution(problem), 0)
-    columns = balance_columns(reading, _balances(reading))
+    columns = balance_columns(reading, _balances(reading, RU), RU)
     assert [cell.text for cell in columns[3].cells] == ["—", "—"]
     assert [cell.text for cell in columns[4].cells] == ["—", "—"]
     assert columns[2].cells[1].text != "—"
@@ -230,9 +232,9 @@ def test_what_is_larger_than_half_the_plan_is_told() -> None:
 def test_columns_of_the_reactions(name: str) -> None:
     reading = reading_of(name)
     drawn, found = reading.statics.drawn, reading.statics.reactions
-    read, error = size_columns(reading)
-    turn = angle_column(reading, [False] * len(found))
-    moment = moment_column(reading)
+    read, error = size_columns(reading, RU)
+    turn = angle_column(reading, [False] * len(found), RU.say)
+    moment = moment_column(reading, RU.say)
     for k, joint in enumerate(found):
         for column, label in (
             (error, size_label(joint)),
@@ -258,7 +260,7 @@ def test_columns_of_the_reactions(name: str) -> None:
 
 def test_the_discrepancy_and_its_error_are_of_one_unit() -> None:
     reading = reading_of("levers/task12")
-    _, exact, plans, lever, share = balance_columns(reading, _balances(reading))
+    _, exact, plans, lever, share = balance_columns(reading, _balances(reading, RU), RU)
     drawn = reading.statics.drawn
     assert exact.cells[1].text == "—"
     for column, label in ((plans, "balance"), (lever, "lever")):
@@ -278,7 +280,7 @@ def test_the_table_is_no_wider_than_it_may_be(seed: int, height: float) -> None:
     solution = Solution(problem, positions=problem.drive.positions[:1])
     sizes = composition("forces").sizes_for("A1")
     entry = Entry("reactions", heights=(height,))
-    block = reactions_block(solution, [0], Manner(entry, sizes, 811.0, Extras(sigma=True)))
+    block = reactions_block(solution, [0], Manner(entry, sizes, 811.0, Extras(RU, sigma=True)))
     assert block.width == pytest.approx(185.0)
 
 

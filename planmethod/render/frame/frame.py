@@ -97,7 +97,7 @@ def sheet_frame(
     edge = rectangle((0.0, 0.0, paper.width, paper.height), Pen.THIN, "edge")
     items: list[Item] = [edge, rectangle(room.inner, Pen.FRAME, "frame")]
     corner = complex(room.stamp[0], room.stamp[1])
-    items += shifted(title_block(fields, words, furniture.form_of(sheet)), corner)
+    items += shifted(title_block(fields, furniture.form_of(sheet), lang=furniture.lang), corner)
     turn = 90.0 if paper.stands and paper.size != "A4" else 180.0
     for number, box in furniture.graphs(paper, sheet).items():
         items.append(rectangle(box, Pen.FRAME, STAMP))

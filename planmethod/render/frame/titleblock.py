@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from types import MappingProxyType
 
 from planmethod.errors import LayoutError
-from planmethod.note.wording.frame_model import FrameWording
+from planmethod.note.wording import LANGUAGES, language
 from planmethod.render.frame.forms import FORM_1, Cell, Form
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.style import HEIGHTS
@@ -74,7 +74,12 @@ def merged(*layers: Mapping[str, str]) -> dict[str, str]:
     return {key: text for key, text in fields.items() if text}
 
 
-def title_block(fields: Mapping[str, str], words: FrameWording, form: Form = FORM_1) -> list[Item]:
+def title_block(
+    fields: Mapping[str, str] = MappingProxyType({}),
+    form: Form = FORM_1,
+    *,
+    lang: str = LANGUAGES[0],
+) -> list[Item]:
     """Return the title block, its lower left corner at the origin.
 
     A text that does not fit its cell shrinks to the next letter height, then is wrapped, then
@@ -86,6 +91,7 @@ def title_block(fields: Mapping[str, str], words: FrameWording, form: Form = FOR
         If a field is unknown.
     """
     check_fields(fields)
+    captions = language(lang).frame.captions
     values = merged({key: str(value).strip() for key, value in fields.items()})
     letters = values.get("letter", "").replace(" ", "")
     divided = len(letters) <= len(form.letters)
@@ -99,7 +105,7 @@ def title_block(fields: Mapping[str, str], words: FrameWording, form: Form = FOR
         ]
     items.append(rectangle((0.0, 0.0, form.width, form.height), Pen.FRAME, STAMP))
     for caption, box, align in form.captions:
-        items += filled(words.captions[caption], Cell(box, 2.5, align))
+        items += filled(captions[caption], Cell(box, 2.5, align))
     for key, cell in form.cells.items():
         if key in values:
             items += filled(values[key], cell)

@@ -85,13 +85,11 @@ class Picture:
 class Line:
     """One typeset line (строка); the block's box is its ink box.
 
-    ``underline`` draws a thin line under it, as under the name of a view; ``tag`` is that of its
-    letters.
+    ``underline`` draws a thin line under it, as under the name of a view.
     """
 
     inscription: Inscription
     underline: bool = False
-    tag: str = ""
 
     @property
     def width(self) -> float:
@@ -109,7 +107,7 @@ class Line:
 
     def place(self, corner: complex) -> list[Item]:
         """Return the letters and the underline."""
-        items = self.inscription.at(corner - 1j * self.inscription.ascent, tag=self.tag)
+        items = self.inscription.at(corner - 1j * self.inscription.ascent)
         if self.underline:
             left = corner - 1j * self.height
             items.append(Stroke((left, left + self.width), Pen.THIN))

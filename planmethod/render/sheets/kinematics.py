@@ -101,6 +101,7 @@ def _drawn(
         drawing.extend(sheet_frame(fmt, told, furniture, sheet=number).items)
         drawing.extend(page.items)
         drawing.views.extend(page.views)
+        drawing.is_cut_down, *_ = page.tried
         sheets.append(drawing)
     return sheets
 

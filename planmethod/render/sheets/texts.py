@@ -6,17 +6,13 @@ from collections.abc import Sequence
 
 from planmethod.note.narrate.calculation import calculation
 from planmethod.note.narrate.given import given, wanted
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
+from planmethod.render.layout.block import Block, Column, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
 from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.views import shown_position
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
-
-CALCULATION = "calculation"
-"""Tag of the heading of a calculation."""
 
 
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -65,8 +61,7 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
     if len(solution.positions) > 1:
         title = said.of_position.format(title=title, number=index)
     lines = calculation(solution, kind, index, manner.words)
-    head = Line(typeset(title, height), tag=CALCULATION)
-    return Column([head, *(formula_block(x, height) for x in lines)], gap=2.2)
+    return Column([heading(title, height), *(formula_block(x, height) for x in lines)], gap=2.2)
 
 
 def text_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

@@ -9,13 +9,13 @@ from __future__ import annotations
 from pathlib import Path
 from string import Template
 
-from planmethod.note.wording import language
+from planmethod.note.wording import LANGUAGES, language
 
 SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces", "forces-cycle")
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
 
-def shipped_text(name: str, lang: str) -> str:
+def shipped_text(name: str, lang: str = LANGUAGES[0]) -> str:
     """Return the text of a shipped composition in a language, commented and ready to edit.
 
     Raises
@@ -29,7 +29,7 @@ def shipped_text(name: str, lang: str) -> str:
     return Template(text).substitute(language(lang).layouts)
 
 
-def about(name: str, lang: str) -> str:
+def about(name: str, lang: str = LANGUAGES[0]) -> str:
     """Return what a shipped composition says of itself."""
     import tomllib
 
