@@ -260,7 +260,7 @@ def test_every_reaction_is_told_from_end_to_end() -> None:
         reading, text = ForceReading(solution, 0), forces_of(text_of(solution))
         for plan in reading.plans:
             for edge in plan.reactions:
-                symbol = re.escape(plain_text(edge.symbol))
+                symbol = re.escape(plain_text(language("ru").say.symbol(edge.symbol)))
                 assert re.search(rf"[ :]{symbol} (=|≈) [^;.]*[;.]", text), symbol
                 if not reading.is_none(edge):
                     said = rf"{symbol} (— (вектор )?от|=|замыкает)|реакция {symbol} = "

@@ -27,7 +27,11 @@ from planmethod.note.narrate.forces.lever_lines import (
 from planmethod.note.narrate.forces.moment_lines import plan_moments
 from planmethod.note.numbers import alike, significant
 from planmethod.note.wording import language
-from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.plans.forces.polygons import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    reaction_symbol,
+)
 from planmethod.plans.model import Known
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import Severity
@@ -391,14 +395,14 @@ def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
         one.symbol for one in lever.forces
     )
     assert sorted(couples(sheet, view)) == sorted(one.symbol for one in lever.couples)
-    assert lever.couples[-1].symbol == "M_{ур}"
+    assert lever.couples[-1].symbol == BALANCING_MOMENT
     assert 0.0 < (difference(reading) or 0.0) < 5.0
 
 
 def test_a_driving_slider_is_balanced_by_a_force() -> None:
     problem = loaded_template("driving-slider", "B", "3", "O")
     reading = ForceReading(Solution(problem), 0)
-    assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == ["F_{ур}", "F_{10}"]
+    assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == [BALANCING_FORCE, "F_{10}"]
     plans, lever = both_balances(reading)
     assert lever is not None and plans * lever > 0
     apart, expected = lever_lines(reading, RU)[-2:]
