@@ -66,7 +66,7 @@ FAMILIES = MappingProxyType(
         "slider-crank": "slider-crank mechanism",
         "four-bar": "four-bar linkage",
         "slotted-link": "slotted-link mechanism with a rotating slotted link",
-        "swinging-block": "mechanism with a swinging cylinder (block)",
+        "swinging-block": "mechanism with a swinging cylinder (stone)",
         "sine": "sine mechanism (Scotch yoke)",
         "six-link": "six-link mechanism with a slotted link and a slider",
         "driving-slider": "mechanism with a driving slider",
