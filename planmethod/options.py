@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import click
 
-from planmethod.problem.keys import LANGUAGES
+from planmethod.languages import LANGUAGES
 
 if TYPE_CHECKING:
     import numpy as np

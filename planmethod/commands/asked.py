@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
-from planmethod.problem.keys import LANGUAGES
+from planmethod.languages import LANGUAGES
 
 if TYPE_CHECKING:
     from planmethod.problem.config import Config

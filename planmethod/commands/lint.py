@@ -58,7 +58,7 @@ def lint(
     with the same options, and are not written. Exit code 0 when there is nothing to correct, 1 when
     there are errors. The codes: docs/normcontrol.md.
     """
-    from planmethod.problem.keys import LANGUAGES
+    from planmethod.languages import LANGUAGES
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.control_report import control_record, control_text, counted

@@ -42,8 +42,8 @@ def structure(
     asked: Asked,
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
+    from planmethod.languages import LANGUAGES
     from planmethod.mechanism.structure import analyse
-    from planmethod.problem.keys import LANGUAGES
 
     drawn = not as_json and not no_drawing
     settled = asked.settle() if drawn else None

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-_WORDING = Path(__file__).parents[1] / "note" / "wording"
+from planmethod.languages import LANGUAGES
 
 TOP = (
     "title",
@@ -79,13 +77,6 @@ FORMS = ("1", "1+2a", "2", "2a")
 """Forms of the title block: of every sheet, or of the first and of the later ones."""
 LETTERINGS = ("A", "A-upright", "B", "B-upright")
 """Types of the lettering of GOST 2.304, slanted where nothing else is said."""
-LANGUAGES = tuple(
-    sorted(
-        (path.parent.name for path in _WORDING.glob("*/__init__.py")),
-        key=lambda lang: (lang != "ru", lang),
-    )
-)
-"""Languages of what is written: the folders of `planmethod.note.wording`, the usual one first."""
 SHEET_CHOICES = {"form": FORMS, "lettering": LETTERINGS, "lang": LANGUAGES}
 """Keys of ``[sheet]`` that take one of some names."""
 CONFIG = ("stamp", "sheet")

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
 
+from planmethod.languages import LANGUAGES
 from planmethod.note.audit.quantities import PLANS, Quantities, UnansweredError, Why, is_angle
-from planmethod.note.wording import LANGUAGES, wording
+from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Published, Scales
 from planmethod.problem.selector import FORCES, Selector, parse_selector

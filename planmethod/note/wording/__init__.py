@@ -9,10 +9,10 @@ from functools import cache
 from importlib import import_module
 
 from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.languages import LANGUAGES
 from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.language import Language
 from planmethod.note.wording.model import Wording
-from planmethod.problem.keys import LANGUAGES
 
 
 class UnknownLanguageError(PlanMethodError):

@@ -7,7 +7,8 @@ from difflib import get_close_matches
 from types import MappingProxyType
 
 from planmethod.errors import LayoutError
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
 from planmethod.render.frame.forms import FORM_1, Cell, Form
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.style import HEIGHTS

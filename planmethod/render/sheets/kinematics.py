@@ -9,7 +9,8 @@ from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
 from planmethod.paper import Format
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame.frame import paper_format, sheet_frame

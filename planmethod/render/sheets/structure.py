@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from math import ceil
 
 from planmethod.errors import LayoutError
+from planmethod.languages import LANGUAGES
 from planmethod.mechanism.structure import Structure
-from planmethod.note.wording import LANGUAGES, Language, language
+from planmethod.note.wording import Language, language
 from planmethod.problem.model import Problem
 from planmethod.render.frame.clearance import is_clear
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame

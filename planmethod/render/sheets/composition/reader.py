@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 from planmethod.errors import CompositionError, LayoutError, ProblemError
+from planmethod.languages import LANGUAGES
 from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import (
     Faults,
@@ -14,7 +15,6 @@ from planmethod.problem.fields import (
     read_table,
     show,
 )
-from planmethod.problem.keys import LANGUAGES
 from planmethod.problem.names import joined, near, segment, short
 from planmethod.problem.source import parse, read_source
 from planmethod.render.frame.frame import paper_format

@@ -9,7 +9,8 @@ from __future__ import annotations
 from pathlib import Path
 from string import Template
 
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
 
 SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces", "forces-cycle")
 """Compositions that come with the program; the first two are taken when none is asked for."""
