@@ -26,6 +26,7 @@ NO_WORDS = {
     "problem/sheet.py": "type \u0411 of the lettering in a problem file, an example of a surname",
     "paper.py": "names of formats that files and options may write in Cyrillic letters",
     "render/ink/lettering/shapes.py": "the letters themselves",
+    "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
     "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
     "render/frame/titleblock.py": "field terms of GOST 2.104 in the table of the keys",
     "bench/generator_text.py": "title of a problem file that is written for tests",
@@ -51,7 +52,7 @@ def said(words: object, path: str = "") -> Iterator[tuple[str, object]]:
     elif isinstance(words, Mapping):
         for key, value in words.items():
             yield from said(value, f"{path}[{key}]")
-    elif isinstance(words, tuple) and not path.endswith((".alphabets", ".intro")):
+    elif isinstance(words, tuple) and not path.endswith(".intro"):
         for key, value in enumerate(words):
             yield from said(value, f"{path}[{key}]")
     else:

@@ -26,8 +26,8 @@ class SpecimenWording:
         The sheet of lines: its titles, and the table of the types of lines.
     lettering, kinds, slanted, upright : str
         The sheet of the lettering: its title.
-    alphabets, samples : tuple of str
-        Letters of the language, where they are others than the Latin ones; words and formulas.
+    samples : tuple of str
+        Words and formulas in the lettering.
     measured_title, columns_measured, measures
         The table of the measured letters; ``measures`` by their signs.
     """
@@ -49,7 +49,6 @@ class SpecimenWording:
     kinds: Mapping[str, str]
     slanted: str
     upright: str
-    alphabets: tuple[str, ...]
     samples: tuple[str, ...]
     measured_title: str
     columns_measured: tuple[str, ...]

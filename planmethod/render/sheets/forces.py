@@ -19,6 +19,7 @@ from planmethod.note.narrate.forces.guides import place_lines
 from planmethod.note.narrate.forces.lever_lines import lever_lines
 from planmethod.note.narrate.forces.moment_lines import moment_lines
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import ForcePlan, Share
@@ -63,6 +64,7 @@ class PlanViewed(Viewed):
 
     reading: ForceReading
     number: int
+    say: Notation
 
     def view(self, items: Sequence[Item], corner: complex) -> View:
         """Return what is told of the plan whose items were placed at a corner."""
@@ -79,7 +81,7 @@ class PlanViewed(Viewed):
             reading.scale.per_mm,
             tuple(
                 Span(
-                    plain_text(edge.symbol),
+                    plain_text(self.say.symbol(edge.symbol)),
                     reading.index if len(self.solution.positions) > 1 else None,
                     shift + reading.end(edge.tail),
                     shift + reading.end(edge.head),
@@ -145,7 +147,8 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
     said += told_ellipses([ellipses], solution.profile, words) if manner.extras.errors else []
     picture = polygon_picture(reading, number, manner.letter, words.say, ellipses)
     block = _named(picture, title, said, manner)
-    return PlanViewed(block, solution, PlanKind.POSITION, (reading.index,), reading, number)
+    indices = (reading.index,)
+    return PlanViewed(block, solution, PlanKind.POSITION, indices, reading, number, words.say)
 
 
 def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

@@ -92,7 +92,6 @@ SPECIMENS = SpecimenWording(
     },
     slanted="slanted",
     upright="upright",
-    alphabets=(),
     samples=(
         "Velocity plan of the mechanism",
         "v_{B} = v_{A} + v_{BA}; a^{n}_{BA} = ω^{2}_{2}·l_{AB} = 15.48^{2}·0.145 = 34.9 m/s^{2}",

@@ -23,12 +23,14 @@ HEIGHT = 14.0
 """Height h of the letters on the grid, mm."""
 
 ALPHABETS = (
+    "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯ",
+    "абвгдеёжзийклмнопрстуфхцчшщъыьэюя",
     "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789",
     "abcdefghijklmnopqrstuvwxyzΓΔΘΛΞΠΣΦΨΩ",
     "αβγδεζηθικλμνξοπρστυφχψω.,:;!?-–—+−±×·=",
     "<>≤≥≈≠√∞∠⊥∥№→∅°′″()[]{}/%&«»∑∫∂∇²³ⁿ₁₂△",
 )
-"""Letters and signs that all languages have."""
+"""Letters and signs that the lettering has, whatever the language of the sheet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +84,7 @@ def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
     d = HEIGHT * used.line
     step = used.style.proportions.line_step * d + 4 * d
     low = top - HEIGHT
-    for row in (*said.alphabets, *ALPHABETS):
+    for row in ALPHABETS:
         drawing.extend(_on_grid(row, complex(left, low), inner[2] - EDGE))
         low -= step
     heights = [height for height in HEIGHTS if 2.5 <= height <= 10.0]
