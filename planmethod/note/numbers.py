@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import SupportsFloat
@@ -57,6 +58,14 @@ def rich_number(text: str, decimal: str) -> str:
         return mantissa
     exponent = str(int(power)).replace("-", MINUS)
     return f"{mantissa}·10^{{{exponent}}}"
+
+
+def raised(unit: str) -> str:
+    """Return a unit of plain text as rich text: ``m/s²`` gives ``m/s^{2}``."""
+    return _POWER.sub(lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
+
+
+_POWER, _LEVEL = re.compile("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,8 +11,8 @@ import pytest
 
 import planmethod
 from planmethod.errors import ExitCode
+from planmethod.note.audit.asking import Why
 from planmethod.note.audit.audit import Verdict
-from planmethod.note.audit.quantities import Why
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
 from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT
@@ -29,7 +29,6 @@ NO_WORDS = {
     "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
     "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
     "render/frame/titleblock.py": "field terms of GOST 2.104 in the table of the keys",
-    "bench/generator_text.py": "title of a problem file that is written for tests",
 }
 """Where Cyrillic letters stand that no language says to a reader, and why."""
 

@@ -9,7 +9,8 @@ from decimal import Decimal
 from enum import Enum
 
 from planmethod.languages import LANGUAGES
-from planmethod.note.audit.quantities import PLANS, Quantities, UnansweredError, Why, is_angle
+from planmethod.note.audit.asking import PLANS, UnansweredError, Why
+from planmethod.note.audit.quantities import Quantities, is_angle
 from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Published, Scales

@@ -13,8 +13,8 @@ from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
-from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.reactionerrors import (
     angle_column,
     balance_columns,
@@ -75,11 +75,11 @@ def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
     """Return the columns of what balances the driver, by both methods."""
     said, say = words.sheets, words.say
     symbol = say.symbol(reading.balancing_symbol)
-    unit = say.units["N·m" if reading.statics.driving.moment is not None else "N"]
+    unit = say.units["N·m" if reading.statics.driving.force is None else "N"]
     exact = float(reading.statics.balance[reading.index])
     plans, lever = both_balances(reading)
     share = difference(reading)
-    sense = reading.statics.driving.moment is not None
+    sense = reading.statics.driving.force is None
 
     def cell(value: float | None) -> Cell:
         if value is None:

@@ -1,13 +1,12 @@
 """Sentences in English (английский каталог)."""
 
-from planmethod.note.plaintext import plain_text
-from planmethod.note.wording.en.numbers import NOTATION
+from planmethod.note.wording.en.numbers import NOTATION, UNITS
 from planmethod.note.wording.model import Wording
 
 NOTE = Wording(
     lang="en",
     decimal=NOTATION.decimal,
-    units={name: plain_text(unit) for name, unit in NOTATION.units.items()},
+    units=UNITS,
     ccw="counter-clockwise",
     cw="clockwise",
     left="left",

@@ -1,13 +1,12 @@
 """Sentences in Russian (русский каталог)."""
 
-from planmethod.note.plaintext import plain_text
 from planmethod.note.wording.model import Wording
-from planmethod.note.wording.ru.numbers import NOTATION
+from planmethod.note.wording.ru.numbers import NOTATION, UNITS
 
 NOTE = Wording(
     lang="ru",
     decimal=NOTATION.decimal,
-    units={name: plain_text(unit) for name, unit in NOTATION.units.items()},
+    units=UNITS,
     ccw="против часовой стрелки",
     cw="по часовой стрелке",
     left="слева",
