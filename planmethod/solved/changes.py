@@ -1,4 +1,4 @@
-"""Change points: where a group may go on in either of its closings (точки ветвления).
+"""Change points: where a group may go on in either of its closings (точка ветвления).
 
 A closing is on one side of a line, and the side is data of its step. Where both closings meet in
 one place and part again, a motion that goes on smoothly changes sides; plans that keep the side go

@@ -254,8 +254,8 @@ def _judge(
     distinct = able[apart[able] > TIE * size]
     if not distinct.size:
         raise AssemblyError(
-            f"{problem.name}: at {name} = {positions[able[0]]:.12g} both closings put {rule.point} at "
-            "one place: the mechanism stands in a dead position, from which it may go on either "
+            f"{problem.name}: at {name} = {positions[able[0]]:.12g} both closings put {rule.point} "
+            "at one place: the mechanism stands in a dead position, from which it may go on either "
             "way. Ask another position."
         )
     first = int(distinct[0])
@@ -313,7 +313,9 @@ def _ambiguous(
         and min(sides := (((c - at(one, p)) / along).imag, -((d - at(one, p)) / along).imag)) > 0
     ]
     places = [f"({z.real:.4g}, {z.imag:.4g})" for z in (c + draft.origin, d + draft.origin)]
-    near = [f"{{ near = [{z.real:.4g}, {z.imag:.4g}] }}" for z in (c + draft.origin, d + draft.origin)]
+    near = [
+        f"{{ near = [{z.real:.4g}, {z.imag:.4g}] }}" for z in (c + draft.origin, d + draft.origin)
+    ]
     _, *words = max(told, key=lambda pair: pair[0], default=(0.0, *near))
     return Fault(
         f"assembly.{rule.point}",

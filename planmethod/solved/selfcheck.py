@@ -25,6 +25,9 @@ MOST_NAMED = 5
 NEAR = 1e-3
 """Margin below which a position is called next to a dead one."""
 
+AT = 1e-7
+"""How well a change point is found, in parts of the driver's way."""
+
 LIMIT = 1e-7
 """Largest closing error, as a share of the largest value of its kind in the position."""
 
@@ -78,12 +81,15 @@ def changed_branches(solution: Solution) -> list[str]:
             low,
             high,
         )
-        if found:
-            said.append(_change(solution, group, found))
+        # What is asked last, the motion comes to and does not pass.
+        slack = AT * (high - low)
+        passed = [place for place in found if low + slack < place < high - slack]
+        if passed:
+            said.append(_change(solution, group, passed))
     return said
 
 
-def _change(solution: Solution, group: AssurGroup, found: tuple[float, ...]) -> str:
+def _change(solution: Solution, group: AssurGroup, found: list[float]) -> str:
     name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
     places = " and ".join(dict.fromkeys(f"{round(place, 4) + 0.0:.10g}" for place in found))
     text = (

@@ -83,6 +83,6 @@ def test_rules_of_one_group_must_agree() -> None:
         parallelogram("50", "E = { near = [0.19, -0.1] }")
     (fault,) = caught.value.faults
     assert str(fault) == (
-        "assembly.E: 'E near [0.19, -0.1]' and 'C left of BD' ask for different closings of links 2, 3. "
-        "Keep the one that is meant"
+        "assembly.E: 'E near [0.19, -0.1]' and 'C left of BD' ask for different closings of links "
+        "2, 3. Keep the one that is meant"
     )
