@@ -138,7 +138,7 @@ def apply(
             side, span, arm = env[c] - env[b], env[C] - env[B], env[s] - env[B]
             scale = ar.reread(out, abs(side))
             if read_span:
-                scale = scale / ar.reread(out, abs(span))
+                scale = scale / ar.nonzero(ar.reread(out, abs(span)))
             if read_arm:
                 scale = scale * ar.reread(out, abs(arm))
             point = env[b] + side * (arm / ar.nonzero(span)) * scale

@@ -71,7 +71,9 @@ def trimmed(value: float, digits: int | None = None) -> str:
 
 
 def russian(text: str) -> str:
-    """Return a plain number as rich text: decimal comma, minus sign, power of ten."""
+    """Return a plain number as rich text: decimal comma, minus sign, power of ten, dash of NaN."""
+    if text.endswith(("nan", "inf")):
+        return "—"
     mantissa, e, power = text.partition("e")
     mantissa = mantissa.replace(".", ",").replace("-", MINUS)
     if not e:

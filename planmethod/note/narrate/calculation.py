@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from planmethod.construct.steps import NumberName, PointName, Similar
 from planmethod.note.narrate.letters import segment
 from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
@@ -14,6 +16,10 @@ from planmethod.solved.solution import Solution
 UNIT = {PlanKind.VELOCITY: "m/s", PlanKind.ACCELERATION: "m/s²"}
 LETTER = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
 TURNING = {PlanKind.VELOCITY: ("ω", "1/s"), PlanKind.ACCELERATION: ("ε", "1/s²")}
+
+
+UNREADABLE = "на этом плане не читается"
+"""What is said of a quantity that the hand divides by what the ruler reads as 0."""
 
 
 def _given(value: float) -> str:
@@ -103,6 +109,8 @@ class Calculation:
     def _vector(self, vector: Vector) -> str:
         ends = (vector.tail, vector.head)
         letters, mm = self._letters(*ends), self._read(*ends)
+        if not math.isfinite(mm):
+            return f"{vector.symbol} {UNREADABLE}"
         source = self._source(vector)
         if source is not None:
             value = f"{_found(self.mu * mm)} {self.unit}"
@@ -201,6 +209,8 @@ class Calculation:
         whole = self._read(step.plan_b, step.plan_c)
         found, given = (self._letters(step.plan_b, p) for p in (step.out, step.plan_c))
         ratio = f"{mark(b, s)}/{mark(b, c)}"
+        if not (lengths[1] and math.isfinite(whole)):
+            return f"{found} = {given}·{ratio} {UNREADABLE}"
         numbers = f"{_mm(whole)}·{_mm(lengths[0])}/{_mm(lengths[1])}"
         return f"{found} = {given}·{ratio} = {numbers} = {_mm(whole * lengths[0] / lengths[1])} мм"
 
@@ -221,6 +231,8 @@ class Calculation:
             lines.append(self._measured_arm(arm, mark(read.joint, read.place), metres))
         if not value:
             lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} = 0")
+        elif not math.isfinite(value):
+            lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} {UNREADABLE}")
         else:
             sense = "против часовой стрелки" if value > 0 else "по часовой стрелке"
             numbers = f"{_found(component)}/{_given(round(metres, 9))}"

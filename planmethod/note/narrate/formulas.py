@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from planmethod.construct.steps import Compute, LineName, NumberName, PointName
+from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import found, given, plain_text
 from planmethod.plans.model import PlanKind, Vector
@@ -40,6 +40,12 @@ class Formulas:
     def exact(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
         return float(self.solution.reals(self.solution.paper, name)[self.index])
+
+    def readable(self, name: Name) -> bool:
+        """Tell whether the hand has a value: not where it divides by what the ruler reads as 0."""
+        value = self.solution.by_hand.value[name]
+        parts = [np.ravel(part) for part in (value if isinstance(value, tuple) else (value,))]
+        return all(np.isfinite(part[self.index if part.size > 1 else 0]) for part in parts)
 
     def _between(self, tail: PointName, head: PointName) -> tuple[complex, complex]:
         def ends(column: Complexes) -> complex:
@@ -164,10 +170,14 @@ class Formulas:
             if not self.names.is_inverse_scale()
             else [(segment, length, 1, False), (self.names.symbol(NumberName(scale)), mu, 1, True)]
         )
-        exact = self.exactly(self.true_length(vector.tail, vector.head) * mu)
+        true = self.true_length(vector.tail, vector.head) * mu
+        exact = self.exactly(true)
         symbol = plain_text(vector.symbol)
         if vector.tail in self.names.poles:  # from the pole: the whole, whatever drew it first
             symbol = self.names.absolute(vector.head) or symbol
+        if not np.isfinite(length):
+            exact = f"{found(true, self.words)} {self.unit(UNIT[kind])}"
+            return self.words.unreadable_value.format(symbol=symbol, exact=exact)
         return self.formula(symbol, sides, length * mu, UNIT[kind], exact)
 
 

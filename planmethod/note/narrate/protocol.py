@@ -131,6 +131,7 @@ class _Writer(Steps):
             told = self.narrator.tell(step)
             self.item(told, more=measured and bool(told))
             measured = isinstance(step, MeasureAlong)
+        self.item(self.narrator.undrawn(section.steps))
         if section.kind is not PlanKind.POSITION:
             read = self.narrator.motion.readings(section.kind, made)
             if read:
