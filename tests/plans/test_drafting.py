@@ -298,7 +298,7 @@ def test_the_documented_strokes_err_by_what_they_do() -> None:
 
 
 def test_sigma_exists_wherever_the_exact_value_does() -> None:
-    """S3 stands at its own pivot: lines through the two have no direction, and nothing hangs on it."""
+    """S3 stands at its own pivot: a line through both has no direction, and nothing needs it."""
     solution = Solution(load(CASES / "point-at-pivot.toml"))
     for errors in (solution.drafting, solution.statics.drawn):
         for label, spread in errors.spreads.items():
