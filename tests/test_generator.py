@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from newton import NotClosedError, differentiate, residual, solve
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.mechanism.structure import analyse
 from planmethod.problem import loads

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from worked import PROBLEMS, ROOT, every_file, path_of, problem_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.problem import load, loads, variant_names
 from planmethod.render.backends import render

@@ -12,7 +12,7 @@ import numpy.typing as npt
 import pytest
 from worked import DEAD, every_file, path_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError
 from planmethod.problem import load, loads
