@@ -1,9 +1,12 @@
-# make demo: everything from nothing to the drawn sheets; make test: the whole suite; make lint: what CI demands.
+# make demo: everything from nothing to the drawn sheets; make test: the whole suite; make test-thorough: with all random
+# mechanisms and many more examples; make lint: what CI demands.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint format tables gallery clean
+TESTS := $(BIN)/python -m pytest -n 2 --dist loadfile
+
+.PHONY: demo test test-thorough lint format tables gallery clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -15,7 +18,10 @@ demo: $(VENV)/.ready
 	$(BIN)/planmethod sheet --format svg,pdf -o out problems/linkages/*.toml problems/levers/*.toml problems/press/*.toml
 
 test: $(VENV)/.ready
-	$(BIN)/python -m pytest -n 2
+	$(TESTS)
+
+test-thorough: $(VENV)/.ready
+	$(TESTS) --thorough
 
 lint: $(VENV)/.ready
 	$(BIN)/ruff check .

@@ -112,8 +112,8 @@ def test_options_that_the_text_speaks_of_exist(name: str) -> None:
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.stem)
 def test_make_knows_the_targets(document: Path) -> None:
-    targets = set(re.findall(r"(?m)^([a-z]+):", text_of("Makefile")))
-    assert set(re.findall(r"(?m)(?:`|^)make ([a-z]+)", document.read_text("utf-8"))) <= targets
+    targets = set(re.findall(r"(?m)^([a-z-]+):", text_of("Makefile")))
+    assert set(re.findall(r"(?m)(?:`|^)make ([a-z-]+)", document.read_text("utf-8"))) <= targets
 
 
 # Examples ----------------------------------------------------------------------------------------

@@ -1,0 +1,65 @@
+"""Cases of a test: which are taken by default and which with ``--thorough``, many in one test."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import pytest
+
+Test = Callable[..., None]
+
+_taken = {"everything": False}
+
+
+def take(*, everything: bool) -> None:
+    """Say, before the test modules are imported, whether all cases are taken."""
+    _taken["everything"] = everything
+
+
+def some(count: int, few: int) -> int:
+    """Return how many examples or seeds are taken of so many: a few by default."""
+    return count if _taken["everything"] else few
+
+
+def each(names: str, cases: Iterable[Any]) -> Callable[[Test], Test]:
+    """Run a test over many cases as one; a failure names its case.
+
+    Like ``pytest.mark.parametrize``, for cases that are quicker than what pytest spends on a case.
+    The cases share the fixtures of the test. One that skips itself is left out; if all do, so does
+    the test.
+
+    Parameters
+    ----------
+    names : str
+        Arguments of the test, comma-separated.
+    cases : iterable
+        Values of the argument, or tuples of them if there are several.
+    """
+    keys = [name.strip() for name in names.split(",")]
+    rows = [dict(zip(keys, case if len(keys) > 1 else [case], strict=True)) for case in cases]
+    assert rows
+
+    def join(test: Test) -> Test:
+        @functools.wraps(test)
+        def run(*args: Any, **given: Any) -> None:
+            skipped = []
+            for row in rows:
+                try:
+                    test(*args, **row, **given)
+                except pytest.skip.Exception as reason:
+                    skipped.append(reason)
+                except BaseException as fault:
+                    fault.add_note(", ".join(f"{key} = {value!r}" for key, value in row.items()))
+                    raise
+            if len(skipped) == len(rows):
+                raise skipped[0]
+
+        own = inspect.signature(test)
+        left = [one for name, one in own.parameters.items() if name not in keys]
+        run.__signature__ = own.replace(parameters=left)  # type: ignore[attr-defined]
+        return run
+
+    return join
