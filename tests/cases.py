@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeVar
 
 import pytest
 
 Test = Callable[..., None]
+T = TypeVar("T")
 
 _taken = {"everything": False}
 
@@ -20,8 +21,13 @@ def take(*, everything: bool) -> None:
 
 
 def some(count: int, few: int) -> int:
-    """Return how many examples or seeds are taken of so many: a few by default."""
+    """Return how many seeds or examples are taken: all of so many, or by default a few."""
     return count if _taken["everything"] else few
+
+
+def thinned(cases: Sequence[T], step: int) -> Sequence[T]:
+    """Return all cases, or by default the first of each so many."""
+    return cases if _taken["everything"] else cases[::step]
 
 
 def each(names: str, cases: Iterable[Any]) -> Callable[[Test], Test]:
