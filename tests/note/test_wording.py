@@ -6,6 +6,7 @@ from pathlib import Path
 from string import Formatter
 
 import pytest
+from cases import each
 
 import planmethod
 from planmethod.errors import ExitCode
@@ -28,7 +29,7 @@ def places(text: str) -> set[str]:
     return {name for _, name, _, _ in Formatter().parse(text) if name}
 
 
-@pytest.mark.parametrize(("catalogues", "name"), TEMPLATES, ids=[name for _, name in TEMPLATES])
+@each("catalogues, name", TEMPLATES)
 def test_catalogues_fill_the_same_places(catalogues: tuple[object, ...], name: str) -> None:
     one, *others = (getattr(catalogue, name) for catalogue in catalogues)
     for other in others:
