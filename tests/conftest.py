@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,6 +23,8 @@ def pytest_configure(config: pytest.Config) -> None:
     thorough = bool(config.getoption("--thorough"))
     settings.load_profile("thorough" if thorough else "planmethod")
     cases.take(everything=thorough)
+    # As in the commands: what the tests share is large, and looking for cycles in it a twentieth.
+    gc.set_threshold(100_000)
 
 
 @pytest.fixture(scope="session", autouse=True)
