@@ -1,5 +1,6 @@
 # make demo: everything from nothing to the drawn sheets; make test: the whole suite; make test-thorough: with all random
-# mechanisms and many more examples; make lint: what CI demands.
+# mechanisms and many more examples; make lint: what CI demands; make bench: speed and errors measured anew (minutes, on a
+# quiet machine).
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -8,7 +9,7 @@ BIN := $(VENV)/bin
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-thorough lint format tables gallery clean
+.PHONY: demo test test-thorough lint format tables gallery bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -48,6 +49,11 @@ gallery: $(VENV)/.ready
 	$(BIN)/planmethod specimen symbols --format png --dpi 70 -o docs/gallery
 	$(BIN)/planmethod specimen lines --format png --dpi 90 -o docs/gallery
 	$(BIN)/planmethod specimen lettering --format png --dpi 45 -o docs/gallery
+
+# Writes docs/speed-and-error.md and its figure; the peers come with the extra.
+bench: $(VENV)/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[bench]'
+	$(BIN)/python -m benchmarks $(sort $(wildcard problems/*/*.toml))
 
 clean:
 	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png

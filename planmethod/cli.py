@@ -1,4 +1,4 @@
-"""Command line: the commands by name, and the last nets; no geometry here.
+"""Command line: the commands by name, and the last safety nets; no geometry here.
 
 What a command does not need it does not import: a command's module is imported when the command is
 called, and the imports of the work stand in its functions.
@@ -62,12 +62,12 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
-    # A command lives a fraction of a second and makes few cycles: looking for them is a twentieth.
+    # A command lives a fraction of a second and makes few cycles: the search costs a twentieth.
     gc.set_threshold(100_000)
     try:
         cli()
     except SystemExit as end:
-        # click says 1 where a reader closed the pipe: that is no finding.
+        # click exits with 1 when the reader closes the pipe: that is not a finding.
         closed = "PacifyFlushWrapper" in type(sys.stdout).__name__
         sys.exit(ExitCode.DONE if closed and end.code == 1 else end.code)
     except BrokenPipeError:
@@ -75,7 +75,7 @@ def main() -> None:
     except OSError as error:
         click.echo(f"Error: cannot write the output: {error.strerror or error}.", err=True)
         sys.exit(ExitCode.USAGE)
-    except Exception as error:  # the last net
+    except Exception as error:  # the last safety net
         click.echo(
             f"Error: planmethod failed inside ({type(error).__name__}: {error}). Please report the "
             "problem file and the command.",

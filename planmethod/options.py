@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -24,7 +25,7 @@ MOST_POSITIONS = 1_000_000
 """Most positions that ``--phi`` may ask for."""
 
 MOST_SWEPT = 10_000_000
-"""Most positions where they are swept, not drawn: ``--npz`` and ``--ask``."""
+"""The same where they are swept, not drawn: ``--npz`` and ``--ask``."""
 
 
 def read_positions(
@@ -41,7 +42,7 @@ def read_positions(
         try:
             numbers = [float(number) for number in part.split(":")]
         except ValueError:
-            raise click.BadParameter(f"{part!r} is not a number nor from:to:step") from None
+            raise click.BadParameter(f"{part!r} is neither a number nor from:to:step") from None
         parts.append(_expanded(numbers, part, most))
         count += len(parts[-1])
         if count > most:
@@ -71,7 +72,7 @@ def _expanded(numbers: list[float], part: str, most: int) -> Positions:
 def read_labels(
     ctx: click.Context, param: click.Parameter, value: str | None
 ) -> tuple[str, ...] | None:
-    """Return the labels of results of a list with commas."""
+    """Return the labels of results of a comma-separated list."""
     if value is None:
         return None
     labels = tuple(dict.fromkeys(label.strip() for label in value.split(",") if label.strip()))
@@ -88,7 +89,7 @@ def read_ruler(ctx: click.Context, param: click.Parameter, value: float | None) 
 
 
 def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
-    """Return the output formats of a list with commas, each known."""
+    """Return the output formats of a comma-separated list, checked."""
     from planmethod.render.backends import BACKENDS, DXF_NEEDS, is_absent
 
     names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
@@ -152,8 +153,6 @@ def hand_options(command: F) -> F:
 
 def drawn_by(profile: str, ruler: float | None) -> Profile:
     """Return the hand of a profile, with another ruler if one is given."""
-    from dataclasses import replace
-
     from planmethod.construct.drafting import PROFILES
 
     hand = PROFILES[profile]
@@ -161,7 +160,7 @@ def drawn_by(profile: str, ruler: float | None) -> Profile:
 
 
 def positions_option(most: int) -> Callable[[F], F]:
-    """Add the positions of the driver, so many at the most."""
+    """Add the positions of the driver, at most so many."""
     return click.option(
         "--phi",
         callback=functools.partial(read_positions, most=most),

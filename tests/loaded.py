@@ -7,7 +7,7 @@ import re
 import tomllib
 from dataclasses import replace
 
-from planmethod.bench.generator import Pose, random_problem
+from benchmarks.generator import Pose, random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 

@@ -296,10 +296,10 @@ def test_other_positions(phi: str, wanted: list[float]) -> None:
 @pytest.mark.parametrize(
     ("phi", "message"),
     [
-        ("north", "'north' is not a number nor from:to:step"),
+        ("north", "'north' is neither a number nor from:to:step"),
         ("0,5", None),  # two positions, no decimal comma
-        ("", "'' is not a number nor from:to:step"),
-        ("1,,2", "'' is not a number nor from:to:step"),
+        ("", "'' is neither a number nor from:to:step"),
+        ("1,,2", "'' is neither a number nor from:to:step"),
         ("0:360", "'0:360' is not from:to:step with a step that is not 0"),
         ("0:360:0", "'0:360:0' is not from:to:step with a step that is not 0"),
         ("0:1:2:3", "is not from:to:step"),
@@ -310,7 +310,7 @@ def test_other_positions(phi: str, wanted: list[float]) -> None:
         ("nan", "'nan' is out of range"),
         ("inf", "'inf' is out of range"),
         ("1e12", "'1e12' is out of range"),
-        ("20°", "'20°' is not a number"),
+        ("20°", "'20°' is neither a number nor"),
     ],
 )
 def test_bad_positions(phi: str, message: str | None) -> None:

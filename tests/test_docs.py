@@ -183,7 +183,7 @@ def test_links_lead_to_files(document: Path) -> None:
 @each("document", [ROOT / "CONTRIBUTING.md", *ADRS])
 def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
     text = document.read_text(encoding="utf-8")
-    folders = ("planmethod", "tests", "docs", "problems")
+    folders = ("planmethod", "benchmarks", "tests", "docs", "problems")
     packages = ("construct", "mechanism", "problem", "plans", "note", "render")
     for span in re.findall(r"`([\w.-]+/[\w./-]*)`", text):
         top = span.split("/")[0]
@@ -194,10 +194,17 @@ def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
 
 
 def test_the_house_is_as_the_linter_holds_it() -> None:
-    (contract,) = tomllib.loads(text_of("pyproject.toml"))["tool"]["importlinter"]["contracts"]
-    rows = first_cells("CONTRIBUTING.md", r"`(planmethod/[\w./]+)`")
+    contracts = tomllib.loads(text_of("pyproject.toml"))["tool"]["importlinter"]["contracts"]
+    rows = first_cells("CONTRIBUTING.md", r"`((?:benchmarks|planmethod)/[\w./]*)`")
     said = [row.rstrip("/").removesuffix(".py").replace("/", ".") for row in rows]
-    assert said == contract["layers"]
+    assert said == contracts[0]["layers"]
+    floors = {one["containers"][0]: one["layers"] for one in contracts if "containers" in one}
+    for folder in ("note", "render"):
+        (told,) = re.findall(
+            rf"(?m)^\| `planmethod/{folder}/` .*From above: (.*?) \|", text_of("CONTRIBUTING.md")
+        )
+        listed = [floor.replace("`", "").replace(", ", " | ") for floor in told.split(" · ")]
+        assert listed == floors[f"planmethod.{folder}"]
 
 
 # Records -----------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ import pytest
 from cases import each, some
 from newton import NotClosedError, differentiate, residual, solve
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.mechanism.structure import analyse
 from planmethod.problem import loads

@@ -14,7 +14,7 @@ import pytest
 from cases import each, some, thinned
 from worked import PROBLEMS, ROOT, drawn_sheets, every_file, path_of, problem_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.problem import loads, variant_names
 from planmethod.render.backends import render

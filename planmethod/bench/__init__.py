@@ -1,1 +1,1 @@
-"""A speed benchmark: one four-bar, solved here and by peers."""
+"""Speed beside error of one's own problem."""

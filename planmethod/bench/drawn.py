@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,6 +67,6 @@ def compare(problem: Problem, profile: Profile, *, draws: int = DRAWS) -> Compar
     return Compared(name, profile.name, len(ratios), least, most, given_up, short)
 
 
-def compare_all(problems: list[Problem]) -> list[Compared]:
+def compare_all(problems: Sequence[Problem]) -> list[Compared]:
     """Compare every problem drawn by every hand."""
     return [compare(problem, profile) for problem in problems for profile in PROFILES.values()]

@@ -1,4 +1,4 @@
-"""Force plans: their time and error beside those of one linear system of all links."""
+"""Force plans: time beside error, and the lever beside the force plans."""
 
 from __future__ import annotations
 
@@ -10,14 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.bench.clock import clock
-from planmethod.bench.scenes import loaded
-from planmethod.bench.speed import RIGHT, Reading, turn
+from planmethod.bench.speed import RIGHT, Reading, places, turns_round
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
-from planmethod.errors import AssemblyError
-from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Problem
 from planmethod.solved.errors.forces import size_label
@@ -38,11 +35,10 @@ SI = {**UNIT_SCALES, SCALE: 1.0}
 def forces_of(statics: Statics, value: Any) -> list[Number]:
     """Return the reactions and the balance of a trace."""
     found = [value[r.force.head] - value[r.force.tail] for r in statics.board.reactions]
-    assert statics.driving.moment is not None
-    return [*found, value[statics.driving.moment]]
+    return [*found, value[statics.driving.balance]]
 
 
-def _error(statics: Statics, found: Sequence[Array]) -> float:
+def error_of(statics: Statics, found: Sequence[Array]) -> float:
     """Return the largest error of a position in units of its largest force (and moment)."""
     count = len(statics.solution.positions)
     worst = 0.0
@@ -72,12 +68,11 @@ def _batch(statics: Statics, trace: Any) -> list[Array]:
     return [np.broadcast_to(row, shape) for row in forces_of(statics, trace.value)]
 
 
-def readings(counts: Sequence[int]) -> list[Reading]:
-    """Time the force plans, the motion alone, the hand, and all links at once."""
-    problem = loaded()
+def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
+    """Time the force plans, the motion alone, and the hand."""
     found: list[Reading] = []
     for count in counts:
-        solution = Solution(problem, positions=turn(count).tolist())
+        solution = Solution(problem, positions=places(problem, count).tolist())
         statics = solution.statics
 
         def read(s: Statics = statics) -> Any:
@@ -86,19 +81,12 @@ def readings(counts: Sequence[int]) -> list[Reading]:
         def alone(s: Solution = solution) -> Any:
             return s.read(Float64(), UNIT_SCALES)
 
-        def at_once(s: Statics = statics) -> list[Array]:
-            return all_at_once(s)
-
         name = problem.name
         found += [
             Reading("motion alone, step by step", name, count, clock(alone).median, float("nan")),
             Reading(
                 "motion and force plans, step by step",
-                name, count, clock(read).median, _error(statics, _batch(statics, read())),
-            ),
-            Reading(
-                "3n equations at once, NumPy, after the motion",
-                name, count, clock(at_once).median, _error(statics, at_once()),
+                name, count, clock(read).median, error_of(statics, _batch(statics, read())),
             ),
         ]  # fmt: skip
     return [*found, *_of_one(problem)]
@@ -106,7 +94,8 @@ def readings(counts: Sequence[int]) -> list[Reading]:
 
 def _of_one(problem: Problem) -> list[Reading]:
     """Time what is read in one position: planning, referee, hand."""
-    solution = Solution(problem, positions=[20.0])
+    position = problem.drive.positions[0]
+    solution = Solution(problem, positions=[position])
     statics, name = solution.statics, problem.name
 
     def precisely() -> list[Number]:
@@ -123,7 +112,7 @@ def _of_one(problem: Problem) -> list[Reading]:
         ),
     ]  # fmt: skip
     for ruler in (0.1, 0.5, 1.0):
-        drawn = Solution(problem, positions=[20.0], ruler=ruler).statics
+        drawn = Solution(problem, positions=[position], ruler=ruler).statics
         reading = clock(lambda s=drawn: s.read(s.solution.hand, s.per_mm))  # type: ignore[misc]
         found.append(
             Reading(f"the hand, ruler {ruler:g} mm", name, 1, reading.median, _hand_error(drawn))
@@ -143,75 +132,6 @@ def _hand_error(statics: Statics) -> float:
     read = [statics.drawn.read(size_label(joint))[0] for joint in statics.reactions]
     gaps = [abs(one - size) for one, size in zip(read, sizes, strict=True)]
     return float(max(gaps) / max(sizes))
-
-
-def _over_a_turn(problem: Problem) -> Solution:
-    drive = problem.drive
-    if drive.is_crank:
-        try:
-            solution = Solution(problem, positions=(turn(12) + drive.positions[0]).tolist())
-            _ = solution.statics.si
-        except AssemblyError:
-            pass
-        else:
-            return solution
-    return Solution(problem)
-
-
-# All links at once -------------------------------------------------------------------------------
-
-
-def all_at_once(statics: Statics) -> list[Array]:
-    """Return reactions and balance from the 3n equations of all links, position by position.
-
-    The unknowns are those of the force plans, in their order; places, directions of the guides and
-    loads are those of the solution.
-    """
-    solution = statics.solution
-    links = {link: 3 * k for k, link in enumerate(solution.problem.mechanism.links)}
-    count, size = len(solution.positions), 3 * len(links)
-    matrix, right = np.zeros((count, size, size)), np.zeros((count, size))
-    columns: list[tuple[int, Array | None]] = []  # first column of a reaction; its line, of a guide
-
-    def put(column: int, on: str, by: str, force: Any, moment: Any) -> None:
-        for link, sign in ((on, 1.0), (by, -1.0)):
-            if link != FRAME:
-                for k, part in enumerate((force.real, force.imag, moment)):
-                    matrix[:, links[link] + k, column] += sign * part
-
-    column = 0
-    for reaction in statics.board.reactions:
-        at = solution.place(reaction.force.at)
-        line = _across(solution, reaction.on, reaction.by) if reaction.couple is not None else None
-        columns.append((column, line))
-        for force in (1.0 + 0j, 1j) if line is None else (line, 0j):
-            moment = (at.conjugate() * force).imag if np.any(force) else 1.0
-            put(column, reaction.on, reaction.by, np.asarray(force), moment)
-            column += 1
-    put(column, solution.problem.drive.link, FRAME, np.asarray(0j), 1.0)
-    for given in statics.board.given:
-        one = given.applied
-        place = np.zeros(1) if one.point is None else solution.points[one.point].place
-        moment = one.couple + (np.conj(place) * one.force).imag
-        for k, part in enumerate((one.force.real, one.force.imag, moment)):
-            right[:, links[one.link] + k] -= part
-    values = np.linalg.solve(matrix, right[:, :, np.newaxis])[:, :, 0]
-    found = [
-        values[:, k] + 1j * values[:, k + 1] if line is None else values[:, k] * line
-        for k, line in columns
-    ]
-    return [*found, values[:, -1]]
-
-
-def _across(solution: Solution, one: str, two: str) -> Array:
-    """Return the unit vector across the guide between two links."""
-    slides = solution.problem.slides
-    slide = slides[one] if one in slides and slides[one].host == two else slides[two]
-    host = np.zeros(1) if slide.host == FRAME else solution.links[slide.host].phi_deg
-    return np.exp(1j * np.radians(host + slide.angle)) * 1j
-
-
-# Lever and force plans ---------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +159,8 @@ def discrepancy(problem: Problem) -> Discrepancy:
 
     In twelve positions of a turn; in those of the file where the driver cannot turn all round.
     """
-    statics = _over_a_turn(problem).statics
+    around = places(problem, 12).tolist() if turns_round(problem) else None
+    statics = Solution(problem, positions=around).statics
     positions = statics.solution.positions
     sigma = statics.drawn.discrepancy_sigma
     assert sigma is not None

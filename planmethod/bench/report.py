@@ -1,18 +1,18 @@
-"""The document of the benchmark: every table with the command that makes it."""
+"""Sections of a report on the speed and the errors of one's own problems, in Markdown."""
 
 from __future__ import annotations
 
-import platform
-import subprocess
+import math
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
 
-from planmethod.bench import processes, speed
-from planmethod.bench.clock import Timing
-from planmethod.bench.peers import missing
+from planmethod.bench import forces, speed
+from planmethod.bench.drawn import DRAWS, Compared, compare_all
+from planmethod.problem.model import Problem
 
-NAME = "speed-and-error"
 Table = list[str]
+
+COUNTS = (1, 12, 10_000)
+"""Numbers of positions that are timed."""
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
@@ -31,256 +31,138 @@ def span(seconds: float) -> str:
 
 
 def number(value: float) -> str:
-    """Return an error with two digits."""
-    return "0" if value == 0 else f"{value:.1e}"
+    """Return an error with two digits; a dash where there is none."""
+    return "—" if math.isnan(value) else "0" if value == 0 else f"{value:.1e}"
 
 
-def _rate(timing: Timing, count: int) -> str:
-    rate = count / timing.median
-    return f"{span(timing.median)} ({rate / 1e6:.3g} M/s)"
-
-
-def machine() -> str:
-    """Return what the figures were measured on."""
-    import numpy as np
-
-    name = platform.processor() or platform.machine()
-    info = Path("/proc/cpuinfo")
-    if info.exists():
-        models = [s for s in info.read_text("utf-8").splitlines() if s.startswith("model name")]
-        name = models[0].partition(":")[2].strip() if models else name
-    return (
-        f"{name}, {platform.system()}, Python {platform.python_version()}, NumPy {np.__version__}"
+def timed(found: Sequence[speed.Reading]) -> Table:
+    """Return the table of time beside error."""
+    rows = [
+        (
+            one.name,
+            one.problem,
+            f"{one.positions:,}".replace(",", " "),
+            span(one.seconds),
+            span(one.per_position),
+            number(one.error),
+        )
+        for one in found
+    ]
+    return table(
+        ("reading", "problem", "positions", "time", "for a position", "largest error"), rows
     )
 
 
-def compiler() -> str:
-    """Return the version of the C compiler that the C loops are made with, if there is one."""
-    try:
-        done = subprocess.run(["cc", "--version"], capture_output=True, check=True, text=True)
-    except (OSError, subprocess.CalledProcessError):
-        return ""
-    return done.stdout.splitlines()[0]
-
-
-# Sections ---------------------------------------------------------------------------------------
-
-
-def readings_section(readings: Sequence[speed.Reading]) -> Table:
-    """Return the table of time against error."""
-    rows = [
-        (
-            reading.name,
-            reading.scene,
-            f"{reading.positions:,}".replace(",", " "),
-            span(reading.seconds),
-            span(reading.per_position),
-            number(reading.error),
-        )
-        for reading in readings
-    ]
+def speed_section(readings: Sequence[speed.Reading]) -> Table:
+    """Return time beside error of the motion."""
     return [
         "## Time against error",
         "",
         "Position, velocity and acceleration of every point and link. The error is the largest one "
-        "against a referee of 60 digits: of a sweep, each row in units of its own largest value "
-        f"(at most {speed.JUDGED} positions, evenly spread); of one position and of the hand, in "
-        "units of the largest result of its kind. The hand reads the plans at the scales that "
-        "planmethod chooses; its error is that of reading alone.",
+        f"against a referee of {speed.RIGHT} digits: of a sweep, each row in units of its own "
+        f"largest value (at most {speed.JUDGED} positions, evenly spread); of one position and of "
+        "the hand, in units of the largest result of its kind. The hand reads the plans at the "
+        "scales that planmethod chooses; its error is that of reading alone.",
         "",
-        *table(("reading", "scene", "positions", "time", "for a position", "largest error"), rows),
+        *timed(readings),
     ]
 
 
-def rivals_section(rivals: Sequence[speed.Rival]) -> Table:
-    """Return the table of the four-bar: this package, C, pylinkage."""
-    sizes = list(rivals[0].seconds)
-    rows = []
-    for rival in rivals:
-        worst = max(rival.error.values(), default=0.0)
-        rows.append(
-            (
-                rival.name,
-                *(_rate(rival.seconds[n], n) for n in sizes),
-                number(worst) if rival.error else "—",
-            )
-        )
-    ours = rivals[0]
-    ratios = [
-        (
-            other.name,
-            *(f"{other.seconds[n].median / ours.seconds[n].median:.2g}" for n in sizes),
-        )
-        for other in rivals[1:]
-    ]
-    header = [f"N = {n:,}".replace(",", " ") for n in sizes]
-    notes = [f"- {rival.name}: {rival.computes}." for rival in rivals]
-    absent = missing()
-    if absent:
-        notes += ["", "Not run: " + " ".join(absent)]
-    return [
-        "## One four-bar, with peers",
-        "",
-        "Warm, one core, medians, all of them taking turns in one run; every answer goes to a "
-        "buffer that was there before, but where a peer cannot take one. The error is the largest "
-        "over the three sizes.",
-        "",
-        *table(("who", *header, "largest error"), rows),
-        "",
-        *notes,
-        "",
-        "Time over that of the sweep (above 1: slower):",
-        "",
-        *table(("who", *header), ratios),
-    ]
-
-
-def growth_section(
-    positions: Sequence[tuple[int, float]],
-    links: Sequence[tuple[int, int, float, float, float]],
+def forces_section(
+    readings: Sequence[speed.Reading], lever: Sequence[forces.Discrepancy], *, more: str = ""
 ) -> Table:
-    """Return cost against the number of positions and of links."""
-    return [
-        "## Cost against size",
-        "",
-        "A sweep of a slotted link, everything asked, by number of positions:",
-        "",
-        *table(
-            ("positions", "time", "for a position"),
-            [(f"{n:,}".replace(",", " "), span(s), span(s / n)) for n, s in positions],
-        ),
-        "",
-        "A chain of dyads, everything asked, by number of moving links. To prepare is to analyse "
-        "the structure, choose the closings, plan the construction and compile it, once:",
-        "",
-        *table(
-            ("links", "steps", "to prepare", "one position", "10⁴ positions", "for a position"),
-            [
-                (str(n), str(steps), span(ready), span(one), span(many), span(many / 10_000))
-                for n, steps, ready, one, many in links
-            ],
-        ),
-    ]
-
-
-def scenes_section(scenes: Sequence[tuple[str, int, int, float, float]]) -> Table:
-    """Return what asking for less saves."""
-    return [
-        "## Only what a scene needs",
-        "",
-        "The slotted link: steps kept for what is asked, real operations that are left of them "
-        "when constants are folded, and time.",
-        "",
-        *table(
-            ("asked", "steps", "operations", "one position", "10⁴ positions"),
-            [
-                (name, str(steps), str(operations), span(one), span(many))
-                for name, steps, operations, one, many in scenes
-            ],
-        ),
-    ]
-
-
-def commands_section(
-    commands: Sequence[processes.Command], warm: Sequence[tuple[str, Timing, Timing]]
-) -> Table:
-    """Return whole commands, cold, and sheets in a running process."""
-    rows = []
-    for command in commands:
-        assert command.cold is not None
-        rows.append(
-            (
-                command.name,
-                f"{command.cold.median:.3f} s",
-                " ".join(command.imports) or "—",
-                str(command.modules or "—"),
-                f"{command.peak_mb:.0f} MB" if command.peak_mb else "—",
-            )
-        )
-    return [
-        "## Commands, from the start of the process",
-        "",
-        *table(("command", "cold", "third parties imported", "modules", "peak memory"), rows),
-        "",
-        "A sheet in a process that runs already:",
-        "",
-        *table(
-            ("format", "to make the sheet", "to write it"),
-            [(fmt, span(make.median), span(write.median)) for fmt, make, write in warm],
-        ),
-    ]
-
-
-def memory_section(rows: Sequence[tuple[str, float]]) -> Table:
-    """Return peak memory of batches."""
-    return [
-        "## Memory",
-        "",
-        "Peak of a process of its own. A sweep holds its answers and blocks of buffers, whatever "
-        "the number of steps; 10⁶ positions of the slotted link are "
-        "the answers of 10⁶ positions and little else.",
-        "",
-        *table(("what", "peak"), [(name, f"{peak:.0f} MB") for name, peak in rows]),
-    ]
-
-
-# The whole --------------------------------------------------------------------------------------
-
-
-def measure(say: Callable[[str], None], *, quick: bool = False) -> tuple[list[Table], bytes]:
-    """Measure everything and return the sections and the figure.
+    """Return time beside error of the force plans, and the lever beside them.
 
     Parameters
     ----------
-    say : callable
-        Told what is being measured.
-    quick : bool
-        Smaller sizes and fewer runs: a look, not a measurement.
+    more : str
+        What else is to be said of the readings.
     """
-    from planmethod.bench.figure import draw
-
-    sizes = (12, 10_000) if quick else speed.SIZES
-    say("time against error")
-    readings = [
-        *speed.sweeps("four-bar", sizes),
-        *speed.sweeps("slotted-link", sizes),
-        *speed.single_readings("four-bar"),
-        *speed.single_readings("slotted-link"),
+    rows = [
+        (
+            one.problem,
+            str(one.positions),
+            f"{one.least:.2f}–{one.most:.2f}",
+            f"{100 * one.usual[0]:.1f}–{100 * one.usual[1]:.1f} %",
+        )
+        for one in lever
     ]
-    say("peers")
-    rivals = speed.rivals(sizes, rounds=1 if quick else 3)
-    say("positions and links")
-    counts = (1, 12, 100, 1000, 10_000) + (() if quick else (100_000, 1_000_000))
-    positions = speed.by_positions(counts)
-    links = speed.by_links((1, 2, 5) if quick else (1, 2, 4, 8, 16, 25))
-    say("scenes")
-    scenes = speed.by_scene()
-    say("commands")
-    commands = processes.commands(runs=1 if quick else 7)
-    warm = processes.warm_sheets()
-    say("memory")
-    sections = [
-        readings_section(readings),
-        rivals_section(rivals),
-        growth_section(positions, links),
-        scenes_section(scenes),
-        commands_section(commands, warm),
-        memory_section(processes.memory()),
-    ]
-    return sections, draw(readings, rivals, positions, links)
-
-
-def document(sections: Sequence[Table], *, figure: str, command: str) -> str:
-    """Return the document around the sections."""
-    cc = compiler()
     lines = [
-        "# Speed and error",
+        "## Forces",
         "",
-        f"Made by `{command}` on {machine()}{f', {cc}' if cc else ''}. Times are medians; "
-        "compare them with each other, not with another machine's.",
+        "All reactions and the balancing moment. The error is the largest one against a referee of "
+        f"{speed.RIGHT} digits, in units of the largest reaction of its position; that of the hand "
+        "is the error of the sizes it reads. The force plans continue the program of the motion "
+        f"and are timed together with it{more}.",
         "",
-        f"![time against error; cost against size]({figure})",
+        *timed(readings),
     ]
-    for section in sections:
-        lines += ["", *section]
-    return "\n".join(lines) + "\n"
+    if rows:
+        lines += [
+            "",
+            "Lever minus force plans of a board draughtsman: the expected size, to first order "
+            f"through every stroke, over that of {forces.DRAWS} random sheets (half of the middle "
+            "68 %), position by position; and the expected size as a part of the largest balancing "
+            "moment.",
+            "",
+            *table(
+                ("problem", "positions", "expected over drawn", "expected, of the largest"), rows
+            ),
+        ]
+    return lines
+
+
+def drafting_section(rows: Sequence[Compared]) -> Table:
+    """Return first-order drafting errors beside random sheets."""
+    return [
+        "## Drafting errors: first order against random sheets",
+        "",
+        f"Sigma by first order over the standard deviation of {DRAWS} random sheets, least and "
+        "most over all quantities of a problem that are longer than three sigmas. *Given up*: "
+        "quantities whose first order is not believed, because a step is not ten of its own sigmas "
+        "away from being impossible; *short*: quantities below three sigmas. Both have the sigma "
+        "of the random sheets.",
+        "",
+        *table(
+            ("problem", "hand", "compared", "least", "most", "given up", "short"),
+            [
+                (
+                    row.problem,
+                    row.profile,
+                    str(row.compared),
+                    f"{row.least:.3f}",
+                    f"{row.most:.3f}",
+                    str(row.given_up),
+                    str(row.short),
+                )
+                for row in rows
+            ],
+        ),
+    ]
+
+
+def _speed(problems: Sequence[Problem]) -> Table:
+    found: list[speed.Reading] = []
+    for problem in problems:
+        found += [*speed.sweeps(problem, COUNTS), *speed.single_readings(problem)]
+    return speed_section(found)
+
+
+def _forces(problems: Sequence[Problem]) -> Table:
+    """Return the section on problems with loads; there is none without them."""
+    loaded = [problem for problem in problems if problem.dynamics is not None]
+    found = [one for problem in loaded for one in forces.readings(problem, COUNTS)]
+    lever = [forces.discrepancy(problem) for problem in loaded]
+    return forces_section(found, lever) if loaded else []
+
+
+def _drafting(problems: Sequence[Problem]) -> Table:
+    return drafting_section(compare_all(problems))
+
+
+SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
+    "speed": _speed,
+    "forces": _forces,
+    "drafting": _drafting,
+}
+"""What is measured of problems, by the name of the section."""

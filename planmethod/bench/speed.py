@@ -1,25 +1,25 @@
-"""Time against error: every way of reading a program, each beside how wrong it is."""
+"""Time beside error: every way of reading a problem's program, and how wrong each is."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.bench.clock import Timing, clock
-from planmethod.bench.peers import peers
-from planmethod.bench.scenes import FOURBAR_ROWS, chain, fourbar, slotted
+from planmethod.bench.clock import clock
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
+from planmethod.errors import AssemblyError
+from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.results import NOTHING, NUMBERS, Result, ResultKind, results_of
+from planmethod.solved.results import results_of
+from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 Array = npt.NDArray[Any]
@@ -30,9 +30,6 @@ JUDGED = 60
 RIGHT = 60
 """Digits of the referee that the errors are counted from."""
 
-SIZES = (12, 10_000, 1_000_000)
-"""Numbers of positions of the table of peers."""
-
 
 @dataclass(frozen=True, slots=True)
 class Reading:
@@ -41,11 +38,11 @@ class Reading:
     Attributes
     ----------
     error : float
-        Largest error of a row in units of the row's own largest value.
+        Largest error of a row in units of the row's own largest value; NaN where nothing judges.
     """
 
     name: str
-    scene: str
+    problem: str
     positions: int
     seconds: float
     error: float
@@ -61,11 +58,35 @@ def turn(count: int) -> Array:
     return np.arange(count) * (360.0 / count)
 
 
-def _spread(count: int) -> Array:
+def turns_round(problem: Problem) -> bool:
+    """Return whether the driver is a crank that turns all round."""
+    drive = problem.drive
+    try:
+        verify(Solution(problem, positions=(turn(36) + drive.positions[0]).tolist()))
+    except AssemblyError:
+        return False
+    return drive.is_crank
+
+
+def places(problem: Problem, count: int) -> Array:
+    """Return positions of the driver: round a turn, or those of the file over and over.
+
+    Returns
+    -------
+    ndarray of shape (count,)
+        Degrees, or metres of a slider.
+    """
+    if turns_round(problem):
+        return turn(count) + problem.drive.positions[0]
+    return np.resize(np.array(problem.drive.positions), count)
+
+
+def spread(count: int) -> Array:
+    """Return which positions of a batch the referee judges."""
     return np.unique(np.linspace(0, count - 1, min(count, JUDGED)).astype(int))
 
 
-def _right(problem: Problem, results: Sequence[Result], position: float) -> list[Number]:
+def _right(problem: Problem, results: Sequence[Quantity], position: float) -> list[Number]:
     """Return results of one position by the referee."""
     solution = Solution(problem, positions=[position])
     whole = results_of(solution.construction)
@@ -77,85 +98,72 @@ def _right(problem: Problem, results: Sequence[Result], position: float) -> list
     return [plain(value[result.name]) for result in results]
 
 
-@cache
-def right_rows(scene: str, count: int) -> tuple[Array, Array]:
-    """Return the rows of the four-bar or the slotted link in some positions of a turn, exactly.
-
-    Returns
-    -------
-    chosen : ndarray of int
-        Which of ``count`` positions.
-    rows : ndarray of shape (k, len(chosen))
-        Rounded from 60 digits.
-    """
-    problem, asked = scene_of(scene)
-    solution = Solution(problem, positions=[0.0])
-    results = results_of(solution.construction).choose(asked)
-    chosen, angles = _spread(count), turn(count)
+def right_rows(problem: Problem, asked: Sequence[str], positions: Array) -> Array:
+    """Return the rows of a sweep, rounded from 60 digits: shape (rows, positions)."""
+    results = results_of(Solution(problem).construction).choose(asked)
     columns = []
-    for i in chosen:
+    for position in positions:
         column: list[float] = []
-        for result, value in zip(results, _right(problem, results, angles[i]), strict=True):
+        for result, value in zip(results, _right(problem, results, position), strict=True):
             column.append(float(value.real))
-            if result.kind not in NUMBERS:
+            if not result.kind.is_number:
                 column.append(float(value.imag))
         columns.append(column)
-    return chosen, np.array(columns).T
+    return np.array(columns).T
 
 
-def scene_of(scene: str) -> tuple[Problem, Sequence[str] | None]:
-    """Return a scene's problem and what is asked of it (directions as unit vectors)."""
-    if scene == "four-bar":
-        return fourbar(), FOURBAR_ROWS
-    problem = slotted()
-    whole = results_of(Solution(problem, positions=[0.0]).construction)
-    return problem, [r.label for r in whole.all if r.kind is not ResultKind.DIRECTION]
+def everything(problem: Problem) -> list[str]:
+    """Return what a sweep may be asked for, directions as unit vectors."""
+    whole = results_of(Solution(problem).construction)
+    return [r.label for r in whole.all if r.kind is not QuantityKind.DIRECTION]
 
 
-def row_error(scene: str, count: int, found: Array) -> float:
+def row_error(right: Array, found: Array) -> float:
     """Return the largest error of a batch, each row in units of its own largest value."""
-    chosen, right = right_rows(scene, count)
     size = np.abs(right).max(axis=1)
     some = size > 1e-12 * size.max()
-    error = np.abs(found[:, chosen].astype(float) - right).max(axis=1)
+    error = np.abs(found.astype(float) - right).max(axis=1)
     return float((error[some] / size[some]).max())
 
 
-def sweeps(scene: str, counts: Sequence[int]) -> list[Reading]:
+def sweeps(
+    problem: Problem, counts: Sequence[int], asked: Sequence[str] | None = None
+) -> list[Reading]:
     """Time sweeps in float64 and float32, the output buffer passed in."""
-    problem, asked = scene_of(scene)
-    both = (np.dtype(np.float64), np.dtype(np.float32))
-    return [
-        _swept(scene, Sweep(problem, asked, dtype=dtype), count, dtype)
-        for dtype in both
-        for count in counts
-    ]
+    asked = everything(problem) if asked is None else asked
+    batches = [places(problem, count) for count in counts]
+    rights = [right_rows(problem, asked, batch[spread(len(batch))]) for batch in batches]
+    found = []
+    for dtype in (np.dtype(np.float64), np.dtype(np.float32)):
+        sweep = Sweep(problem, asked, dtype=dtype)
+        for batch, right in zip(batches, rights, strict=True):
+            found.append(_swept(problem.name, sweep, batch.astype(dtype), right))
+    return found
 
 
-def _swept(scene: str, sweep: Sweep, count: int, dtype: np.dtype[Any]) -> Reading:
-    angles = turn(count).astype(dtype)
+def _swept(name: str, sweep: Sweep, positions: Array, right: Array) -> Reading:
+    count, dtype = len(positions), positions.dtype
     out = None if count <= 40 else np.empty((len(sweep.rows), count), dtype)
-    timing = clock(lambda: sweep.run(angles, out=out))
-    error = row_error(scene, count, sweep.run(angles, out=out))
-    return Reading(f"sweep, {dtype.name}", scene, count, timing.median, error)
+    timing = clock(lambda: sweep.run(positions, out=out))
+    error = row_error(right, sweep.run(positions, out=out)[:, spread(count)])
+    return Reading(f"sweep, {dtype.name}", name, count, timing.median, error)
 
 
-def single_readings(scene: str) -> list[Reading]:
+def single_readings(problem: Problem) -> list[Reading]:
     """Time the step by step readings of one position: float64, referee, hand at several rulers."""
-    problem, _ = scene_of(scene)
-    position = 20.0
+    position, name = problem.drive.positions[0], problem.name
     solution = Solution(problem, positions=[position])
     found = [
         Reading(
             "step by step, float64",
-            scene,
+            name,
             1,
             clock(lambda: solution.read(Float64())).median,
             _trace_error(problem, solution, position, Float64()),
         ),
         Reading(
             "solve() from the problem, float64",
-            scene,
+            name,
             1,
             clock(lambda: Solution(problem, positions=[position]).points).median,
             _trace_error(problem, solution, position, Float64()),
@@ -165,7 +173,7 @@ def single_readings(scene: str) -> list[Reading]:
         found.append(
             Reading(
                 f"referee, {digits} digits",
-                scene,
+                name,
                 1,
                 clock(lambda d=digits: _read(solution, Precise(d))).median,  # type: ignore[misc]
                 _trace_error(problem, solution, position, Precise(digits)),
@@ -176,7 +184,7 @@ def single_readings(scene: str) -> list[Reading]:
         found.append(
             Reading(
                 f"the hand, ruler {ruler:g} mm",
-                scene,
+                name,
                 1,
                 clock(lambda s=drawn: s.read(s.hand, s.per_mm)).median,  # type: ignore[misc]
                 _hand_error(drawn),
@@ -193,9 +201,7 @@ def _read(solution: Solution, arithmetic: Any) -> dict[Any, Number]:
 def _trace_error(problem: Problem, solution: Solution, position: float, arithmetic: Any) -> float:
     """Return the largest error of a result in units of the largest result of its kind."""
     results = [
-        r
-        for r in results_of(solution.construction).all
-        if r.kind not in LINES and r.name != NOTHING
+        r for r in results_of(solution.construction).all if r.kind not in LINES and r.name != ZERO
     ]
     right = _right(problem, results, position)
     found = _read(solution, arithmetic)
@@ -212,7 +218,7 @@ def _trace_error(problem: Problem, solution: Solution, position: float, arithmet
     return worst
 
 
-LINES = (ResultKind.DIRECTION, ResultKind.UNIT)
+LINES = (QuantityKind.DIRECTION, QuantityKind.UNIT)
 
 
 def _exact(value: Number) -> Number:
@@ -221,145 +227,10 @@ def _exact(value: Number) -> Number:
 
 def _hand_error(solution: Solution) -> float:
     """Return the largest error of what the hand finds in units of the largest of its kind."""
-    hand, worst = solution.by_hand_results, 0.0
-    for column, part in ((0, "velocity"), (1, "acceleration")):
+    worst = 0.0
+    for letter, part in (("v", "velocity"), ("a", "acceleration")):
         exact = {name: abs(getattr(m, part)[0]) for name, m in solution.points.items()}
         size = max(exact.values()) or 1.0
-        worst = max(worst, *(abs(hand.points[n][column][0] - v) / size for n, v in exact.items()))
+        read = {name: solution.read_off(f"{letter}_{name}")[0] for name in exact}
+        worst = max(worst, *(abs(read[name] - value) / size for name, value in exact.items()))
     return float(worst)
-
-
-# Peers ------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class Rival:
-    """Somebody who solves the four-bar, at the sizes of the table.
-
-    Attributes
-    ----------
-    seconds : dict of int to Timing
-        By number of positions.
-    error : dict of int to float
-        As in `Reading`.
-    """
-
-    name: str
-    computes: str
-    seconds: dict[int, Timing]
-    error: dict[int, float]
-
-
-def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
-    """Time this package and its peers on one four-bar, taking turns."""
-    sweep = Sweep(fourbar(), FOURBAR_ROWS)
-    angled = Sweep(fourbar(), [*(r for r in FOURBAR_ROWS if r[0] != "u"), "phi_2", "phi_3"])
-    loose = Sweep(fourbar(), FOURBAR_ROWS)
-    buffers = {n: np.empty((len(sweep.rows), n)) for n in sizes}
-    more = {n: np.empty((len(angled.rows), n)) for n in sizes}
-    angles = {n: turn(n) for n in sizes}
-    shuffled = {n: np.random.default_rng(1).permutation(angles[n]) for n in sizes}
-
-    def swept(n: int) -> Array:
-        return sweep.run(angles[n], out=None if n <= 40 else buffers[n])
-
-    def with_angles(n: int) -> Array:
-        return angled.run(angles[n], out=None if n <= 40 else more[n])
-
-    def uneven(n: int) -> Array:
-        return loose.run(shuffled[n], out=None if n <= 40 else buffers[n])
-
-    acts: list[tuple[str, str, Callable[[int], Array | None], tuple[int, ...]]] = [
-        (
-            "planmethod, sweep",
-            "all points and links, 20 rows; directions as unit vectors",
-            swept,
-            tuple(range(20)),
-        ),
-        (
-            "planmethod, sweep, phi in degrees",
-            "all points and links, 18 rows; directions by the arc tangent",
-            with_angles,
-            (),
-        ),
-        ("planmethod, sweep, uneven phi", "20 rows, no table of angles", uneven, ()),
-    ]
-    for peer in peers():
-        acts.append(
-            (peer.name, peer.computes, lambda n, p=peer: p.run(angles[n]), peer.rows)  # type: ignore[misc]
-        )
-    times: dict[tuple[str, int], list[Timing]] = {}
-    for _ in range(rounds):
-        for n in sizes:
-            for name, _, act, _ in acts:
-                times.setdefault((name, n), []).append(
-                    clock(lambda a=act, k=n: a(k), enough=0.25, least=3)  # type: ignore[misc]
-                )
-    found = []
-    for name, computes, act, rows in acts:
-        seconds = {n: sorted(times[name, n], key=lambda t: t.median)[rounds // 2] for n in sizes}
-        error = {}
-        for n in sizes if rows else ():
-            answer = act(n)
-            if answer is not None:
-                chosen, right = right_rows("four-bar", n)
-                part = right[list(rows)]
-                gap = np.abs(answer[:, chosen] - part).max(axis=1)
-                error[n] = float((gap / np.abs(part).max(axis=1)).max())
-        found.append(Rival(name, computes, seconds, error))
-    return found
-
-
-# What grows with what ---------------------------------------------------------------------------
-
-
-def by_positions(counts: Sequence[int]) -> list[tuple[int, float]]:
-    """Return (positions, seconds) of a sweep of the slotted link."""
-    problem, asked = scene_of("slotted-link")
-    sweep = Sweep(problem, asked)
-    found = []
-    for n in counts:
-        out = None if n <= 40 else np.empty((len(sweep.rows), n))
-        angles = turn(n)
-        found.append((n, clock(lambda a=angles, o=out: sweep.run(a, out=o)).median))  # type: ignore[misc]
-    return found
-
-
-def by_links(
-    dyads: Sequence[int], *, count: int = 10_000
-) -> list[tuple[int, int, float, float, float]]:
-    """Return (links, steps, seconds to prepare, seconds for one position, for ``count``)."""
-    found = []
-    angles = turn(count)
-    for k in dyads:
-        problem = chain(k)
-        ready = clock(lambda p=problem: Sweep(p), enough=0.2, least=3).median  # type: ignore[misc]
-        sweep = Sweep(problem)
-        out = np.empty((len(sweep.rows), count))
-        one = clock(lambda s=sweep: s.run(angles[:1])).median  # type: ignore[misc]
-        many = clock(lambda s=sweep, o=out: s.run(angles, out=o)).median  # type: ignore[misc]
-        found.append((1 + 2 * k, sweep.steps, ready, one, many))
-    return found
-
-
-SCENES: tuple[tuple[str, tuple[str, ...] | None], ...] = (
-    ("positions only", ("positions",)),
-    ("one velocity", ("v_D",)),
-    ("velocities", ("velocities",)),
-    ("everything", None),
-)
-"""What scenes may ask for, least first."""
-
-
-def by_scene(count: int = 10_000) -> list[tuple[str, int, int, float, float]]:
-    """Return (what is asked, steps, operations, seconds for one position, for ``count``)."""
-    problem = slotted()
-    angles = turn(count)
-    found = []
-    for name, asked in SCENES:
-        sweep = Sweep(problem, asked)
-        out = np.empty((len(sweep.rows), count))
-        one = clock(lambda s=sweep: s.run(angles[:1])).median  # type: ignore[misc]
-        many = clock(lambda s=sweep, o=out: s.run(angles, out=o)).median  # type: ignore[misc]
-        found.append((name, sweep.steps, sweep.operations, one, many))
-    return found

@@ -26,11 +26,11 @@ class Asked:
     fields : mapping
         Texts of the title block.
     sheet : mapping
-        What is said of the other keys of ``[sheet]``; None where nothing is.
+        Values for the other keys of ``[sheet]``; None where there is none.
     config : Path, optional
         The config file, if it is named.
     no_config : bool
-        Whether every config file is passed over.
+        Whether no config file is read at all.
     """
 
     fields: Mapping[str, str]
@@ -184,7 +184,7 @@ _SHEET_OPTIONS = (
         metavar="FILE",
         help="Config file instead of the usual one.",
     ),
-    click.option("--no-config", is_flag=True, help="Read no config file."),
+    click.option("--no-config", is_flag=True, help="Do not read a config file."),
 )
 
 

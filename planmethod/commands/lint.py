@@ -33,10 +33,10 @@ if TYPE_CHECKING:
 @click.option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
 @click.option("--sigma", is_flag=True, help="With the drafting errors in the table of results.")
 @click.option(
-    "--structure", "structural", is_flag=True, help="The structural sheet instead of the plans'."
+    "--structure", "structural", is_flag=True, help="The structural sheet, not the plans."
 )
-@click.option("--strict", is_flag=True, help="Warnings make exit code 1, too.")
-@click.option("--json", "as_json", is_flag=True, help="The findings as one object.")
+@click.option("--strict", is_flag=True, help="Exit with 1 for warnings, too.")
+@click.option("--json", "as_json", is_flag=True, help="Print the findings as one JSON object.")
 @lang_option
 @guarded
 def lint(
@@ -55,7 +55,7 @@ def lint(
     as_json: bool,
     lang: str,
 ) -> None:
-    """Look the sheets over and say what a norm inspector would mark (нормоконтроль).
+    """Check the sheets and say what a norm inspector would mark (нормоконтроль).
 
     PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
     with the same options, and are not written. Exit code 0 when there is nothing to correct, 1 when

@@ -1,4 +1,4 @@
-"""What a command puts out: text on the terminal, files, and a bar while it works."""
+"""Output of a command: text on the terminal, files, and a bar while it works."""
 
 from __future__ import annotations
 
@@ -94,13 +94,13 @@ def is_narrow() -> bool:
 
 
 def is_terminal(stream: object) -> bool:
-    """Tell whether somebody reads a stream as it is written; a closed one is None."""
+    """Tell whether somebody watches a stream; a closed one is None."""
     return stream is not None and bool(getattr(stream, "isatty", bool)())
 
 
 @contextlib.contextmanager
 def bar(length: int, *, long: bool) -> Iterator[Callable[[int], None]]:
-    """Show on a terminal how far a long work is; what it gives is told of every part done."""
+    """Show the progress of long work on a terminal; call what it yields after every part."""
     if not long or not is_terminal(sys.stderr):
         yield lambda done: None
         return

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 MANY = 6
-"""Problems from which a command shows how far it is."""
+"""Number of problems from which a command shows its progress."""
 
 
 def fail(error: PlanMethodError) -> None:
@@ -119,7 +119,7 @@ def solution_of(
     hint: str = "",
     forces: bool = False,
 ) -> Solution:
-    """Solve a problem, check the solution, and tell the doubts about it.
+    """Solve a problem, check the solution, and report the doubts about it.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ def protocol(
     lang: str,
 ) -> None:
     """Tell the construction step by step, as the explanatory note does."""
-    from planmethod.note.narrate.protocol import protocol as narrate
+    from planmethod.note.protocol import protocol as narrate
 
     def tell(problem: Problem) -> None:
         solution = solution_of(problem, phi, drawn_by(profile, ruler))

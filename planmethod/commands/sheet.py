@@ -46,7 +46,7 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     "--one-file",
     callback=read_name,
     metavar="NAME.pdf",
-    help="All sheets in one PDF, numbered through, instead of one of each problem.",
+    help="All sheets in one PDF, numbered consecutively, not one PDF for each problem.",
 )
 @click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
 @click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")

@@ -37,10 +37,10 @@ MOST_SHOWN = 10_000
 """Rows of a table on the terminal."""
 
 MOST_NUMBERS = 250_000_000
-"""Numbers of one problem in a file of arrays: 2 GB, which are in memory before they are written."""
+"""Most numbers of one problem in a file of arrays: 2 GB, all in memory before they are written."""
 
 LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
-"""Numbers that take about a second to write."""
+"""Count of numbers that take about a second to write."""
 
 
 @click.command()
@@ -186,7 +186,7 @@ def solve(
         put_parts([covariance_text(drawn)], covariance_file)
     if tables and csv_file is not None:
         _write_text(tables, csv_file)
-    if npz_file is not None and code is ExitCode.DONE:  # one file: all of it or none
+    if npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
         _write_arrays(sweeps, npz_file)
     finish(code)
 
@@ -203,7 +203,7 @@ def _need_mpmath() -> None:
 def _refuse_contradictions(
     as_json: bool, csv_file: str | None, npz_file: str | None, ask: tuple[str, ...] | None
 ) -> None:
-    """Refuse options that do not go together, and files that are meant as problems."""
+    """Refuse options that do not go together, and outputs that would overwrite a problem."""
     forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
     given = [name for name, is_given in forms.items() if is_given]
     if len(given) > 1:
@@ -242,7 +242,7 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
 
 
 def _tell(problem: Problem, gaps: Gaps, doubts: tuple[str, ...], partial: bool) -> None:
-    """Refuse positions without results, or tell of them; tell the doubts about the others."""
+    """Refuse or report positions without results; report the doubts about the others."""
     if gaps.count and not partial:
         raise AssemblyError(gaps.refusal() + (HINT if len(gaps.reason) > 1 else ""))
     if gaps.count:
@@ -256,7 +256,7 @@ def _write_text(tables: list[Table], file: str) -> None:
 
     rows = sum(table.count for table in tables)
     cells = sum(table.count * len(table.header) for table in tables)
-    seen = file != "-" or not is_terminal(sys.stdout)  # a bar within the table helps nobody
+    seen = file != "-" or not is_terminal(sys.stdout)  # no bar amid the table
     with bar(rows, long=cells > LONG_TEXT and seen) as done:
         put_parts(csv_text(tables, done=done), file)
 
@@ -303,7 +303,7 @@ def _show(made: Swept, lang: str) -> None:
 
 
 def _write_arrays(sweeps: list[Swept], file: str) -> None:
-    """Write sweeps into one file; of several the names begin with the variant or the problem."""
+    """Write sweeps into one file; names of several begin with the variant or the problem."""
     from planmethod.note.records.npz import swept_arrays, write_arrays
     from planmethod.render.backends.output import opened
 

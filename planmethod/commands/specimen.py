@@ -16,7 +16,7 @@ from planmethod.options import dxf_text_option, format_option, out_option
 def read_specimens(
     ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
 ) -> tuple[str, ...]:
-    """Return the names of specimen sheets, each known; all of them when none is given."""
+    """Return the names of the specimen sheets asked for; all of them when none is given."""
     from planmethod.render.sheets.specimen import SPECIMENS
 
     names = tuple(dict.fromkeys(name.strip().lower() for name in value))

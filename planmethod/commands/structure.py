@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 @click.command()
 @problem_options
 @out_option
-@click.option("--json", "as_json", is_flag=True, help="The analysis as one object.")
+@click.option("--json", "as_json", is_flag=True, help="Print the analysis as one JSON object.")
 @format_option("svg")
 @dxf_text_option
 @click.option("--no-drawing", is_flag=True, help="Text only.")

@@ -79,8 +79,8 @@ class Arithmetic(Protocol):
         """Return a length as it is read on the drawing, mm."""
         ...
 
-    def reread(self, out: str, length: Number) -> Number:
-        """Return the read length over the true one; 1 for an exact reading."""
+    def share(self, length: Number, vector: Number) -> Number:
+        """Return |length| over the length of a drawn vector; 1 for a vector of no length."""
         ...
 
 
@@ -117,9 +117,10 @@ class Exact:
         """Return the length."""
         return length
 
-    def reread(self, out: str, length: Number) -> Number:
-        """Return 1: what is read is exact."""
-        return 1.0
+    def share(self: Arithmetic, length: Number, vector: Number) -> Number:
+        """Return |length| over the length of a drawn vector; 1 for a vector of no length."""
+        drawn = abs(vector)
+        return self.unless_zero(drawn, abs(length) / self.nonzero(drawn), 1.0)
 
 
 def unit_vectors(degrees: Any) -> Any:

@@ -125,11 +125,6 @@ class Pencil:
         seen = self.rounded(out, length + self.error(out, self.profile.measure))
         return self.unless_zero(self.drawn_at_all(length), seen, length)
 
-    def reread(self, out: str, length: Number) -> Number:
-        """Return the read length over the drawn one; 1 of a length that is zero."""
-        one = length * 0.0 + 1.0
-        return self.unless_zero(length, self.read(out, length) / self.nonzero(length), one)
-
     def drawn_at_all(self, length: Number) -> Number:
         """Return 0 where a length is surely nothing, whatever the errors before it, else 1."""
         raise NotImplementedError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import assert_never
 
@@ -20,10 +20,10 @@ from planmethod.construct.steps import (
     LayOff,
     Measure,
     MeasureAlong,
+    MeasureArm,
     MeetCircles,
     MeetLineCircle,
     MeetLines,
-    Moment,
     Name,
     Parallel,
     Perpendicular,
@@ -132,13 +132,13 @@ def apply(
             # A tangent of no length: the foot is the source itself, and no line joins them.
             point = ar.unless_zero(half, centre + d / divisor * (radius * turn), source)
             return ar.pricked(out, point), room / (divisor * divisor)
-        case Similar(out, b, c, s, B, C, read_span, read_arm):
+        case Similar(out, b, c, s, B, C, side_read, span_read, arm_read):
             side, span, arm = env[c] - env[b], env[C] - env[B], env[s] - env[B]
-            scale = ar.reread(out, abs(side))
-            if read_span:
-                scale = scale / ar.reread(out, abs(span))
-            if read_arm:
-                scale = scale * ar.reread(out, abs(arm))
+            scale = ar.share(env[side_read], side)
+            if span_read is not None:
+                scale = scale / ar.nonzero(ar.share(env[span_read], span))
+            if arm_read is not None:
+                scale = scale * ar.share(env[arm_read], arm)
             point = env[b] + side * (arm / ar.nonzero(span)) * scale
             return ar.pricked(out, point), ar.solid(abs(span))
         case Measure(out, a, b):
@@ -149,33 +149,31 @@ def apply(
             vector = env[b] - env[a]
             along = (vector * u.conjugate()).real / ar.nonzero(span)
             return ar.read(out, along), ar.solid(span)
-        case Compute(_, factor, powers):
+        case Compute(_, factor, powers, size):
             value: Number = factor
             for name, power in powers:
                 for _ in range(abs(power)):
                     value = value * env[name] if power > 0 else value / ar.nonzero(env[name])
-            return value, None
+            return abs(value) if size else value, None
         case Total(_, terms):
             total: Number = 0.0
             for name in terms:
                 total = total + env[name]
             return total, None
-        case Carry(out, o, a, b, times, turned, read):
+        case Carry(out, o, a, b, length, times, turned):
             vector = env[b] - env[a]
-            if read:
-                vector = vector * ar.reread(out, abs(vector))
+            if length is not None:
+                vector = vector * ar.share(env[length], vector)
             if times is not None:
                 vector = vector * env[times]
             point = env[o] + (vector * 1j if turned else vector)
-            # Nobody pricks the end of nothing; but what moves the vector moves the point.
+            # No pencil marks the end of a vector of no length; but what moves it moves its end.
             return ar.unless_zero(abs(vector), ar.pricked(out, point), point), None
-        case Moment(out, about, at, a, b, read):
+        case MeasureArm(out, about, at, a, b):
             vector = env[b] - env[a]
             size = abs(vector)
-            area = _cross(env[at] - env[about], vector)
-            length = ar.read(out, size) if read else size
-            moment = ar.read(out, area / ar.nonzero(size)) * length
-            return ar.unless_zero(size, moment, area), None
+            arm = _cross(env[at] - env[about], vector) / ar.nonzero(size)
+            return ar.read(out, ar.unless_zero(size, arm, 0.0)), None
         case _:
             assert_never(step)
 
@@ -201,11 +199,21 @@ def evaluate(program: Program, data: Mapping[str, Number], ar: Arithmetic) -> Tr
         Values of the Given points (complex, mm) and Known numbers, scalars or shape (n,).
     ar : Arithmetic
     """
+    return go_on(Trace({}, {}), program.steps, data, ar)
+
+
+def go_on(trace: Trace, steps: Iterable[Step], data: Mapping[str, Number], ar: Arithmetic) -> Trace:
+    """Return a trace with further steps, which may use everything that it has.
+
+    Parameters
+    ----------
+    data : mapping
+        Values of what the further steps take as given or known.
+    """
     lifted = {name: ar.lift(value) for name, value in data.items()}
-    env: dict[Name, Number] = {}
-    margin: dict[Name, Number] = {}
+    env, margin = dict(trace.value), dict(trace.margin)
     with np.errstate(all="ignore"):
-        for step in program.steps:
+        for step in steps:
             value, room = apply(step, env, lifted, ar)
             if room is not None:
                 margin[step.out] = room

@@ -36,7 +36,3 @@ class Hand(Float64):
     def read(self, out: str, length: Number) -> Number:
         """Return the length rounded to the ruler step."""
         return self.ruled(length)
-
-    def reread(self, out: str, length: Number) -> Number:
-        """Return the read length over the true one; 1 of a length that is zero."""
-        return np.where(length == 0, 1.0, self.ruled(length) / np.where(length == 0, 1.0, length))

@@ -17,10 +17,10 @@ from planmethod.construct.steps import (
     LineName,
     Measure,
     MeasureAlong,
+    MeasureArm,
     MeetCircles,
     MeetLineCircle,
     MeetLines,
-    Moment,
     Name,
     NumberName,
     Parallel,
@@ -201,13 +201,14 @@ class Builder:
         out: str,
         plan: tuple[PointName, PointName],
         link: tuple[PointName, PointName, PointName],
+        side: NumberName,
         *,
-        read_span: bool = False,
-        read_arm: bool = False,
+        span: NumberName | None = None,
+        arm: NumberName | None = None,
     ) -> PointName:
         """Find the point of a plan similar to ``link[2]`` on the link ``link[0] link[1]``."""
         name = PointName(out)
-        self.steps.append(Similar(name, *plan, link[2], link[0], link[1], read_span, read_arm))
+        self.steps.append(Similar(name, *plan, link[2], link[0], link[1], side, span, arm))
         return name
 
     def measure(self, out: str, tail: PointName, head: PointName) -> NumberName:
@@ -230,29 +231,22 @@ class Builder:
         origin: PointName,
         tail: PointName,
         head: PointName,
-        times: NumberName | None = None,
+        length: NumberName | None = None,
         *,
+        times: NumberName | None = None,
         turned: bool = False,
-        read: bool = False,
     ) -> PointName:
         """Carry a segment to another point."""
         name = PointName(out)
-        self.steps.append(Carry(name, origin, tail, head, times, turned, read))
+        self.steps.append(Carry(name, origin, tail, head, length, times, turned))
         return name
 
-    def moment(
-        self,
-        out: str,
-        about: PointName,
-        at: PointName,
-        tail: PointName,
-        head: PointName,
-        *,
-        read: bool = False,
+    def measure_arm(
+        self, out: str, about: PointName, at: PointName, tail: PointName, head: PointName
     ) -> NumberName:
-        """Measure the arm of a vector and multiply it by its length."""
+        """Read the arm of a vector."""
         name = NumberName(out)
-        self.steps.append(Moment(name, about, at, tail, head, read))
+        self.steps.append(MeasureArm(name, about, at, tail, head))
         return name
 
     def total(self, out: str, *terms: NumberName) -> NumberName:
@@ -261,8 +255,10 @@ class Builder:
         self.steps.append(Total(name, terms))
         return name
 
-    def compute(self, out: str, *powers: tuple[NumberName, int], factor: float = 1.0) -> NumberName:
+    def compute(
+        self, out: str, *powers: tuple[NumberName, int], factor: float = 1.0, size: bool = False
+    ) -> NumberName:
         """Compute ``factor`` times a product of powers."""
         name = NumberName(out)
-        self.steps.append(Compute(name, factor, powers))
+        self.steps.append(Compute(name, factor, powers, size))
         return name

@@ -143,9 +143,10 @@ class Touch:
 class Similar:
     """Point of a plan similar to a point of the link, letters in the same order (теорема подобия).
 
-    Triangle plan_b plan_c out is similar to link_b link_c link_s. The hand computes the sides from
-    the read length of plan_b plan_c; ``read_span`` and ``read_arm`` say that link_b link_c and
-    link_b link_s, too, are read on the drawing because no given length tells them.
+    Triangle plan_b plan_c out is similar to link_b link_c link_s. ``side`` is the length of
+    plan_b plan_c, mm, as it was read or laid off: the sides of the triangle are computed from it.
+    ``span`` and ``arm`` are the lengths of link_b link_c and link_b link_s, mm, where no given
+    length tells them and they are read on the drawing. The signs of all three do not matter.
     """
 
     out: PointName
@@ -154,8 +155,9 @@ class Similar:
     link_s: PointName
     link_b: PointName
     link_c: PointName
-    read_span: bool = False
-    read_arm: bool = False
+    side: NumberName
+    span: NumberName | None = None
+    arm: NumberName | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,27 +184,28 @@ class Carry:
     """Segment of a plan carried to another point, parallel to itself (перенести отрезок).
 
     ``out`` is ``origin`` plus ``times`` the segment from ``tail`` to ``head``; ``turned``: the
-    segment is turned by +90 degrees, as the plan under a Zhukovsky lever is; ``read``: its length
-    is read with the ruler and laid off again, as a force that one plan has given to another. A
-    segment of no length has no direction, and needs none.
+    segment is turned by +90 degrees, as the plan under a Zhukovsky lever is. ``length`` is what
+    was read of the segment, mm, and is laid off again (its sign does not matter): a force that one
+    plan has given to another; without it the segment is pricked through. A segment of no length has
+    no direction, and needs none.
     """
 
     out: PointName
     origin: PointName
     tail: PointName
     head: PointName
+    length: NumberName | None = None
     times: NumberName | None = None
     turned: bool = False
-    read: bool = False
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
-    """Moment of a vector of a plan about a point of another drawing (момент силы), mm².
+class MeasureArm:
+    """Arm of a vector of a plan about a point of another drawing (измерить плечо), mm.
 
-    The vector from ``tail`` to ``head`` acts at ``at``; its arm about ``about`` is measured with
-    the ruler, and multiplied by the vector's length, which is read too where ``read`` says that no
-    number before tells it. Positive counter-clockwise.
+    The vector from ``tail`` to ``head`` acts at ``at``: its line is drawn through there, and the
+    distance of that line from ``about`` is read with the ruler. Positive where the vector turns
+    counter-clockwise about the point; 0 for a vector of no length.
     """
 
     out: NumberName
@@ -210,20 +213,20 @@ class Moment:
     at: PointName
     tail: PointName
     head: PointName
-    read: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Compute:
     """Number from numbers: ``factor`` times a product of powers (вычислить).
 
-    ``powers`` are (name, exponent): omega = mu_v·bc / l_BC is factor 1 and (mu_v, 1), (bc, 1),
-    (l_BC, -1).
+    ``powers`` are (name, exponent): omega = v_CB / l_BC is factor 1 and (v_CB, 1), (l_BC, -1).
+    ``size``: the number without its sign (модуль).
     """
 
     out: NumberName
     factor: float
     powers: tuple[tuple[NumberName, int], ...]
+    size: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,7 +253,7 @@ Step: TypeAlias = (
     | Measure
     | MeasureAlong
     | Carry
-    | Moment
+    | MeasureArm
     | Compute
     | Total
 )

@@ -1,6 +1,6 @@
 """Graphs behind the structural analysis: matching, strong components, rigidity, contours.
 
-A mechanism is written as a system of equations whose coefficients nobody knows yet: only which
+A mechanism is written as a system of equations with coefficients not yet known: only which
 unknown stands in which equation. A link has three unknowns, a shared moving point two; a point
 of a link gives two equations, a prismatic pair two. Everything that the structure of a mechanism
 can say follows from this bipartite graph.
@@ -97,7 +97,7 @@ class Rigidity:
         self._matching = Matching()
 
     def add(self, support: Sequence[Node]) -> set[Node]:
-        """Add a constraint; return nothing, or the unknowns of the part that has it already."""
+        """Add a constraint; return the unknowns of the part that has it already, if any."""
         blocked = self._test(support)
         if blocked:
             return blocked

@@ -106,8 +106,9 @@ def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
     """Motion and textbook name of every link, the frame first (виды движения звеньев).
 
     It is what the pairs alone can tell: a driven link on a fixed hinge is called a rocker, though
-    with other lengths it might turn round. In a pair of a slider with a moving link the stone is
-    the one that has no third pair; when both have none, the one that the file calls the slider.
+    with other lengths it might turn all the way round. In a pair of a slider with a moving link the
+    stone is the one that has no third pair; when both have none, the one that the file calls the
+    slider.
     """
     turning = {
         link for joint in mechanism.revolutes if FRAME in joint.links for link in joint.links

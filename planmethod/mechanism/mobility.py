@@ -1,4 +1,4 @@
-"""Mechanisms that do not move as their driver says, refused with a reason (подвижность)."""
+"""Mechanisms that do not follow their driver, refused with a reason (подвижность)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def refuse_immovable(mechanism: Mechanism) -> None:
         text += "Give the links more common points or slides, or remove the loose links."
     else:
         text += "there are too many pairs, or links are missing. "
-        text += "Check points that bear the same name by mistake and slides given twice."
+        text += "Look for points given the same name by mistake and for slides given twice."
     raise StructureError(text)
 
 
@@ -131,7 +131,7 @@ def _refuse_driver(mechanism: Mechanism) -> None:
     if pairs:
         raise StructureError(
             f"Driver {driver} is joined with the frame by {len(pairs)} pairs ({', '.join(pairs)}) "
-            "and cannot move. Leave one of them."
+            "and cannot move. Keep one of them."
         )
     others = sorted({link for ends in _joined(mechanism) if driver in ends for link in ends})
     beside = [link for link in mechanism.links if link in others and link != driver]
@@ -150,14 +150,14 @@ def _refuse_sliding_contour(mechanism: Mechanism) -> None:
             contour = _path(before, pair.slider, pair.host)
             raise StructureError(
                 f"{_name(contour).capitalize()} close a contour of {len(contour)} prismatic pairs "
-                "only (PPP): it is no Assur group, because nothing in it turns and one pair "
+                "only (PPP): it is not an Assur group, because nothing in it turns and one pair "
                 "repeats what the others say of the angles. Make one of the pairs revolute."
             )
         before.append(pair)
 
 
 class _Classes:
-    """Links gathered into classes that turn together."""
+    """Classes of links that turn together."""
 
     def __init__(self, links: Iterable[str]) -> None:
         self._head = {link: link for link in links}
@@ -168,7 +168,7 @@ class _Classes:
         return link
 
     def join(self, one: str, other: str) -> bool:
-        """Join two classes; False when they were one before."""
+        """Join two classes; False when they were one already."""
         a, b = self.find(one), self.find(other)
         self._head[a] = b
         return a != b

@@ -1,4 +1,4 @@
-"""Links, pairs and driver of a planar mechanism: who is joined with whom, no coordinates."""
+"""Links, pairs and driver of a planar mechanism: what is joined to what, no coordinates."""
 
 from __future__ import annotations
 

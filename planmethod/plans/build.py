@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from planmethod.construct.program import Program
-from planmethod.construct.steps import PointName, Step
+from planmethod.construct.steps import Name, PointName, Step
 from planmethod.mechanism.groups import AssurGroup
-from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.draft import Choice, Draft
+from planmethod.plans.legend import PlanSegment, Quantity, motion_quantities, plan_segments
 from planmethod.plans.model import Plan, PlanKind
 from planmethod.plans.motion.board import Motion
 from planmethod.plans.motion.dyads import drive_motion, group_motion
@@ -32,7 +33,7 @@ class Section:
     frame: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Construction:
     """A problem's program and what its names stand for.
 
@@ -48,6 +49,10 @@ class Construction:
         Velocity and acceleration plan.
     sections : tuple of Section
         The program cut where one group ends and the next begins.
+    legend : tuple of Quantity
+        What is known of the motion, in the order of the plans.
+    segments : tuple of PlanSegment
+        What is measured on the plans.
     """
 
     program: Program
@@ -55,6 +60,16 @@ class Construction:
     kinematics: Kinematics
     plans: tuple[Plan, Plan]
     sections: tuple[Section, ...]
+    legend: tuple[Quantity, ...]
+    segments: tuple[PlanSegment, ...]
+
+    def step(self, name: Name) -> Step:
+        """Return the step that makes a name."""
+        return self._made[name]
+
+    @cached_property
+    def _made(self) -> dict[Name, Step]:
+        return {step.out: step for step in self.program.steps}
 
     def plan(self, kind: PlanKind) -> Plan:
         """Return the velocity or the acceleration plan."""
@@ -106,8 +121,11 @@ def build(problem: Problem, structure: Structure, choice: Choice) -> Constructio
         for group in structure.groups:
             group_motion(kin, motion, group)
             cutter.cut(motion.kind, group)
+    legend = tuple(motion_quantities(kin, draft))
+    segments = tuple(plan_segments(draft, (velocity, acceleration)))
     plans = (_plan(velocity), _plan(acceleration))
-    return Construction(draft.b.program(), draft, kin, plans, tuple(cutter.sections))
+    sections = tuple(cutter.sections)
+    return Construction(draft.b.program(), draft, kin, plans, sections, legend, segments)
 
 
 def _plan(motion: Motion) -> Plan:
@@ -115,17 +133,3 @@ def _plan(motion: Motion) -> Plan:
     for at, shown in motion.letters.items():
         letters[at] = ", ".join(shown)
     return Plan(motion.kind, motion.pole, letters, tuple(motion.vectors), tuple(motion.equations))
-
-
-def measured_segments(problem: Problem, draft: Draft) -> tuple[tuple[str, str], ...]:
-    """Return the segments of the position plan worth reading: given lengths and measured ones."""
-    pairs: list[tuple[str, str]] = []
-    for link, body in problem.bodies.items():
-        if link == FRAME:
-            continue
-        points = list(body.points)
-        first = body.axis[0] if body.axis else points[0]
-        pairs.extend((first, other) for other in points if other != first)
-    pairs.extend(draft.read)
-    unique = {frozenset(pair): pair for pair in reversed(pairs)}
-    return tuple(reversed(unique.values()))

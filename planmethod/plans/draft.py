@@ -119,11 +119,28 @@ class Draft:
     def measured(self, p: str, q: str) -> NumberName:
         """Return the distance of two places read on the drawing, mm."""
         p, q = sorted((p, q))
-        name = f"({p}{q})"
         if (p, q) in self.read:
-            return NumberName(name)
+            return self.measured_before(p, q)
         self.read.append((p, q))
-        return self.b.measure(name, PointName(p), PointName(q))
+        return self.b.measure(f"({p}{q})", PointName(p), PointName(q))
+
+    def measured_before(self, p: str, q: str) -> NumberName:
+        """Return the distance of two places that has been read."""
+        p, q = sorted((p, q))
+        return NumberName(f"({p}{q})")
+
+    def segments(self) -> tuple[tuple[str, str], ...]:
+        """Return the segments worth reading: given lengths, and what no length tells."""
+        pairs: list[tuple[str, str]] = []
+        for link, body in self.problem.bodies.items():
+            if link == FRAME:
+                continue
+            points = list(body.points)
+            first = body.axis[0] if body.axis else points[0]
+            pairs.extend((first, other) for other in points if other != first)
+        pairs.extend(self.read)
+        unique = {frozenset(pair): pair for pair in reversed(pairs)}
+        return tuple(reversed(unique.values()))
 
     def drawn(self, metres: NumberName) -> NumberName:
         """Return a known length in millimetres of the drawing."""
@@ -232,6 +249,26 @@ class Draft:
     def _foot(self, of: str) -> str:
         self._feet += 1
         return f"{of}~{self._feet}"
+
+    def in_line(self, link: str, *places: str) -> bool:
+        """Tell whether places of a link lie on one line, wherever sliders stand on it."""
+        body, lines = self.problem.bodies[link].points, []
+        for place in places:
+            if place in body:
+                continue
+            slides = (s for s in self.problem.slides.values() if (s.host, s.pin) == (link, place))
+            slide = next(slides, None)
+            if slide is None:
+                return False
+            along = cis(slide.angle)
+            lines.append((slide.base + 1j * along * slide.offset, along))
+        fixed = [body[place] for place in places if place in body]
+        if not lines:
+            far = max(fixed, key=lambda z: abs(z - fixed[0]))
+            lines.append((fixed[0], far - fixed[0]))
+        start, along = lines[0]
+        off = [abs(((z - start) * along.conjugate()).imag) for z in fixed]
+        return len(lines) == 1 and max(off) <= TINY * self.size(link) * abs(along)
 
     # Slide lines -----------------------------------------------------------------------------
 

@@ -14,11 +14,11 @@ COLLINEAR = 1e-9
 """Relative slack within which two distances are taken to put a point on the line."""
 
 AGREE = 1e-6
-"""Relative slack within which a length that is not needed must agree with the others."""
+"""Relative slack within which a redundant length must agree with the others."""
 
 
 class _ContradictionError(Exception):
-    """The data of one point exclude each other; carries path, message and hint."""
+    """The data of one point contradict each other; carries path, message and hint."""
 
 
 def rotation(angle_deg: float) -> complex:
@@ -55,7 +55,7 @@ def place_points(faults: Faults, link: LinkText) -> Body | None:
 
 
 class _Placement:
-    """Work sheet of one link: points placed so far, in working axes."""
+    """Worksheet of one link: points placed so far, in working axes."""
 
     def __init__(self, faults: Faults, link: LinkText) -> None:
         self.faults = faults
@@ -168,7 +168,7 @@ class _Placement:
         if start == end:
             raise _ContradictionError(
                 f"{self.link.path}.{point}",
-                f"{form.line[0]} and {form.line[1]} are one place, they give no line",
+                f"{form.line[0]} and {form.line[1]} coincide and give no line",
             )
         if form.kind == "on":
             return start + complex(form.at, form.across) * _unit(end - start)
@@ -251,7 +251,7 @@ class _Placement:
                 self.faults.add(
                     f"{link.path}.{point}",
                     f"point {point} is measured from points that are not placed",
-                    "Points may not be measured from one another in a circle.",
+                    "Points must not be measured from one another in a circle.",
                 )
             elif known:
                 more = next((b for b in bases if b not in {other for other, _ in known}), None)

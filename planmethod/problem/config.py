@@ -1,4 +1,4 @@
-"""The user's config file (файл настроек): what stands in every title block, and the make-up wished.
+"""The user's config file (файл настроек): the standing texts of title blocks, preferred make-up.
 
 A student writes surname, group and checker into it once; the problem file outranks it.
 """
@@ -31,13 +31,13 @@ class Config:
 
 
 def usual_place(environ: Mapping[str, str] = os.environ, platform: str = sys.platform) -> Path:
-    """Return where the config file is when nobody says: it need not be there."""
+    """Return where the config file is unless told otherwise; it need not exist."""
     if platform == "win32":
         folder = environ.get("APPDATA", "")
         base = Path(folder) if folder else Path.home() / "AppData" / "Roaming"
     else:
         folder = environ.get("XDG_CONFIG_HOME", "")
-        # the XDG rule: a relative path there is as if it were absent
+        # the XDG rule: a relative path counts as absent
         base = Path(folder) if folder.startswith("/") else Path.home() / ".config"
     return base / "planmethod" / "config.toml"
 
@@ -53,7 +53,7 @@ def find_config(environ: Mapping[str, str] = os.environ) -> Path | None:
     try:
         usual = usual_place(environ)
         return usual if usual.exists() else None
-    except (OSError, RuntimeError):  # no home, or no right to look into it
+    except (OSError, RuntimeError):  # no home, or no permission to look into it
         return None
 
 
@@ -63,7 +63,7 @@ def load_config(path: Path) -> Config:
     Raises
     ------
     ConfigError
-        With every fault of the file: path, what was expected, what came, the nearest name.
+        With every fault of the file: path, what was expected, what was found, the nearest name.
     """
     name = str(path)
     try:

@@ -43,7 +43,7 @@ def read_drive(
     if given is None:
         return None
     given = read_keys(faults, "driver", given, keys.DRIVER)
-    # a misspelt key is told once: what it should have been is then not called missing
+    # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = _read_link(faults, given, links)
     if link is None:
@@ -59,7 +59,7 @@ def read_drive(
             )
         return None
     if pivots and hosts.get(link.name) == FRAME:
-        return None  # told among the joints: pivoted and sliding on the frame at once
+        return None  # reported with the joints: pivoted to the frame and sliding on it at once
     own, other = (keys.CRANK, keys.SLIDER) if pivots else (keys.SLIDER, keys.CRANK)
     kind = "a crank" if pivots else "a driving slider"
     for key in given:
@@ -103,7 +103,7 @@ def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> L
 
 
 def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
-    """Refuse a crank whose own axis, that phi turns, does not start at the pivot."""
+    """Refuse a crank whose own axis, which phi turns, does not start at the pivot."""
     if not link.lengths or link.slides is not None:
         return
     first = link.lengths[0]
@@ -234,7 +234,7 @@ def read_assembly(
     moving: Collection[str],
     fixed: Collection[str],
 ) -> tuple[Rule, ...]:
-    """Read ``[assembly]``: one rule a point.
+    """Read ``[assembly]``: one rule for each point.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ class Faults:
         return self.count > 0
 
     def add(self, path: str, message: str, hint: str = "") -> None:
-        """Note a fault; the same fault is noted once."""
+        """Note a fault; the same fault is noted only once."""
         fault = Fault(path, message, hint)
         if fault in self._found:
             return
@@ -54,7 +54,7 @@ class Faults:
         left = self.count - len(self._found)
         if left <= 0:
             return tuple(self._found)
-        return (*self._found, Fault("", f"and {left} more faults", "Mend these first."))
+        return (*self._found, Fault("", f"and {left} more faults", "Fix these first."))
 
 
 def show(value: object) -> str:
@@ -176,7 +176,7 @@ def read_text(faults: Faults, path: str, value: object, *, limit: int) -> str | 
         faults.add(
             path,
             f"the text has the control character U+{ord(bad):04X}",
-            "Write it in one line, without tabs.",
+            "Write it on one line, without tabs.",
         )
         return None
     return value
@@ -219,7 +219,7 @@ def report_unknown(
 ) -> None:
     """Note an unknown key or name with the nearest known one."""
     names = tuple(known)
-    # the nearest name is searched for only while the fault will be listed
+    # the nearest name is searched for only if the fault will be listed
     guess = near(name, names) if faults.count < FAULT_LIMIT else None
     hint = f"Did you mean '{guess}'?" if guess else ""
     if not hint and names:

@@ -143,7 +143,7 @@ def _read_load(
 ) -> Load | Couple | None:
     before = len(faults)
     given = read_keys(faults, path, body, keys.LOAD)
-    # a misspelt key is told once: what it should have been is then not called missing
+    # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = None
     if "link" in given:
@@ -152,7 +152,7 @@ def _read_load(
         faults.add(f"{path}.link", "missing", f"Name the link: {listed(scene.links)}.")
     load: Load | Couple | None = None
     if "force" in given and "couple" in given:
-        hint = "Write two [[loads]] of them."
+        hint = "Write them as two [[loads]]."
         faults.add(f"{path}.couple", "force and couple are both given", hint)
     elif "force" in given:
         load = _read_force(faults, path, given, link, scene, whole=whole)
@@ -160,7 +160,7 @@ def _read_load(
         load = _read_couple(faults, path, given, link, scene)
     elif whole:
         hint = 'For example: link = "5", at = "H", force = 6000, angle = -90.'
-        faults.add(path, "expected force or couple, got none of them", hint)
+        faults.add(path, "expected force or couple, got neither", hint)
     if load is None or len(faults) != before:
         return None
     letter = "F" if isinstance(load, Load) else "M"

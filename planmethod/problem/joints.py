@@ -1,4 +1,4 @@
-"""Who is joined with whom: the mechanism behind the points and slides, and its cross checks."""
+"""What is joined to what: the mechanism behind the points and slides, and its cross checks."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def join(
     *,
     complete: bool,
 ) -> Mechanism:
-    """Make the joints that shared names and slides mean, and check them.
+    """Make the joints that shared names and slides imply, and check them.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def join(
 
 
 def coincident_points(slides: Iterable[Slide]) -> list[str]:
-    """Names that points under other links' points have: ``B3`` under a pin, ``E4`` on a slider."""
+    """Names of points under those of other links: ``B3`` under a pin, ``E4`` on a slider."""
     found: list[str] = []
     for slide in slides:
         if slide.host != FRAME:
@@ -80,7 +80,7 @@ def _refuse_doubles(
                 f"links.{two}.points",
                 f"{_called(one)} and link {two} share the points {' and '.join(points)}: "
                 "they make one rigid body",
-                "Two links are joined in one point; give the other points other names.",
+                "Two links are joined at one point; give the other points other names.",
             )
     for slide in prismatics:
         pair = (slide.host, slide.slider)
@@ -150,14 +150,14 @@ def _check_coincident(
 
 
 def _check_letters(faults: Faults, points: Iterable[str]) -> None:
-    """Refuse points that differ in case only: on the plans both have the same small letter."""
+    """Refuse points that differ only in case: on the plans both have the same small letter."""
     seen: dict[str, str] = {}
     for point in points:
         twin = seen.setdefault(point.casefold(), point)
         if twin != point:
             faults.add(
                 "links",
-                f"the points {twin} and {point} differ in case only: on the plans both are "
+                f"the points {twin} and {point} differ only in case: on the plans both are "
                 f"{point.lower()}",
                 f"Rename the point {point}.",
             )

@@ -77,7 +77,7 @@ class LinkText:
     Attributes
     ----------
     sound : bool
-        False once a fault was noted in the link.
+        False once a fault has been noted in the link.
     whole : bool
         False when its points or its slide could not be read: then nothing follows from what it
         seems to be joined to.
@@ -222,7 +222,7 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
     if pair is None:
         guess = near(key, (*keys.LINK, *_pair_names(link.points)))
         example = "".join(link.points[:2]) if len(link.points) > 1 else "AB"
-        hint = f"A length has the names of its two points: {example}."
+        hint = f"A length is named by its two points: {example}."
         faults.add(path, "unknown key", f"Did you mean '{guess}'?" if guess else hint)
         return
     strangers = [point for point in dict.fromkeys(pair) if point not in link.points]

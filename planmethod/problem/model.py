@@ -104,7 +104,7 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """Law of motion of the driving link (начальное звено) in the asked positions.
+    """Law of motion of the driving link (начальное звено) in the positions asked for.
 
     Attributes
     ----------
@@ -167,7 +167,7 @@ class Published:
 
 @dataclass(frozen=True, slots=True)
 class SheetSettings:
-    """How the sheets are to be made up (оформление листов): ``[sheet]``; None where it is silent.
+    """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not said.
 
     Attributes
     ----------
@@ -189,7 +189,7 @@ class SheetSettings:
     lettering: str | None = None
 
     def over(self, lower: SheetSettings) -> SheetSettings:
-        """Return these settings, and those of ``lower`` where these are silent."""
+        """Return these settings, and those of ``lower`` where these say nothing."""
         told = {
             part.name: getattr(self, part.name)
             for part in fields(self)

@@ -1,4 +1,4 @@
-"""Names of points, links, guides and variants: what they may be and how they are confused.
+"""Names of points, links, guides and variants: what they may be, and what is mistaken for them.
 
 Point names are a Latin (or unmistakably Greek) letter with digits and primes, so a pair of names
 written together (``AB``, ``O3A``, ``CS3``) splits in one way only.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +37,7 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     Raises
     ------
     ProblemError
-        With every fault of the file: path, what was expected, what came, the next action.
+        With every fault of the file: path, what was expected, what was found, the next action.
     """
     path = Path(path)
     table = parse(read_source(path), name=str(path))
@@ -104,8 +105,6 @@ def _unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
 
 
 def _with_variants(problem: Problem, names: tuple[str, ...], variant: str | None) -> Problem:
-    from dataclasses import replace
-
     return replace(problem, variants=names, variant=variant)
 
 

@@ -93,7 +93,7 @@ FORCES: Mapping[str, tuple[tuple[Role, ...], ...]] = {
 """Kinds of quantity of the force analysis, and what the names of each are, in every form it has."""
 
 _PAIRED = frozenset(kind.split()[0] for kind in (*QUANTITIES, *FORCES) if " " in kind)
-"""First words of kinds that have two; ``inertia`` is a kind without its second too."""
+"""First words of the kinds that have two; ``inertia`` alone is a kind as well."""
 
 _ABOUT = "about"
 
@@ -137,7 +137,8 @@ def _parse_one(text: str) -> Selector:
         del names[-2]
     if len(names) not in counts:
         wanted = " or ".join(map(str, counts))
-        raise SelectorError(f"'{kind}' goes with {wanted} names, got {len(names)}")
+        noun = "name" if wanted == "1" else "names"
+        raise SelectorError(f"'{kind}' takes {wanted} {noun}, got {len(names)}")
     selector = Selector(kind, tuple(names))
     for pair in _must_differ(selector):
         if len(set(pair)) != len(pair):
@@ -160,7 +161,7 @@ def _kind(words: list[str]) -> tuple[str, list[str]]:
 
 
 def _must_differ(selector: Selector) -> list[tuple[str, ...]]:
-    """Return the names among which none may be twice: points, and links."""
+    """Return the groups of names that must differ within the group: points, and links."""
     if selector.kind in QUANTITIES:
         return [selector.names]
     told = roles(selector)

@@ -1,6 +1,6 @@
 """Title block and make-up of the sheets (основная надпись и оформление): ``[stamp]``, ``[sheet]``.
 
-A problem file has these tables, and so has a config file.
+A problem file has these tables, and so does a config file.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def _given(
     others: Collection[str],
     example: str,
 ) -> dict[str, Any]:
-    """Return the known keys of a table; one that belongs to the other table is told so."""
+    """Return the known keys of a table; the fault of a key of the other table says so."""
     entries = read_table(faults, path, table, example) or {}
     other = "sheet" if path == "stamp" else "stamp"
     astray = [key for key in entries if key in others and key not in known]
@@ -88,7 +88,7 @@ def _read_choice(faults: Faults, path: str, value: object, known: Collection[str
 
 
 def chosen(text: str, known: Collection[str]) -> str | None:
-    """Return which of a few words a text is, in either alphabet and case; None if none.
+    """Return which of a few words a text is, in either alphabet and case, or None.
 
     Type Б of the lettering is called B in Latin letters.
 

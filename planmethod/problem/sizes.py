@@ -150,7 +150,7 @@ def _read_rows(
     if over is Over.POSITION:
         return _read_by_position(faults, path, value, what, drive)
     if len(value) < 2:
-        hint = f"For example: {_TABLE}. A load that is always the same is a number."
+        hint = f"For example: {_TABLE}. A constant load is just a number."
         faults.add(
             path, f"expected at least two rows [{over.value}, value], got {len(value)}", hint
         )
@@ -193,16 +193,16 @@ def _check_order(faults: Faults, path: str, rows: list[tuple[float, float]], ove
         if two > one:
             continue
         if two == one:
-            message, hint = f"{over.value} = {two:g} stands in two rows", "Keep one of them."
+            message, hint = f"{over.value} = {two:g} is in two rows", "Keep one of them."
         else:
-            message, hint = f"{over.value} = {two:g} after {one:g}", "The rows go upwards."
+            message, hint = f"{over.value} = {two:g} after {one:g}", "Put the rows in order."
         faults.add(f"{path}[{index}]", message, hint)
         return False
     if over is not Over.PHI:
         return True
     (start, first), (end, last) = rows[0], rows[-1]
     if end - start > TURN:
-        message = f"the rows go over {end - start:g} degrees, a turn has {TURN:g}"
+        message = f"the rows span {end - start:g} degrees, a turn has {TURN:g}"
         faults.add(path, message, "The table repeats with every turn.")
         return False
     if end - start == TURN and first != last:

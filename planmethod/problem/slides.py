@@ -153,7 +153,7 @@ def order_hosts(faults: Faults, hosts: Mapping[str, str]) -> list[str]:
                 names = " on ".join([*circle, circle[0]])
                 faults.add(
                     f"links.{segment(start)}.slides.on",
-                    f"links slide in a circle: {names}",
+                    f"links slide on each other in a circle: {names}",
                     "One of them must carry the line without sliding itself.",
                 )
             continue
@@ -273,7 +273,7 @@ def _read_slide_angle(
         faults.add(
             f"{path}.angle",
             f"expected 0 or nothing, got {angle:g}",
-            f"Link {host} has no other axis than the line it carries.",
+            f"Link {host} has no axis other than the line it carries.",
         )
         return None
     # the file counts from +x where the host cannot turn: that is what the figure shows

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.problem.names import describe_lookalikes, fold, looks_latin
+from planmethod.problem.names import describe_lookalikes, fold, looks_latin, near
 
 SIZE_LIMIT = 256 * 1024
 LINE_LIMIT = 8192
@@ -50,7 +50,7 @@ def read_source(path: Path) -> str:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise _fail(
-            name, f"the file cannot be read: {reason}", "Check the path and rights."
+            name, f"the file cannot be read: {reason}", "Check the path and the permissions."
         ) from None
     if len(data) > SIZE_LIMIT:
         raise _too_large(name)
@@ -58,7 +58,7 @@ def read_source(path: Path) -> str:
         if data.startswith(mark):
             raise _fail(name, f"the file is in {encoding}, expected UTF-8", "Save it as UTF-8.")
     try:
-        return data.decode("utf-8-sig")  # Notepad's mark at the start says nothing more
+        return data.decode("utf-8-sig")  # Notepad's mark at the start is skipped
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise _fail(
@@ -85,7 +85,7 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
             raise _fail(
                 name,
                 f"line {number} has {len(line)} characters, the limit is {LINE_LIMIT}",
-                "Break it; lists may go over many lines.",
+                "Break it up; lists may span several lines.",
             )
         if line.count(".") >= DOT_LIMIT and _DOTS_RE.search(line):
             raise _fail(name, f"line {number}: a key has over {DOT_LIMIT} parts", _DEPTH_HINT)
@@ -94,7 +94,7 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         raise ProblemError(name, [_syntax_fault(str(error), lines)]) from None
     except RecursionError:
-        raise _fail(name, "lists or tables are nested too deep", _DEPTH_HINT) from None
+        raise _fail(name, "lists or tables are nested too deeply", _DEPTH_HINT) from None
     except ValueError as error:
         # Python bounds the digits of an integer, and dates are checked late
         raise _fail(name, f"a value cannot be read: {error}"[:200]) from None
@@ -109,7 +109,7 @@ _VARIANT_HEADER = re.compile(
 
 
 def _quoted(header: re.Match[str]) -> str:
-    """Quote a variant's Russian name: TOML has bare keys of Latin letters only, students do not."""
+    """Quote a variant's Russian name: TOML's bare keys are Latin only, students' are not."""
     start, name = header.groups()
     return f"{start}{name}" if name.isascii() else f'{start}"{name}"'
 
@@ -131,8 +131,6 @@ def _too_large(name: str) -> ProblemError:
 
 def _nearby(path: Path) -> str:
     """Hint for a missing file: the nearest name in its folder."""
-    from planmethod.problem.names import near
-
     try:
         names = [p.name for _, p in zip(range(1000), path.parent.glob("*.toml"), strict=False)]
     except (OSError, ValueError):
@@ -142,7 +140,7 @@ def _nearby(path: Path) -> str:
 
 
 def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:
-    """Whether values are nested deeper than a limit; a loop, since the nesting is a stranger's."""
+    """Whether values are nested deeper than a limit; a loop, since a stranger chose how deep."""
     level: list[Any] = [table]
     for _ in range(limit + 1):
         level = [
@@ -185,7 +183,7 @@ def _syntax_hint(what: str, line: str, where: str) -> str:
         if not any(c in part for c in "\"'"):
             quoted = key.strip().replace(part, f'"{part}"')
             shown = f"[{quoted}]" if header else f"{quoted} = ..."
-            return f"A key with letters other than Latin stands in quotes: {shown}"
+            return f"A key with letters other than Latin must be in quotes: {shown}"
     if "llegal character" in what and code.count('"') % 2:
         return "The closing quote is missing."
     if code.count("[") > code.count("]"):
@@ -194,12 +192,12 @@ def _syntax_hint(what: str, line: str, where: str) -> str:
     if comma:
         return f"Write {comma[1]}.{comma[2]} with a decimal point, not {comma[1]},{comma[2]}."
     if "=" not in code and not code.startswith("["):
-        return "A line is 'key = value' or a '[table]'."
+        return "A line must be 'key = value' or '[table]'."
     if "overwrite" in what or "twice" in what:
-        return "The same key or table stands above; keep one of them."
+        return "The same key or table appears above; keep one of them."
     if re.search(r"=\s*$", code):
         return "A value is missing after '='."
     if re.search(r"=\s*[^\W\d]", code) and "true" not in code and "false" not in code:
-        return "Text stands in quotes."
+        return "Text must be in quotes."
     column = int(where.rsplit(" ", 1)[1])
     return f"Look at this line near column {column}: {line.strip()[:60]}" if line.strip() else ""

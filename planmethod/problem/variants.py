@@ -96,7 +96,7 @@ def _get(base: Any, path: Path) -> Any:
 
 
 def _key(level: object, part: str) -> str | int:
-    """Key of a part of a path; a load goes by its number from 0, or by its name."""
+    """Key for a part of a path; a load goes by its number from 0, or by its name."""
     if not isinstance(level, list) or not all(isinstance(entry, Mapping) for entry in level):
         return part
     if part.isdecimal():
@@ -177,7 +177,7 @@ def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: Path)
 def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> dict[str, Any]:
     """Lay the overrides of a variant over the main part; the table itself is left as it is.
 
-    Published values belong to the main part: a variant that moves otherwise has only its own, and
+    Published values belong to the main part: a variant that moves differently has only its own, and
     one with other masses or loads keeps those of the motion.
     """
     result = dict(table)

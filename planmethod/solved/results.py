@@ -6,73 +6,23 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from planmethod.construct.program import Program
-from planmethod.construct.steps import Name, NumberName, PointName
+from planmethod.construct.steps import NumberName
 from planmethod.errors import PlanMethodError
 from planmethod.plans.build import Construction
 from planmethod.plans.draft import Draft
+from planmethod.plans.legend import Quantity, QuantityKind
 
 if TYPE_CHECKING:
     from planmethod.solved.solution import Solution
 
 
-class ResultKind(Enum):
-    """Kind of a result (вид величины)."""
-
-    PLACE = "place"
-    VELOCITY = "velocity"
-    ACCELERATION = "acceleration"
-    DIRECTION = "direction"
-    UNIT = "unit"  # the direction as a unit vector
-    OMEGA = "omega"
-    EPSILON = "epsilon"
-    SLIDING = "sliding"  # signed, along the slide line
-    REACTION = "reaction"
-    MOMENT = "moment"  # of a reaction, or on the crank
-    THRUST = "thrust"  # on the driving slider, along its guide
-
-
-UNIT = {
-    ResultKind.PLACE: "m",
-    ResultKind.VELOCITY: "m/s",
-    ResultKind.ACCELERATION: "m/s²",
-    ResultKind.DIRECTION: "deg",
-    ResultKind.UNIT: "1",
-    ResultKind.OMEGA: "1/s",
-    ResultKind.EPSILON: "1/s²",
-    ResultKind.SLIDING: "m/s",
-    ResultKind.REACTION: "N",
-    ResultKind.MOMENT: "N·m",
-    ResultKind.THRUST: "N",
-}
-
-
-@dataclass(frozen=True, slots=True)
-class Result:
-    """One quantity of a solved problem and the step that makes it (искомая величина).
-
-    Attributes
-    ----------
-    label : str
-        ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``; and
-        ``u_2``, the direction ``phi_2`` as a unit vector. Of forces ``F_B_2/1`` (on link 2 from
-        link 1), ``M_B_2/1`` (its moment), ``M_dr`` or ``F_dr``, ``M_lever`` or ``F_lever``.
-    kind : ResultKind
-    name : Name
-        A point, a number, or for a direction the line of the link's own axis.
-    of : str
-        Point or link; of a force the beginning of its rows: ``F.B.2-1``.
-    """
-
-    label: str
-    kind: ResultKind
-    name: Name
-    of: str
+BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
+"""Kinds of what is given only when it is asked for by name."""
 
 
 class UnknownResultError(PlanMethodError, ValueError):
@@ -99,12 +49,12 @@ class Results:
 
     program: Program
     numbers: Mapping[str, complex | float]
-    all: tuple[Result, ...]
+    all: tuple[Quantity, ...]
     draft: Draft
     changing: tuple[tuple[str, tuple[NumberName, ...]], ...] = ()
 
-    def choose(self, labels: Iterable[str] | None) -> tuple[Result, ...]:
-        """Return the results of some labels, in the order asked; for None all but unit vectors.
+    def choose(self, labels: Iterable[str] | None) -> tuple[Quantity, ...]:
+        """Return the results of some labels, in the order asked; for None all that have columns.
 
         ``positions``, ``velocities``, ``accelerations``, ``forces`` and ``units`` stand for what
         they say.
@@ -114,19 +64,19 @@ class Results:
         UnknownResultError
         """
         if labels is None:
-            return tuple(result for result in self.all if result.kind is not ResultKind.UNIT)
-        chosen: dict[str, Result] = {}
+            return tuple(result for result in self.all if result.kind not in BY_NAME)
+        chosen: dict[str, Quantity] = {}
         for label in labels:
             chosen.update((result.label, result) for result in self._named(label))
         return tuple(chosen.values())
 
-    def find(self, label: str) -> Sequence[Result]:
+    def find(self, label: str) -> Sequence[Quantity]:
         """Return the results that a label stands for; none if there are no such."""
         if label in WHOLE:
             return [result for result in self.all if result.kind in WHOLE[label]]
         return [result for result in self.all if result.label == label]
 
-    def _named(self, label: str) -> Sequence[Result]:
+    def _named(self, label: str) -> Sequence[Quantity]:
         found = self.find(label)
         if not found:
             known = [result.label for result in self.all]
@@ -139,44 +89,26 @@ class Results:
         return found
 
 
-FORCES = frozenset({ResultKind.REACTION, ResultKind.MOMENT, ResultKind.THRUST})
-"""Kinds of results of the force analysis."""
-
-NUMBERS = frozenset(
-    {
-        ResultKind.OMEGA,
-        ResultKind.EPSILON,
-        ResultKind.SLIDING,
-        ResultKind.MOMENT,
-        ResultKind.THRUST,
-    }
-)
-"""Kinds of results that are one number, not a vector."""
-
-
-def natural_size(kind: ResultKind, largest: Mapping[ResultKind, Any]) -> Any:
+def natural_size(kind: QuantityKind, largest: Mapping[QuantityKind, Any]) -> Any:
     """Return what a result of a kind is small against, the largest of each kind being given.
 
     Accelerations may all be zero while links turn: omega squared, and omega times the largest
     velocity, are what they are made of. Numbers or arrays alike.
     """
-    turning = largest[ResultKind.OMEGA]
-    if kind is ResultKind.EPSILON:
+    turning = largest[QuantityKind.OMEGA]
+    if kind is QuantityKind.EPSILON:
         return np.maximum(largest[kind], turning**2)
-    if kind is ResultKind.ACCELERATION:
-        return np.maximum(largest[kind], turning * largest[ResultKind.VELOCITY])
+    if kind is QuantityKind.ACCELERATION:
+        return np.maximum(largest[kind], turning * largest[QuantityKind.VELOCITY])
     return largest[kind]
 
 
-NOTHING = "0"
-"""Name of the number zero, which nothing in a problem can be called."""
-
 WHOLE = {
-    "positions": (ResultKind.PLACE, ResultKind.DIRECTION),
-    "velocities": (ResultKind.VELOCITY, ResultKind.OMEGA, ResultKind.SLIDING),
-    "accelerations": (ResultKind.ACCELERATION, ResultKind.EPSILON),
-    "forces": tuple(FORCES),
-    "units": (ResultKind.UNIT,),
+    "positions": (QuantityKind.PLACE, QuantityKind.DIRECTION),
+    "velocities": (QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.SLIDING),
+    "accelerations": (QuantityKind.ACCELERATION, QuantityKind.EPSILON),
+    "forces": tuple(kind for kind in QuantityKind if kind.is_force),
+    "units": (QuantityKind.UNIT,),
 }
 """Whole groups of results that can be asked for at once."""
 
@@ -184,25 +116,7 @@ WHOLE = {
 def results_of(construction: Construction) -> Results:
     """Return every result of a construction."""
     draft = construction.draft.copy()
-    kin = construction.kinematics
-    still = draft.known(NOTHING, 0.0)  # of links that never turn, or turn evenly
-    found: list[Result] = []
-    for name, (link, place) in kin.velocity.named.items():
-        found += [
-            Result(name, ResultKind.PLACE, PointName(place), name),
-            Result(f"v_{name}", ResultKind.VELOCITY, kin.velocity.point[link, place], name),
-            Result(f"a_{name}", ResultKind.ACCELERATION, kin.acceleration.point[link, place], name),
-        ]
-    for link in draft.problem.mechanism.links:
-        axis = draft.axis(link)
-        found.append(Result(f"phi_{link}", ResultKind.DIRECTION, axis, link))
-        found.append(Result(f"u_{link}", ResultKind.UNIT, axis, link))
-        omega, epsilon = kin.omega.get(link, still), kin.epsilon.get(link, still)
-        found.append(Result(f"omega_{link}", ResultKind.OMEGA, omega, link))
-        found.append(Result(f"epsilon_{link}", ResultKind.EPSILON, epsilon, link))
-    for sliding in kin.relatives.values():
-        found.append(Result(sliding.speed, ResultKind.SLIDING, sliding.speed, sliding.point))
-    return Results(draft.b.program(), draft.numbers, tuple(found), draft)
+    return Results(draft.b.program(), draft.numbers, construction.legend, draft)
 
 
 def results_for(

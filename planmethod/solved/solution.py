@@ -16,11 +16,12 @@ from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import LayOff, Name, PointName
+from planmethod.construct.steps import Name, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.structure import Structure, analyse
-from planmethod.plans.build import Construction, build, measured_segments
-from planmethod.plans.model import Plan, PlanKind
+from planmethod.plans.build import Construction, build
+from planmethod.plans.legend import Quantity
+from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import choose_closings, drive_data
@@ -77,19 +78,6 @@ class RelativeMotion:
     velocity: Complexes
     coriolis: Complexes
     acceleration: Complexes
-
-
-@dataclass(frozen=True, slots=True)
-class HandResults:
-    """Quantities that follow from the read segments, SI, ndarrays of shape (n,).
-
-    ``points`` holds (v, a), ``links`` (omega, epsilon), ``relatives`` (v, Coriolis, relative
-    acceleration) in the order of `Solution.relatives`.
-    """
-
-    points: dict[str, tuple[Reals, Reals]]
-    links: dict[str, tuple[Reals, Reals]]
-    relatives: list[tuple[Reals, Reals, Reals]]
 
 
 class Solution:
@@ -283,54 +271,21 @@ class Solution:
         )
 
     @cached_property
-    def laid_off(self) -> set[tuple[PointName, PointName]]:
-        """Return the segments whose length was computed and laid off: nobody reads them again."""
-        steps = self.construction.program.steps
-        return {(step.origin, step.out) for step in steps if isinstance(step, LayOff)}
+    def legend(self) -> dict[str, Quantity]:
+        """Every quantity of the motion by its label."""
+        return {quantity.label: quantity for quantity in self.construction.legend}
 
-    def read_mm(self, tail: PointName, head: PointName) -> Reals:
-        """Return a segment of the hand's own plan, mm: read with the ruler, or as laid off."""
-        ends = self.complexes(self.by_hand, head) - self.complexes(self.by_hand, tail)
-        drawn = np.asarray(np.abs(ends), dtype=float)
-        if (tail, head) in self.laid_off:
-            return drawn
-        return np.asarray(self.hand.ruled(drawn), dtype=float)
+    def read_off(self, label: str) -> Reals:
+        """Return a quantity as the hand finds it, SI, ndarray of shape (n,).
 
-    def _read_length(self, kind: PlanKind, tail: PointName, head: PointName) -> Reals:
-        """Return a segment as the hand knows it, times its scale."""
-        return np.asarray(self.read_mm(tail, head) * self.scales[kind].per_mm, dtype=float)
-
-    @cached_property
-    def by_hand_results(self) -> HandResults:
-        """What a student computes from the segments he read."""
-        kin = self.construction.kinematics
-        v, a = PlanKind.VELOCITY, PlanKind.ACCELERATION
-        zero = np.zeros(self.positions.shape)
-        points = {
-            name: (
-                self._read_length(v, kin.velocity.pole, kin.velocity.point[at]),
-                self._read_length(a, kin.acceleration.pole, kin.acceleration.point[at]),
-            )
-            for name, at in kin.velocity.named.items()
-        }
-        links = {}
-        for link in self.problem.mechanism.links:
-            omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
-            links[link] = (
-                zero if omega is None else self.reals(self.by_hand, omega),
-                zero if epsilon is None else self.reals(self.by_hand, epsilon),
-            )
-        relatives = []
-        for r in kin.relatives.values():
-            assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
-            relatives.append(
-                (
-                    self._read_length(v, r.start, r.head),
-                    self._read_length(a, r.a_start, r.a_turned),
-                    self._read_length(a, r.a_turned, r.a_head),
-                )
-            )
-        return HandResults(points, links, relatives)
+        Sizes of vectors; angular velocities and accelerations with their sign. What does not move
+        is zero; NaN where the plan gives nothing to find it by.
+        """
+        quantity = self.legend[label]
+        if quantity.size is None:
+            return np.zeros(self.positions.shape)
+        value = self.reals(self.by_hand, quantity.size)
+        return np.abs(value) if quantity.kind.is_size else value
 
     @cached_property
     def doubt(self) -> Reals:
@@ -355,32 +310,12 @@ class Solution:
 
     def segments(self, kind: PlanKind) -> list[Segment]:
         """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
-        if kind is PlanKind.POSITION:
-            pairs = [
-                (f"{p}-{q}", PointName(p), PointName(q))
-                for p, q in measured_segments(self.problem, self.construction.draft)
-            ]
-        else:
-            plan = self.construction.plan(kind)
-            pairs = [
-                (f"{plain(plan, v.tail)}-{plain(plan, v.head)}", v.tail, v.head)
-                for v in plan.vectors
-            ]
-        result = []
-        for name, tail, head in pairs:
-            ends = self.complexes(self.paper, head) - self.complexes(self.paper, tail)
-            exact = np.asarray(np.abs(ends), dtype=float)
-            result.append(Segment(name, exact, self.read_mm(tail, head)))
-        return result
-
-
-def plain(plan: Plan, point: PointName) -> str:
-    """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
-    if point == plan.pole:
-        return "p" if plan.kind is PlanKind.VELOCITY else "π"
-    first = plan.letters.get(point, str(point)).split(", ")[0]
-    head, brace, tail = first.partition("_{")
-    if not brace:
-        return first
-    tail = tail.rstrip("}")
-    return f"{head}_{tail}" if head in ("n", "k") else f"{head}{tail}"
+        return [
+            Segment(
+                segment.name,
+                np.abs(self.reals(self.paper, segment.length)),
+                np.abs(self.reals(self.by_hand, segment.length)),
+            )
+            for segment in self.construction.segments
+            if segment.kind is kind
+        ]

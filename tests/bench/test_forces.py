@@ -1,4 +1,4 @@
-"""The benchmark of the forces, each measurement taken once: that it runs, and its errors."""
+"""The measurements of the forces, each taken once: that they run, and their errors."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from worked import problem_of
 
+from benchmarks import at_once
+from benchmarks.scenes import loaded
 from planmethod.bench import forces
 from planmethod.bench.clock import Timing
-from planmethod.bench.forces_report import forces_section
 from planmethod.bench.speed import turn
 from planmethod.solved.solution import Solution
 
@@ -23,14 +24,15 @@ def once(act: Callable[[], object], **_: float) -> Timing:
 @pytest.fixture(autouse=True)
 def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(forces, "clock", once)
-    monkeypatch.setattr(forces, "DRAWS", 400)
+    monkeypatch.setattr(at_once, "clock", once)
 
 
 def test_readings_are_as_good_as_their_digits() -> None:
-    for reading in forces.readings((1, 24)):
+    readings = forces.readings(loaded(), (1, 24))
+    for reading in [*readings, *at_once.readings(loaded(), (1, 24))]:
         if reading.positions == 24 and not reading.name.startswith("motion alone"):
             assert reading.error < 2e-14, reading
-    errors = {reading.name: reading.error for reading in forces.readings((1,))}
+    errors = {reading.name: reading.error for reading in readings}
     assert errors["referee, 50 digits"] < 1e-48
     assert 1e-5 < errors["the hand, ruler 0.1 mm"] < errors["the hand, ruler 1 mm"] < 0.1
 
@@ -40,11 +42,5 @@ def test_all_links_at_once_agree_with_the_force_plans(name: str) -> None:
     statics = Solution(problem_of(name), positions=(turn(12) + 5.0).tolist()).statics
     wanted = [*(joint.force for joint in statics.reactions), statics.balance]
     largest = max(np.abs(row).max() for row in wanted)
-    for row, right in zip(forces.all_at_once(statics), wanted, strict=True):
+    for row, right in zip(at_once.all_at_once(statics), wanted, strict=True):
         assert np.abs(row - right).max() < 1e-12 * largest
-
-
-def test_the_section_leaves_out_problems_without_loads() -> None:
-    lines = forces_section([problem_of("linkages/ex3"), problem_of("levers/six-link")], quick=True)
-    text = "\n".join(lines)
-    assert "| six-link | 1 |" in text and "ex3" not in text

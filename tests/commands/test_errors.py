@@ -17,6 +17,8 @@ import pytest
 from click.testing import CliRunner, Result
 from worked import ROOT, path_of, problem_of
 
+from planmethod.bench import forces, report, speed
+from planmethod.bench.clock import Timing
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
@@ -27,6 +29,7 @@ from planmethod.solved.many.sweep import Sweep, SweepError
 from planmethod.solved.solution import Solution
 
 EX3 = str(path_of("linkages/ex3"))
+SIX_LINK = str(path_of("levers/six-link"))
 
 
 def run(*args: str) -> Result:
@@ -142,16 +145,27 @@ def test_a_sheet_with_errors(tmp_path: Path) -> None:
     assert len((tmp_path / "ex3.svg").read_bytes()) > len(plain)
 
 
-def test_sections_of_the_benchmark_by_themselves() -> None:
-    told = run("bench", EX3, "--only", "drafting", "--only", "random", "--random", "4")
+def test_a_section_of_bench_by_itself() -> None:
+    told = run("bench", EX3, "--only", "drafting", "--only", "forces")
     assert told.exit_code == 0, told.output
-    assert "## Random mechanisms" in told.stdout and "4 mechanisms" in told.stdout
-    assert "exceptions: 0; results that are NaN without a reason: 0" in told.stdout
-    assert "on a wrong branch: 0 of 48 positions" in told.stdout
     assert "| ex3 | board |" in told.stdout
+    assert "## Forces" not in told.stdout, "ex3 has no loads"
 
 
-def test_a_missing_problem_of_the_benchmark(tmp_path: Path) -> None:
+def test_bench_measures_forces_of_a_problem_with_loads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(report, "COUNTS", (1, 12))
+    monkeypatch.setattr(forces, "DRAWS", 400)
+    for module in (forces, speed):
+        monkeypatch.setattr(module, "clock", lambda act: Timing(1e-3, 1e-3, 1e-3, 1))
+    told = run("bench", SIX_LINK, "--only", "forces", "--only", "speed")
+    assert told.exit_code == 0, told.output
+    for row in ("| sweep, float64 | six-link | 12 |", "| the hand, ruler 0.1 mm | six-link | 1 |"):
+        assert row in told.stdout
+    assert "| motion and force plans, step by step | six-link | 12 |" in told.stdout
+    assert "| six-link | 1 |" in told.stdout, "lever and force plans in the position of the file"
+
+
+def test_bench_of_a_missing_problem(tmp_path: Path) -> None:
     told = run("bench", str(tmp_path / "none.toml"), "--only", "drafting")
     assert told.exit_code == 3
 

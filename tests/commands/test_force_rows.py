@@ -20,7 +20,7 @@ from click.testing import CliRunner, Result
 from loaded import loaded_text
 from worked import DEAD, ROOT, path_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.cli import cli
 from planmethod.construct import evaluate
 from planmethod.construct.compiled import symbolic

@@ -16,7 +16,7 @@ import pytest
 from cases import each
 from worked import every_file
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.construct.compiled import blocks as blocks_module
 from planmethod.construct.compiled import straight as straight_module
 from planmethod.construct.compiled.blocks import Blocks

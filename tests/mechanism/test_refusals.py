@@ -34,8 +34,8 @@ REFUSED = {
     "truss": (
         mechanism("A:01 B:12 C:02"),
         "Mobility W = 3n - 2p1 = 3·2 - 2·3 = 0, but 1 driver is given: there are too many pairs, "
-        "or links are missing. Check points that bear the same name by mistake and slides given "
-        "twice.",
+        "or links are missing. Look for points given the same name by mistake and for slides "
+        "given twice.",
     ),
     "driver between others": (
         mechanism("A:01 B:12 C:23 D:03", driver="2"),
@@ -49,7 +49,7 @@ REFUSED = {
     "driver held twice": (
         mechanism("A:01 B:12 C:23 D:03", "1/0@B"),
         "Driver 1 is joined with the frame by 2 pairs (point A, the slide of 1) and cannot move. "
-        "Leave one of them.",
+        "Keep one of them.",
     ),
     "not connected": (
         mechanism("A:01 B:23 C:24"),
@@ -65,13 +65,13 @@ REFUSED = {
     ),
     "wedge": (
         mechanism("", "1/0@A 2/1@B 2/0@B"),
-        "The frame and links 1, 2 close a contour of 3 prismatic pairs only (PPP): it is no "
-        "Assur group, because nothing in it turns and one pair repeats what the others say of "
+        "The frame and links 1, 2 close a contour of 3 prismatic pairs only (PPP): it is not "
+        "an Assur group, because nothing in it turns and one pair repeats what the others say of "
         "the angles. Make one of the pairs revolute.",
     ),
     "PPP dyad": (
         mechanism("A:01 B:14 D:45 E:05", "2/4@C 3/2@C 3/4@C"),
-        "Links 2, 3, 4 close a contour of 3 prismatic pairs only (PPP): it is no Assur group, "
+        "Links 2, 3, 4 close a contour of 3 prismatic pairs only (PPP): it is not an Assur group, "
         "because nothing in it turns and one pair repeats what the others say of the angles. "
         "Make one of the pairs revolute.",
     ),

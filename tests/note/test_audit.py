@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from slotted import R, problem_of
 
 from planmethod.cli import cli
+from planmethod.note.audit.asking import Why
 from planmethod.note.audit.audit import (
     Audited,
     Verdict,
@@ -19,7 +20,6 @@ from planmethod.note.audit.audit import (
     half_digit,
     source_scales,
 )
-from planmethod.note.audit.quantities import Why
 from planmethod.note.audit.table import EN, RU, Document
 from planmethod.problem import load
 from planmethod.problem.model import Problem, Published

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from planmethod.cli import cli
 from planmethod.note.audit.audit import audit
-from planmethod.note.narrate.protocol import protocol
+from planmethod.note.protocol import protocol
 from planmethod.problem import loads, template
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing, Text

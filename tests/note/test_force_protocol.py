@@ -12,13 +12,13 @@ from loaded import loaded_problem
 from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
 
-from planmethod.bench.hard_problems import rocker
+from benchmarks.hard_problems import rocker
 from planmethod.errors import AssemblyError
 from planmethod.note.narrate.forces.formulas import closing_formula
 from planmethod.note.narrate.forces.lever_lines import lever_equation
 from planmethod.note.narrate.forces.moment_lines import moment_text
-from planmethod.note.narrate.protocol import protocol
 from planmethod.note.plaintext import plain_text
+from planmethod.note.protocol import protocol
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem import loads
 from planmethod.solved.forces.lever import LeverReading

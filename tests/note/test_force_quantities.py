@@ -12,8 +12,9 @@ from loaded import with_resultant
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
+from planmethod.note.audit.asking import UnansweredError, Why
 from planmethod.note.audit.audit import Audited, Verdict, audit, source_force_scale
-from planmethod.note.audit.quantities import Quantities, UnansweredError, Why
+from planmethod.note.audit.quantities import Quantities
 from planmethod.note.audit.table import EN, RU
 from planmethod.problem import loads
 from planmethod.problem.model import Problem

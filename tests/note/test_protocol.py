@@ -10,7 +10,7 @@ from worked import SIX
 
 from planmethod.construct.steps import Carry, Moment, PointName, Step, Total, makes
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.protocol import protocol
+from planmethod.note.protocol import protocol
 from planmethod.note.wording import UnknownLanguageError, wording
 from planmethod.plans.model import PlanKind
 

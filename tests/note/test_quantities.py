@@ -9,7 +9,8 @@ import pytest
 from cases import each
 from slotted import R, problem_of
 
-from planmethod.note.audit.quantities import Quantities, UnansweredError, Why
+from planmethod.note.audit.asking import UnansweredError, Why
+from planmethod.note.audit.quantities import Quantities
 from planmethod.problem.selector import QUANTITIES, parse_selector
 from planmethod.solved.solution import Solution
 
@@ -87,14 +88,13 @@ def test_the_hand_reads_along_its_own_chain() -> None:
 
 
 def test_the_hand_reads_what_its_results_say() -> None:
-    hand = kulisa().solution.by_hand_results
-    (sliding,) = hand.relatives
+    hand = kulisa().solution.read_off
     expected = {
-        "a D": hand.points["D"][1][0],
-        "epsilon 3": hand.links["3"][1][0],
-        "at B3 C": abs(hand.links["3"][1][0]) * 0.141,
-        "ak B3 B": sliding[1][0],
-        "ar B3 B": sliding[2][0],
+        "a D": hand("a_D")[0],
+        "epsilon 3": hand("epsilon_3")[0],
+        "at B3 C": abs(hand("epsilon_3")[0]) * 0.141,
+        "ak B3 B": hand("ak_B3/2")[0],
+        "ar B3 B": hand("ar_B3/2")[0],
     }
     for what, value in expected.items():
         assert kulisa().read(parse_selector(what)) == pytest.approx(value, rel=1e-12), what

@@ -14,9 +14,9 @@ from worked import SIX, problem_of
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.narrate.given import asked_links, asked_points
 from planmethod.note.narrate.naming import Names
+from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.causes import Causes
 from planmethod.note.tables.results import result_tables
-from planmethod.note.tables.sigmas import rounded_to, sigma_text
 from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution
@@ -298,7 +298,7 @@ def test_causes_are_told_in_plain_words() -> None:
     assert causes.tell("line1") == "откладывание угла φ₁ (план положений)"
     assert causes.tell("B") == "откладывание отрезка от точки A до точки B (план положений)"
     assert causes.tell("v:B3") == "отметка точки b₃ в пересечении прямых (план скоростей)"
-    assert causes.tell("v:0-v:D") == "снятие отрезка pd (план скоростей)"
+    assert causes.tell("|v:0–v:B3|line19") == "снятие отрезка pb₃ (план скоростей)"
     assert causes.tell("a:D") == "построение точки d по подобию (план ускорений)"
     english = Causes(Names(worked("linkages/ex2"), wording("en")))
     assert english.tell("B") == "fixing point B with an arc (position plan)"

@@ -7,9 +7,9 @@ from functools import cache
 
 from worked import problem_of
 
-from planmethod.bench.generator import random_problem
-from planmethod.note.narrate.protocol import protocol
+from benchmarks.generator import random_problem
 from planmethod.note.plaintext import WIDTH, width
+from planmethod.note.protocol import protocol
 from planmethod.problem import loads
 from planmethod.solved.solution import Solution
 

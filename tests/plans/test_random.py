@@ -11,7 +11,7 @@ from cases import each, some
 from newton import Motion, Pose
 from newton import solve as newton
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import MeetCircles, MeetLineCircle, MeetLines, PointName, Touch
 from planmethod.mechanism.model import FRAME

@@ -13,7 +13,7 @@ from cases import each, some
 from moved import Move
 from worked import SIX, problem_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem, Rule, Where

@@ -117,7 +117,7 @@ FAULTS = {
     "empty load": (
         "[[loads]]\n",
         ["loads[0].link: missing. Name the link: 1, 2, 3.",
-         'loads[0]: expected force or couple, got none of them. For example: link = "5", at = "H", '
+         'loads[0]: expected force or couple, got neither. For example: link = "5", at = "H", '
          "force = 6000, angle = -90."],
     ),
     "unknown load key": (
@@ -153,7 +153,7 @@ FAULTS = {
     ),
     "force and couple": (
         F + "force = 1\ncouple = 2\n" + A,
-        ["loads[0].couple: force and couple are both given. Write two [[loads]] of them."],
+        ["loads[0].couple: force and couple are both given. Write them as two [[loads]]."],
     ),
     "no direction": (
         F + "force = 1\n",
@@ -251,16 +251,16 @@ FAULTS = {
     "not increasing": (
         F + 'force = { over = "x", values = [[0, 0], [2, 1], [1, 3]], interpolation = "step" }\n'
         + A,
-        ["loads[0].force.values[2]: x = 1 after 2. The rows go upwards."],
+        ["loads[0].force.values[2]: x = 1 after 2. Put the rows in order."],
     ),
     "abscissa twice": (
         F + 'force = { over = "phi", values = [[0, 0], [90, 1], [90, 3]], interpolation = '
         '"step" }\n' + A,
-        ["loads[0].force.values[2]: phi = 90 stands in two rows. Keep one of them."],
+        ["loads[0].force.values[2]: phi = 90 is in two rows. Keep one of them."],
     ),
     "over a turn": (
         F + 'force = { over = "phi", values = [[0, 0], [370, 1]], interpolation = "step" }\n' + A,
-        ["loads[0].force.values: the rows go over 370 degrees, a turn has 360. The table repeats "
+        ["loads[0].force.values: the rows span 370 degrees, a turn has 360. The table repeats "
          "with every turn."],
     ),
     "turn not closed": (
@@ -271,8 +271,8 @@ FAULTS = {
     "one row": (
         F + 'force = { over = "phi", values = [[0, 5]], interpolation = "linear" }\n' + A,
         ["loads[0].force.values: expected at least two rows [phi, value], got 1. For example: "
-         '{ over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear" }. A load that '
-         "is always the same is a number."],
+         '{ over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear" }. A constant '
+         "load is just a number."],
     ),
     "odd rows": (
         F + 'force = { over = "y", values = [[0, "5"], [1], [nan, 2]], interpolation = "step" }\n'

@@ -115,7 +115,7 @@ def test_too_large_a_file(tmp_path: Path) -> None:
     ("text", "wanted"),
     [
         ("#" * (LINE_LIMIT + 1), "line 1 has 8193 characters, the limit is 8192"),
-        ("a = " + "[\n" * 50_000, "lists or tables are nested too deep"),
+        ("a = " + "[\n" * 50_000, "lists or tables are nested too deeply"),
         ("gears" + ".a" * 20 + " = 1", "tables are nested deeper than 12 levels"),
         ("a" + ".a" * 64 + " = 1", "line 1: a key has over 64 parts"),
         ("title = " + "9" * 5000, "a value cannot be read"),
@@ -191,7 +191,7 @@ def test_a_flood_of_faults_is_cut() -> None:
     with pytest.raises(ProblemError) as caught:
         loads(text, name="flood")
     assert len(caught.value.faults) == 101
-    assert str(caught.value.faults[-1]) == "and 19901 more faults. Mend these first."
+    assert str(caught.value.faults[-1]) == "and 19901 more faults. Fix these first."
 
 
 def test_names_of_strangers_are_cut_in_messages() -> None:

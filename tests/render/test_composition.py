@@ -25,10 +25,10 @@ from planmethod.render.layout.block import Block, Column, heading
 from planmethod.render.sheets import blocks as kinds
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition import entries, reader
-from planmethod.render.sheets.composition.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.composition.reader import composition, read_composition, shipped
 from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.pages import Paper, pages_of
 from planmethod.solved.solution import Solution
 

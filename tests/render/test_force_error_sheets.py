@@ -27,10 +27,10 @@ from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.polygon import START, apart, drawn_edges
 from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke
 from planmethod.render.pictures.ellipses import TAG
-from planmethod.render.sheets.composition.model import Entry, Extras, Manner
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.guides import guided_at, is_couple
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.model import Entry, Extras, Manner
 from planmethod.render.sheets.reactionerrors import (
     NO_ERROR,
     angle_column,

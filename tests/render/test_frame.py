@@ -15,7 +15,6 @@ from planmethod.errors import LayoutError
 from planmethod.problem.keys import SHEET as READER_SHEET_KEYS
 from planmethod.problem.keys import STAMP as READER_KEYS
 from planmethod.render.control.texts import lint
-from planmethod.render.frame.clearance import overlap
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.frame.frame import (
     FORMATS,
@@ -27,7 +26,7 @@ from planmethod.render.frame.frame import (
 from planmethod.render.frame.furniture import FORMS, Furniture
 from planmethod.render.frame.titleblock import ALIASES, SHARED, merged
 from planmethod.render.ink.drawing import Item, Pen, Stroke, Text
-from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.extent import ink_bounds, overlap
 from planmethod.render.ink.lettering import OutlineLettering, using
 from planmethod.render.layout.block import CUT, fit, texts
 

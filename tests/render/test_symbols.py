@@ -11,6 +11,7 @@ from shapely import LineString, Point, Polygon
 
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.style import ARROW, PENS, stroke_lines, sweep
 from planmethod.render.symbols import SIZES
 
@@ -217,7 +218,7 @@ def test_a_joint_on_a_link_shows_on_one_side(angle: float, side: int) -> None:
     assert isinstance(half, Arc)
     assert isinstance(piece, Stroke)
     assert white.ink is Ink.WHITE
-    for point in (*white.points, *symbols.arc_points(half)):
+    for point in (*white.points, *arc_points(half)):
         assert ((point - 1 - 1j) / along).imag * side >= -1e-9
     assert sweep(half) == pytest.approx(pi)
     assert piece.tag == "link 3"

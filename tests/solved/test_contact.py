@@ -14,7 +14,7 @@ from loaded import loaded_text
 from newton import solve as newton
 from worked import path_of
 
-from planmethod.bench.generator import Pose, random_problem
+from benchmarks.generator import Pose, random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.contact import across, distance, edge_forces

@@ -15,7 +15,7 @@ from cases import each, some
 from loaded import loaded_problem
 from worked import DEAD, every_file, path_of
 
-from planmethod.bench.generator import KINDS
+from benchmarks.generator import KINDS
 from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError, ProblemError
 from planmethod.problem import load, loads

@@ -14,8 +14,8 @@ import pytest
 from cases import each, some
 from worked import SIX, exact_values, problem_of
 
-from planmethod.bench.generator import random_problem
-from planmethod.construct.steps import Name, NumberName, PointName
+from benchmarks.generator import random_problem
+from planmethod.construct.steps import Compute, Name, NumberName, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
 from planmethod.solved.solution import Solution
@@ -29,6 +29,14 @@ def drawn(name: str, ruler: float) -> Solution:
 @cache
 def read(name: str, ruler: float, kind: PlanKind) -> dict[str, float]:
     return {s.name: float(s.read[0]) for s in drawn(name, ruler).segments(kind)}
+
+
+def omega_of(solution: Solution, link: str) -> float:
+    return float(solution.read_off(f"omega_{link}")[0])
+
+
+def epsilon_of(solution: Solution, link: str) -> float:
+    return float(solution.read_off(f"epsilon_{link}")[0])
 
 
 def rule(length: float, step: float = 1.0) -> float:
@@ -73,12 +81,12 @@ def test_the_first_example_with_a_ruler_of_1_mm() -> None:
     assert got["b-n_CB"] == pytest.approx(normal, rel=1e-12)  # computed, laid off, not read
     assert got["n_CB-c"] == tangential
     assert got["π-c"] == rule(abs(ac))
-    results = drawn("linkages/ex1", 1.0).by_hand_results
-    assert results.links["2"][0][0] == pytest.approx(15.5, rel=1e-14)
-    assert results.links["2"][1][0] == pytest.approx(tangential * 5 / 0.1, rel=1e-14)
-    assert results.points["C"][0][0] == pytest.approx(60 * 0.05)
-    assert results.points["C"][1][0] == pytest.approx(rule(abs(ac)) * 5)
-    assert results.points["D"][0][0] == pytest.approx(rule(abs(pd)) * 0.05)
+    results = drawn("linkages/ex1", 1.0).read_off
+    assert results("omega_2")[0] == pytest.approx(15.5, rel=1e-14)
+    assert results("epsilon_2")[0] == pytest.approx(tangential * 5 / 0.1, rel=1e-14)
+    assert results("v_C")[0] == pytest.approx(60 * 0.05)
+    assert results("a_C")[0] == pytest.approx(rule(abs(ac)) * 5)
+    assert results("v_D")[0] == pytest.approx(rule(abs(pd)) * 0.05)
     # With d' of the acceleration plan from the read b'c' likewise.
     d = ab - 0.3 * rule(abs(ac - ab)) * (ac - ab) / abs(ac - ab)
     assert got["π-d"] == rule(abs(d))
@@ -126,7 +134,7 @@ def test_the_third_example(step: float) -> None:
     assert got["p-b"] == 64.0
     assert got["p-b3"] == mark(abs(pb3)) == abs(across)
     assert got["b-b3"] == abs(along)
-    assert got["p-d"] == mark(abs(pd))
+    assert got["p-d"] == pytest.approx(abs(pd), rel=1e-12)  # computed and laid off
     assert got["d-e"] == mark(abs(pe - pd))
     assert got["p-e"] == mark(abs(pe))
     # Acceleration: pi-b = 50²·0.064 = 160 mm.
@@ -146,17 +154,18 @@ def test_the_third_example(step: float) -> None:
     assert got["k_B3B-b3"] == mark(abs(ab3 - k))
     assert got["n_B3C-b3"] == mark(abs(ab3 - n))
     assert got["π-b3"] == mark(abs(ab3))
-    assert got["π-d"] == mark(abs(ad))
+    assert got["π-d"] == pytest.approx(abs(ad), rel=1e-12)
     assert got["d-n_ED"] == pytest.approx(abs(n4 - ad), rel=1e-12)
     assert got["n_ED-e"] == mark(abs(ae - n4))
     assert got["π-e"] == mark(abs(ae))
-    hand = drawn("linkages/ex3", step).by_hand_results
-    links = {name: (float(o[0]), float(e[0])) for name, (o, e) in hand.links.items()}
+    hand = drawn("linkages/ex3", step)
+    links = {link: (omega_of(hand, link), epsilon_of(hand, link)) for link in hand.links}
     assert links["3"] == pytest.approx((omega3, epsilon3), rel=1e-12)
     assert links["2"] == links["3"]
     assert links["4"] == pytest.approx((omega4, epsilon4), rel=1e-12)
     assert links["5"] == (0.0, 0.0)
-    sliding_v, coriolis, relative = (float(x[0]) for x in hand.relatives[0])
+    labels = ("v_B3/2", "ak_B3/2", "ar_B3/2")
+    sliding_v, coriolis, relative = (float(hand.read_off(label)[0]) for label in labels)
     assert sliding_v == pytest.approx(abs(sliding))
     assert coriolis == pytest.approx(abs(2 * omega3 * sliding))
     assert relative == pytest.approx(mark(abs(ab3 - k)))
@@ -190,11 +199,14 @@ def test_what_the_textbook_prints_for_the_third_example() -> None:
     assert read("linkages/ex3", 1.0, A)["π-b"] == 160.0
 
 
-def of_the_driver(name: str) -> str:
-    """Letter of the crank's point, which is laid off on both plans."""
-    problem = problem_of(name)
-    points = problem.bodies[problem.drive.link].points
-    return next(p for p in points if p != problem.drive.pivot).lower()
+def laid_off(name: str, kind: PlanKind) -> set[str]:
+    """Return the segments of a plan that are computed: by omega and length, or by similarity."""
+    construction = drawn(name, 1.0).construction
+    return {
+        segment.name
+        for segment in construction.segments
+        if segment.kind is kind and isinstance(construction.step(segment.length), Compute)
+    }
 
 
 @pytest.mark.parametrize("ruler", [0.1, 0.5, 1.0, 2.0])
@@ -204,12 +216,8 @@ def test_read_segments_are_marks_of_the_ruler(name: str, ruler: float) -> None:
     step = Fraction(str(ruler))
     for kind in (V, A):
         for segment in drawn(name, ruler).segments(kind):
-            tail, head = segment.name.split("-")
             assert segment.read[0] >= 0
-            laid_off = head[:2] in ("n_", "k_")
-            if kind is V or tail[:2] == "n_" or not drawn(name, ruler).problem.drive.acceleration:
-                laid_off |= head == of_the_driver(name)
-            if laid_off:
+            if segment.name in laid_off(name, kind):
                 continue
             marks = round(segment.read[0] / ruler)
             assert segment.read[0] == pytest.approx(float(marks * step), abs=1e-12), segment.name
@@ -235,12 +243,13 @@ def test_the_drawing_is_read_to_half_a_mark(name: str) -> None:
 def test_what_is_laid_off_follows_from_what_was_read(name: str) -> None:
     """Every normal component is omega²·l/mu with the hand's omega; Coriolis' is 2·omega·v/mu."""
     solution = drawn(name, 1.0)
-    hand, mu = solution.by_hand_results, solution.scales[A].per_mm
-    omega = {link: float(o[0]) for link, (o, _) in hand.links.items()}
+    mu = solution.scales[A].per_mm
+    omega = {link: omega_of(solution, link) for link in solution.links}
     lengths = read(name, 1.0, A)
-    for r, (v, k, _) in zip(solution.relatives, hand.relatives, strict=True):
+    for r in solution.construction.kinematics.relatives.values():
+        v, k = (float(solution.read_off(r.label(letter))[0]) for letter in ("v", "ak"))
         turning = omega.get(r.to, 0.0)
-        assert float(k[0]) == pytest.approx(2 * abs(turning) * float(v[0]), rel=1e-12, abs=1e-12)
+        assert k == pytest.approx(2 * abs(turning) * v, rel=1e-12, abs=1e-12)
     normals = [value for segment, value in lengths.items() if segment.split("-")[1][:2] == "n_"]
     trace = solution.by_hand.value
     read_arms = {
@@ -261,21 +270,17 @@ def test_what_is_laid_off_follows_from_what_was_read(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_results_of_the_hand_are_read_segments_times_the_scale(name: str) -> None:
+def test_results_of_the_hand_are_its_segments_times_the_scale(name: str) -> None:
     solution = drawn(name, 0.5)
-    for kind, column in ((V, 0), (A, 1)):
-        mu, plan = solution.scales[kind].per_mm, solution.construction.plan(kind)
+    for kind, letter in ((V, "v"), (A, "a")):
+        mu = solution.scales[kind].per_mm
         lengths = read(name, 0.5, kind)
         pole = "p" if kind is V else "π"
-        for point, pair in solution.by_hand_results.points.items():
-            value = float(pair[column][0])
-            segment = f"{pole}-{point[0].lower()}{point[1:]}"
-            if segment in lengths:
-                assert value == pytest.approx(lengths[segment] * mu, rel=1e-14)
-            else:
-                marks = value / mu / 0.5
-                assert abs(marks - round(marks)) < 1e-9
-        assert plan.pole is not None
+        for point in solution.points:
+            value = float(solution.read_off(f"{letter}_{point}")[0])
+            length = lengths.get(f"{pole}-{point[0].lower()}{point[1:]}")
+            if length is not None:
+                assert value == pytest.approx(length * mu, rel=1e-14)
 
 
 @each("seed", range(0, some(200, few=80), 4))
@@ -283,23 +288,21 @@ def test_a_fine_ruler_reads_the_exact_plan(seed: int) -> None:
     """The chain of a ruler of a nanometre comes to the exact values: rounding is all it adds."""
     problem = loads(random_problem(seed)[0], name=f"random-{seed}")
     fine = Solution(problem, ruler=1e-6)
-    hand = fine.by_hand_results
     margin = float(fine.margin[0])
     v = max(float(abs(p.velocity[0])) for p in fine.points.values())
     a = max([v * v, *(float(abs(p.acceleration[0])) for p in fine.points.values())])
-    for name, (speed, acceleration) in hand.points.items():
-        assert abs(speed[0] - abs(fine.points[name].velocity[0])) <= 1e-5 * v / min(margin, 1.0)
-        got = abs(fine.points[name].acceleration[0])
-        assert abs(acceleration[0] - got) <= 1e-5 * a / min(margin, 1.0)
+    for name, point in fine.points.items():
+        speed, acceleration = (fine.read_off(f"{letter}_{name}")[0] for letter in "va")
+        assert abs(speed - abs(point.velocity[0])) <= 1e-5 * v / min(margin, 1.0)
+        assert abs(acceleration - abs(point.acceleration[0])) <= 1e-5 * a / min(margin, 1.0)
 
 
 @pytest.mark.parametrize("name", SIX)
 def test_signs_of_the_hand_are_those_of_the_exact_plan(name: str) -> None:
     solution = drawn(name, 0.5)
-    for link, (omega, epsilon) in solution.by_hand_results.links.items():
-        exact = solution.links[link]
-        assert np.sign(omega[0]) == np.sign(exact.omega[0])
-        assert np.sign(epsilon[0]) == np.sign(exact.epsilon[0])
+    for link, exact in solution.links.items():
+        assert np.sign(omega_of(solution, link)) == np.sign(exact.omega[0])
+        assert np.sign(epsilon_of(solution, link)) == np.sign(exact.epsilon[0])
 
 
 def test_a_ruler_does_not_change_the_exact_plan() -> None:
@@ -318,7 +321,5 @@ def test_several_positions_are_read_one_by_one() -> None:
         for kind in PlanKind:
             for many, single in zip(batch.segments(kind), one.segments(kind), strict=True):
                 assert (many.exact[i], many.read[i]) == (single.exact[0], single.read[0])
-        for link in batch.links:
-            many_link, alone = batch.by_hand_results.links[link], one.by_hand_results.links[link]
-            assert many_link[0][i] == alone[0][0]
-            assert many_link[1][i] == alone[1][0]
+        for label in (f"{rate}_{link}" for rate in ("omega", "epsilon") for link in batch.links):
+            assert batch.read_off(label)[i] == one.read_off(label)[0]

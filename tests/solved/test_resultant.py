@@ -121,7 +121,8 @@ def test_on_the_lever_it_hangs_at_the_velocity_of_its_point(seed: int) -> None:
     statics = both(seed)[1]
     assert statics.hung is not None
     motion = newton(problem, problem.drive.positions[0], pose)
-    for given, at in statics.hung.hung:
+    for hung in statics.hung.hung:
+        given, at = hung.given, hung.at
         shift = statics.board.shifts.get(given.applied.link)
         if shift is None or given.force is None or given.force.at != shift.at:
             continue
@@ -141,17 +142,13 @@ def test_the_hand_lays_off_what_it_computed_and_reads_other_numbers(name: str) -
     couples, shifted = both(name)
     solution = shifted.solution
     (shift,) = shifted.board.shifts.values()
-    motion = solution.construction.kinematics.acceleration
     dynamics = solution.problem.dynamics
     assert dynamics is not None
     mass = dynamics.masses[shift.link]
     assert mass.centre is not None
-    read = solution.hand.ruled(
-        np.abs(solution.complexes(solution.by_hand, motion.point[motion.named[mass.centre]]))
-    )
-    epsilon = solution.by_hand_results.links[shift.link][1]
-    scale = solution.scales[PlanKind.ACCELERATION].per_mm
-    metres = mass.inertia * np.abs(epsilon) / (mass.mass * read * scale)
+    acceleration = solution.read_off(f"a_{mass.centre}")
+    epsilon = solution.read_off(f"epsilon_{shift.link}")
+    metres = mass.inertia * np.abs(epsilon) / (mass.mass * acceleration)
     laid = np.abs(solution.reals(shifted.by_hand, shift.length))
     per_mm = solution.scales[PlanKind.POSITION].per_mm
     assert laid * per_mm == pytest.approx(metres, rel=1e-12)

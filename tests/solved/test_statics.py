@@ -28,7 +28,7 @@ from newton import Motion
 from newton import solve as newton
 from worked import problem_of
 
-from planmethod.bench.generator import KINDS
+from benchmarks.generator import KINDS
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.problem.load_records import Couple, Dynamics, Fixed, Load

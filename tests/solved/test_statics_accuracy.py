@@ -15,7 +15,7 @@ from full_system import Acting, Answer, Pose, cross, slide_between, solve_all
 from loaded import loaded_problem, with_resultant
 from worked import problem_of
 
-from planmethod.bench import hard_problems as texts
+from benchmarks import hard_problems as texts
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach
 from planmethod.construct.evaluate import evaluate
@@ -93,12 +93,7 @@ def largest_error(statics: Statics, values: Values, answer: Answer) -> float:
             assert slide is not None
             arm = values[r.force.at] - values[PointName(slide.pin)]
             errors.append(float(abs(values[r.couple] + cross(arm, found) - moment)))
-    moved, force = statics.driving.moment, statics.driving.force
-    if force is not None:
-        size = abs(values[force.head] - values[force.tail])
-        errors.append(float(abs(size - abs(answer.balance))))
-    elif moved is not None:
-        errors.append(float(abs(values[moved] - answer.balance)))
+    errors.append(float(abs(values[statics.driving.balance] - answer.balance)))
     return max(errors) / answer.largest
 
 
@@ -147,8 +142,8 @@ def asked(statics: Statics) -> tuple[Program, dict[str, Name]]:
         names[f"F {label}"] = b.carry(f"force {k}", board.pole, r.force.tail, r.force.head)
         if r.couple is not None:
             names[f"M {label}"] = r.couple
-    if statics.driving.moment is not None:
-        names["balance"] = statics.driving.moment
+    if statics.driving.balance is not None:
+        names["balance"] = statics.driving.balance
     if statics.driving.force is not None:
         force = statics.driving.force
         names["balance"] = b.carry("balance", board.pole, force.tail, force.head)

@@ -13,7 +13,7 @@ import pytest
 from cases import each, some
 from worked import DEAD, every_file, path_of
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError
 from planmethod.problem import load, loads

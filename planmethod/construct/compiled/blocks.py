@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import threading
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -35,7 +36,7 @@ UFUNC: dict[str, np.ufunc] = {
 }
 
 EQUAL = 1e-9
-"""Largest departure from equal steps, degrees, that the table of angles makes good."""
+"""Largest departure from equal steps, degrees, that the table of angles corrects."""
 
 
 class Blocks:
@@ -176,7 +177,7 @@ class _Angle:
     def _by_table(self, degrees: Array, cosine: Array, sine: Array) -> bool:
         """Turn a table of equal steps to where the block begins.
 
-        What the given angles differ from equal steps by, their own rounding, is made good to first
+        The departure of the given angles from equal steps, by rounding, is corrected to first
         order, so the result belongs to the angles as they are given.
         """
         size = len(degrees)
@@ -236,7 +237,7 @@ def _schedule(
 ) -> tuple[list[_Step], int]:
     """Give every node a place: a row of the output if it is a result, else a buffer.
 
-    A buffer is used again as soon as what it held is used for the last time.
+    A buffer is reused as soon as what it held has been used for the last time.
     """
     watch: dict[int, list[int]] = {}
     for place_of, guard in enumerate(guards):
@@ -315,7 +316,7 @@ def _schedule(
 
 
 def _partners(tape: Tape, needed: list[int]) -> dict[int, int]:
-    """Return for every cosine the node of its sine and the other way; -1 where nobody wants it."""
+    """Return for every cosine the node of its sine and vice versa; -1 where it is not needed."""
     of: dict[tuple[str, Ref], int] = {}
     for number in needed:
         kind, refs = tape.nodes[number]
@@ -374,6 +375,4 @@ def _line(steps: list[_Step], rows: int) -> Callable[..., None]:
 
 
 def _names(text: str) -> list[str]:
-    import re
-
     return re.findall(r"\b[xob]\d+\b", text)

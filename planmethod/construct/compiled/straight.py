@@ -18,7 +18,7 @@ BINARY = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 
 class ImpossibleError(ArithmeticError):
-    """A step is impossible in a position; who runs the tape in blocks can tell which."""
+    """A step is impossible in a position; running the tape in blocks tells which."""
 
 
 Straight = Callable[[Sequence[Sequence[float]], bytearray], None]
@@ -98,7 +98,7 @@ class _Lines:
                 if (node := self.tape.nodes[number]).kind == "input"
             }
         )
-        inputs = inputs or [0]  # constants only: as many times as there are positions
+        inputs = inputs or [0]  # constants only: repeated for every position
         names = ", ".join(f"x{number}" for number in inputs)
         columns = ", ".join(f"inputs[{number}]" for number in inputs)
         each = f"for {names} in " + (columns if len(inputs) == 1 else f"zip({columns})")

@@ -12,7 +12,9 @@ from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import apply, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
+    Carry,
     LayOff,
+    MeasureAlong,
     MeetCircles,
     MeetLineCircle,
     Name,
@@ -142,7 +144,7 @@ class Guard:
 
 @dataclass
 class Symbolic(Exact):
-    """Arithmetic that writes down what is to be computed, and knows lengths before they are.
+    """Arithmetic that writes down what is to be computed, and knows some lengths beforehand.
 
     Attributes
     ----------
@@ -183,11 +185,11 @@ class Symbolic(Exact):
         return Symbol(self.tape, self.tape.make("sqrt", largest))
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
-        """Return the value; who runs the tape looks at the margins."""
+        """Return the value; whoever runs the tape looks at the margins."""
         return value
 
     def nonzero(self, value: Number) -> Number:
-        """Return the value; who runs the tape looks at the margins."""
+        """Return the value; whoever runs the tape looks at the margins."""
         return value
 
     def solid(self, length: Number) -> Number:
@@ -206,6 +208,14 @@ class Symbolic(Exact):
         if value.im is None and other.im is None:
             return Symbol(self.tape, re)
         return Symbol(self.tape, re, self.tape.make("at_zero", size.re, d, b))
+
+    def share(self, length: Number, vector: Number) -> Number:
+        """Return 1 where the length is that of the vector: measured on it, or laid off to it."""
+        drawn, told = abs(vector), abs(length)
+        noted = self.sizes.get(self._key(vector))
+        if same(drawn.re, told.re) or (noted is not None and same(noted, told.re)):
+            return 1.0
+        return super().share(length, vector)
 
     def ordered(self, one: Number, two: Number) -> tuple[Number, Number]:
         """Return the smaller and the larger of two real numbers."""
@@ -236,7 +246,7 @@ class Written:
     value : mapping
         Symbol of every point and number; pair of symbols of every line.
     guards : tuple of Guard
-        Every margin that is not a constant good for all positions.
+        Every margin except constants that hold in all positions.
     depends : mapping of name to frozenset of int
         Guards that a result depends on, by their place in ``guards``.
     inputs : tuple of str
@@ -292,7 +302,7 @@ def write(
 
 
 def _watched(guard: Guard, tape: Tape) -> Guard | None:
-    """Return a guard without what need not be computed to look at it; None if it always holds."""
+    """Return a guard stripped of what need not be computed for it; None if it always holds."""
     margin, limit = guard.margin, guard.limit
     while type(margin) is int:
         kind, refs = tape.nodes[margin]
@@ -316,6 +326,13 @@ def _note_lengths(step: Step, env: Mapping[Name, Any], ar: Symbolic) -> None:
             pairs = ((c, r),)
         case LayOff(out, o, _, length):
             pairs = ((o, length),)
+        case MeasureAlong(out, tail, head, _):  # a segment of the line along which it is measured
+            ar.note(env[head] - env[tail], env[out])
+            return
+        case Carry(out, o, _, _, length, times, _) if length is not None:
+            scaled = env[length] if times is None else env[length] * env[times]
+            ar.note(env[out] - env[o], abs(scaled))
+            return
         case _:
             return
     for centre, radius in pairs:

@@ -60,14 +60,14 @@ class Tape:
     """Operations in order, each made once.
 
     An operation on constants is carried out at once, and one that changes nothing (times 1, plus
-    0, a + b - a) is not made at all: the straight line has no step that a person would skip.
+    0, a + b - a) is not made at all: the tape has no step that a person would skip.
     """
 
     nodes: list[Node] = field(default_factory=list)
     _made: dict[tuple[Any, ...], int] = field(default_factory=dict)
 
     def make(self, kind: str, *operands: Ref) -> Ref:
-        """Return a node for an operation, an earlier one of the same if there is."""
+        """Return a node for an operation, an earlier one of the same kind if there is one."""
         if kind in FOLD and all(type(operand) is float for operand in operands):
             return FOLD[kind](*operands)
         key = _key(kind, operands)
@@ -150,8 +150,22 @@ class Tape:
             a, negative = self.nodes[int(a)].operands[0], not negative
         if self._is(b, "neg"):
             b, negative = self.nodes[int(b)].operands[0], not negative
-        product = self.make("mul", *self._sorted(a, b))
+        undone = self._undone(a, b)
+        undone = self._undone(b, a) if undone is None else undone
+        product = self.make("mul", *self._sorted(a, b)) if undone is None else undone
         return self.neg(product) if negative else product
+
+    def _undone(self, a: Ref, b: Ref) -> Ref | None:
+        """Return x where a is x/b, or 0 where b is 0 and else x/b; None of anything else."""
+        if self._is(a, "at_zero"):
+            size, other, value = self.nodes[int(a)].operands
+            if not (same(size, b) and same(other, 0.0)):
+                return None
+            a = value
+        if self._is(a, "div"):
+            one, two = self.nodes[int(a)].operands
+            return one if same(two, b) else None
+        return None
 
     def div(self, a: Ref, b: Ref) -> Ref:
         """Return a / b."""

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
 
-from planmethod.note.audit.quantities import PLANS, Quantities, UnansweredError, Why, is_angle
+from planmethod.note.audit.asking import PLANS, UnansweredError, Why
+from planmethod.note.audit.quantities import Quantities, is_angle
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Published, Scales
 from planmethod.problem.selector import FORCES, Selector, parse_selector

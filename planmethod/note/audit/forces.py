@@ -10,65 +10,25 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import Trace
-from planmethod.construct.steps import LayOff, NumberName, PointName
-from planmethod.note.audit.quantities import Quantities, Reading, UnansweredError, Why
+from planmethod.construct.evaluate import Trace, go_on
+from planmethod.construct.steps import Name, NumberName
+from planmethod.note.audit.asking import Asking, UnansweredError, Why
 from planmethod.plans.forces.board import SCALE, Force, Given
 from planmethod.plans.forces.loads import LoadKind
+from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
+from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
 from planmethod.problem.selector import Selector
 from planmethod.solved.forces.contact import NOTHING
 from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Solution
 
 LOADS = {
     "weight": LoadKind.WEIGHT,
     "inertia": LoadKind.INERTIA,
     "inertia couple": LoadKind.INERTIA_COUPLE,
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Sheet:
-    """Force plans in one position as a trace has them, and how a length on them becomes newtons.
-
-    Attributes
-    ----------
-    motion : Reading
-        The plans of the motion, drawn by the same hand.
-    trace : Trace
-        The force plans.
-    per_mm : float
-        N per unit of the trace.
-    """
-
-    motion: Reading
-    trace: Trace
-    per_mm: float
-
-    def vector(self, tail: PointName, head: PointName) -> complex:
-        """Return a segment of a force plan, in units of the trace."""
-        solution, index = self.motion.solution, self.motion.index
-        ends = solution.complexes(self.trace, head) - solution.complexes(self.trace, tail)
-        return complex(ends[index])
-
-    def number(self, name: NumberName | None) -> float:
-        """Return a couple, N·m; one that is zero by nature has no name."""
-        if name is None:
-            return 0.0
-        return float(self.motion.solution.reals(self.trace, name)[self.motion.index])
-
-    def place(self, name: PointName) -> complex:
-        """Return where a force acts on the position plan, in units of the motion's trace."""
-        if name in self.motion.trace.value:
-            return self.motion.point(name)
-        return complex(self.motion.solution.complexes(self.trace, name)[self.motion.index])
-
-    def newtons(self, length: float, *, laid_off: bool = False) -> float:
-        """Return the force that a length stands for; nobody reads again what was laid off."""
-        return (length if laid_off else float(self.motion.ruled(length))) * self.per_mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,172 +48,180 @@ class ForceQuantities:
 
     Parameters
     ----------
-    at : Quantities
+    solution : Solution
+    position : int
+        From 0.
     mu_f : float or None, N/mm
         Scale of the source's force plans; the program's own where the source tells none.
     """
 
-    def __init__(self, at: Quantities, mu_f: float | None = None) -> None:
-        if at.solution.problem.dynamics is None:
+    def __init__(self, solution: Solution, position: int, mu_f: float | None = None) -> None:
+        if solution.problem.dynamics is None:
             raise UnansweredError(Why.NO_FORCES)
-        self.at = at
-        self.statics: Statics = at.solution.statics
+        self.solution, self.position = solution, position
+        self.statics: Statics = solution.statics
         self.mu_f = self.statics.scale.per_mm if mu_f is None else mu_f
 
     @cached_property
+    def _exact(self) -> Trace:
+        return _both(self.solution.si, self.statics.si)
+
+    @cached_property
     def _drawn(self) -> Trace:
-        """Force plans of the hand at the source's scale of forces."""
-        if self.mu_f == self.statics.scale.per_mm:
-            return self.statics.by_hand
-        return self.statics.read(self.at.solution.hand, {**self.statics.per_mm, SCALE: self.mu_f})
+        """Plans of the hand, those of the forces at the source's scale."""
+        drawn = self.statics.by_hand
+        if self.mu_f != self.statics.scale.per_mm:
+            scales = {**self.statics.per_mm, SCALE: self.mu_f}
+            drawn = self.statics.read(self.solution.hand, scales)
+        return _both(self.solution.by_hand, drawn)
 
-    def value(self, selector: Selector, reading: Reading) -> float:
-        """Return a value: exact or by hand, as the reading is.
+    def value(self, selector: Selector, *, by_hand: bool) -> float:
+        """Return a value: N and N·m; degrees from 0 to 360; millimetres of the position plan.
 
-        N and N·m; degrees from 0 to 360; arms in millimetres of the position plan. Sizes, but for
-        the balancing moment or force, which has its sign.
+        Sizes, but for the balancing moment or force, which has its sign.
         """
-        exact = reading.trace is self.at.solution.si
-        trace, per_mm = (self.statics.si, 1.0) if exact else (self._drawn, self.mu_f)
-        return self._value(selector.kind, selector.names, Sheet(reading, trace, per_mm))
-
-    def _value(self, kind: str, names: tuple[str, ...], sheet: Sheet) -> float:
+        kind, names = selector.kind, selector.names
         first, _, rest = kind.partition(" ")
+        if first == "angle":
+            return self._angle(self._line(rest, names))
+        asking = Asking(self.solution, self.statics.board.draft.copy())
         match first:
             case "arm":
-                return self._arm(self._line(rest, names[:-1]), names[-1], sheet)
-            case "angle":
-                return self._angle(self._line(rest, names), sheet)
+                asked = self._arm(asking, self._line(rest, names[:-1]), names[-1])
             case "F":
-                return self._size(self._joint(*names).force, sheet)
+                asked = self._size(self._joint(*names).force)
             case "Ft" | "Fn":
-                return self._component(kind, names, sheet)
+                asked = self._component(asking, kind, names)
             case "M":
-                couple = abs(sheet.number(self._joint(*names).couple))
-                return 0.0 if couple <= NOTHING * self._largest else couple
+                asked = self._couple(self._joint(*names).couple)
             case "balance" | "lever":
-                return self._balance(kind, names, sheet)
+                asked = self._balance(asking, kind, names)
             case "shift":
-                force = self._value("inertia", names, sheet)
-                if not force:
-                    raise UnansweredError(Why.ZERO_DIVISOR)
-                couple = self._value("inertia couple", names, sheet)
-                return couple / force / self._mu_l
+                asked = self._shift(asking, names[0])
             case _:
-                given = self._given(kind, names[0])
-                return 0.0 if given is None else self._load(given, sheet)
+                asked = self._load(self._given(kind, names[0]))
+        trace, hand = (self._drawn, self.solution.hand) if by_hand else (self._exact, Float64())
+        found = go_on(trace, asking.steps, asking.draft.numbers, hand)
+        value = float(self.solution.reals(found, asked)[self.position])
+        if first in ("arm", "shift") and not by_hand:
+            value /= self.solution.scales[PlanKind.POSITION].per_mm
+        return value if first in ("balance", "lever") and not names else abs(value)
 
     def turn(self, selector: Selector) -> float:
         """Return how far a force turns when its end on the plan moves by one mm, degrees."""
-        rest = selector.kind.partition(" ")[2]
-        exact = Sheet(self.at.si, self.statics.si, 1.0)
-        line = self._line(rest, selector.names)
-        return math.degrees(self.mu_f / abs(self._directed(line, exact)))
+        line = self._line(selector.kind.partition(" ")[2], selector.names)
+        return math.degrees(self.mu_f / abs(self._directed(line)))
 
     # Sizes -----------------------------------------------------------------------------------
 
-    @cached_property
-    def _largest(self) -> float:
-        """Size of the largest force of the position, N: beside it, rounding is nothing."""
-        return self.statics.largest(self.at.position)
+    def _at(self, name: Name) -> complex:
+        return complex(self.solution.complexes(self._exact, name)[self.position])
 
-    @cached_property
-    def _laid_off(self) -> list[LayOff]:
-        return [step for step in self.statics.program.steps if isinstance(step, LayOff)]
+    def _vector(self, force: Force | Edge) -> complex:
+        """Return a force, N."""
+        return self._at(force.head) - self._at(force.tail)
 
-    def _size(self, force: Force, sheet: Sheet) -> float:
-        length = abs(sheet.vector(force.tail, force.head))
-        if length * sheet.per_mm <= NOTHING * self._largest:
-            return 0.0
-        done = any((s.origin, s.out) == (force.tail, force.head) for s in self._laid_off)
-        return sheet.newtons(length, laid_off=done)
+    def _is_nothing(self, size: float) -> bool:
+        """Tell whether a force is rounding beside the largest of the position."""
+        return abs(size) <= NOTHING * self.statics.largest(self.position)
 
-    def _load(self, given: Given, sheet: Sheet) -> float:
-        """Return the size of a load; a force of inertia is computed from the acceleration read."""
-        if given.force is None:
-            return abs(sheet.number(given.couple))
-        if given.applied.kind is not LoadKind.INERTIA:
-            return self._size(given.force, sheet)
-        dynamics = self.at.solution.problem.dynamics
-        assert dynamics is not None and given.applied.point is not None
-        head = self.at.plan_point(PlanKind.ACCELERATION, given.applied.point)
-        pole = self.at.kin.acceleration.pole
-        return dynamics.masses[given.applied.link].mass * sheet.motion.between(
-            PlanKind.ACCELERATION, pole, head
-        )
+    @property
+    def _zero(self) -> NumberName:
+        return NumberName(ZERO)
 
-    def _component(self, kind: str, names: tuple[str, ...], sheet: Sheet) -> float:
+    def _size(self, force: Force) -> NumberName:
+        if self._is_nothing(abs(self._vector(force))):
+            return self._zero
+        return self.statics.board.segments.known(force.ends)
+
+    def _couple(self, couple: NumberName | None) -> NumberName:
+        if couple is None or self._is_nothing(self._at(couple).real):
+            return self._zero
+        return couple
+
+    def _load(self, given: Given | None) -> NumberName:
+        """Return the size of a load; None is zero by nature."""
+        if given is None:
+            return self._zero
+        if given.force is not None:
+            return self.statics.board.segments.known(given.force.ends)
+        assert given.couple is not None
+        return given.couple
+
+    def _component(self, asking: Asking, kind: str, names: tuple[str, ...]) -> NumberName:
         """Return the part of a reaction across a line, or along it."""
         on, by, *line = names
-        force = self._joint(on, by).force
-        tail, head = (sheet.motion.point(self._place(name)) for name in line)
-        along = (head - tail) / abs(head - tail) * (1j if kind == "Ft" else 1.0)
-        done = any(
-            (step.out == force.head or step.origin == force.tail)
-            and self._is_along(sheet.vector(step.origin, step.out), along)
-            for step in self._laid_off
-        )
-        part = abs((sheet.vector(force.tail, force.head) * along.conjugate()).real)
-        if part * sheet.per_mm <= NOTHING * self._largest:
-            return 0.0
-        return sheet.newtons(part, laid_off=done)
+        tail, head = (asking.point(PlanKind.POSITION, name) for name in line)
+        along = (self._at(head) - self._at(tail)) * (1j if kind == "Ft" else 1.0)
+        along /= abs(along)
+        force, share = self._joint(on, by).force, Share.TANGENTIAL if kind == "Ft" else Share.NORMAL
+        if self._is_nothing((self._vector(force) * along.conjugate()).real):
+            return self._zero
+        symbols = {reaction_symbol(on, by, share), reaction_symbol(by, on, share)}
+        for edge in (edge for plan in self.statics.board.plans for edge in plan.polygon):
+            vector = self._vector(edge)
+            if edge.symbol in symbols and abs((vector * along.conjugate()).imag) <= 1e-9 * abs(
+                vector
+            ):
+                return self.statics.board.segments.known(edge.ends)
+        ray = asking.b.join(tail, head)
+        if kind == "Ft":
+            ray = asking.b.perpendicular(tail, ray)
+        length = asking.b.measure_along("asked", *force.ends, ray)
+        return asking.compute((self.statics.board.scale, 1), (length, 1))
 
-    @staticmethod
-    def _is_along(vector: complex, along: complex) -> bool:
-        return abs((vector * along.conjugate()).imag) <= 1e-9 * abs(vector)
-
-    def _balance(self, kind: str, names: tuple[str, ...], sheet: Sheet) -> float:
+    def _balance(self, asking: Asking, kind: str, names: tuple[str, ...]) -> NumberName:
         """Return the balancing moment (force, of a slider), or the force at a point that does."""
-        statics, drive = self.statics, self.at.solution.problem.drive
-        if kind == "balance":
-            exact = sheet.trace is statics.si
-            arithmetic = Float64() if exact else self.at.solution.hand
-            values = np.asarray(statics.balance_in(sheet.trace, arithmetic), dtype=float)
-            value = float(values if values.ndim == 0 else values[sheet.motion.index])
-        elif statics.hung is None:
-            raise UnansweredError(Why.STANDS)
-        else:
-            value = sheet.number(statics.hung.balance)
+        statics, drive = self.statics, self.solution.problem.drive
+        value = statics.driving.balance
+        if kind == "lever":
+            if statics.hung is None:
+                raise UnansweredError(Why.STANDS)
+            value = statics.hung.balance
         if not names:
             return value
         if drive.pivot is None:
             raise UnansweredError(Why.NO_LINK)
-        link, arm = self.at.arm(sheet.motion, names[0], drive.pivot)
+        link, arm = asking.arm(names[0], drive.pivot)
         if link != drive.link:
             raise UnansweredError(Why.NO_LINK)
-        if not arm:
+        points = self.solution.problem.bodies[link].points
+        if points.get(names[0]) == points[drive.pivot]:
             raise UnansweredError(Why.NO_ARM)
-        return abs(value) / arm
+        return asking.compute((value, 1), *((name, -power) for name, power in arm))
+
+    def _shift(self, asking: Asking, link: str) -> NumberName:
+        force = self._given("inertia", link)
+        if force is None or force.force is None or self._is_nothing(abs(self._vector(force.force))):
+            raise UnansweredError(Why.ZERO_DIVISOR)
+        powers = ((self._load(self._given("inertia couple", link)), 1), (self._load(force), -1))
+        return asking.compute(*powers, (asking.draft.mu_l, -1))
 
     # Lines of action -------------------------------------------------------------------------
 
-    def _directed(self, line: Line, sheet: Sheet) -> complex:
+    def _directed(self, line: Line) -> complex:
         """Return a force that has a direction, N."""
-        vector = sheet.vector(line.force.tail, line.force.head) * sheet.per_mm
-        if abs(vector) <= NOTHING * self._largest:
+        vector = self._vector(line.force)
+        if self._is_nothing(abs(vector)):
             raise UnansweredError(Why.NO_DIRECTION)
         return vector * line.sense
 
-    def _angle(self, line: Line, sheet: Sheet) -> float:
-        vector = self._directed(line, sheet)
+    def _angle(self, line: Line) -> float:
+        vector = self._directed(line)
         return math.degrees(math.atan2(vector.imag, vector.real)) % 360.0
 
-    def _arm(self, line: Line, about: str, sheet: Sheet) -> float:
-        vector = self._directed(line, sheet) * line.sense
-        motion, size = sheet.motion, abs(vector)
-        ends = sheet.place(line.force.at) - motion.point(self._place(about))
-        arm = (ends.conjugate() * vector).imag / size
-        arm += sheet.number(line.couple) / size / motion.per_mm[PlanKind.POSITION]
-        return motion.measure(PlanKind.POSITION, abs(arm)) / self._mu_l
-
-    @property
-    def _mu_l(self) -> float:
-        return self.at.solution.scales[PlanKind.POSITION].per_mm
+    def _arm(self, asking: Asking, line: Line, about: str) -> NumberName:
+        """Return the arm of a force; that of a guide acts where its moment puts it."""
+        self._directed(line)
+        pole, force = asking.point(PlanKind.POSITION, about), line.force
+        arm = asking.b.measure_arm("asked arm", pole, force.at, *force.ends)
+        if line.couple is None:
+            return arm
+        size, mu_l = self.statics.board.segments.known(force.ends), asking.draft.mu_l
+        shift = asking.compute((line.couple, 1), (size, -1), (mu_l, -1))
+        return asking.b.total("asked", arm, shift)
 
     # Names -----------------------------------------------------------------------------------
-
-    def _place(self, point: str) -> PointName:
-        return self.at.plan_point(PlanKind.POSITION, point)
 
     def _joint(self, on: str, by: str) -> Line:
         """Return what one link does to another; two links have one joint."""
@@ -283,3 +251,8 @@ class ForceQuantities:
                 return given
         shift = self.statics.board.shifts.get(name) if kind == "inertia couple" else None
         return None if shift is None else Given(shift.moment, None, shift.couple)
+
+
+def _both(motion: Trace, forces: Trace) -> Trace:
+    """Return a trace that has the plans of the motion and those of the forces."""
+    return Trace({**motion.value, **forces.value}, {**motion.margin, **forces.margin})

@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from planmethod.note.audit.asking import Why
 from planmethod.note.audit.audit import DRAFTING_MM, Audited, Verdict, count
-from planmethod.note.audit.quantities import Why
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, given, spoken
 from planmethod.note.wording import wording

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planmethod.construct.steps import NumberName, PointName, Similar
+from planmethod.construct.steps import Compute, NumberName, PointName, Similar
 from planmethod.note.narrate.letters import segment
 from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
 from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
@@ -36,6 +36,8 @@ class Calculation:
         self.solution, self.kind, self.index = solution, kind, index
         self.plan = solution.construction.plan(kind)
         self.kin = solution.construction.kinematics
+        motion = self.kin.velocity if kind is PlanKind.VELOCITY else self.kin.acceleration
+        self.segments = motion.segments
         self.mu = solution.scales[kind].per_mm
         self.unit = UNITS_RU[UNIT[kind]]
 
@@ -66,7 +68,7 @@ class Calculation:
 
     def _read(self, tail: PointName, head: PointName) -> float:
         """Return a segment as the hand reads it or laid it off, mm."""
-        return float(self.solution.read_mm(tail, head)[self.index])
+        return abs(self._number(self.segments.drawn((tail, head))))
 
     def _number(self, name: NumberName) -> float:
         return float(self.solution.reals(self.solution.by_hand, name)[self.index])
@@ -77,9 +79,8 @@ class Calculation:
         for body in s.problem.bodies.values():
             if p in body.points and q in body.points:
                 return abs(body.points[q] - body.points[p])
-        ends = s.complexes(s.by_hand, PointName(q)) - s.complexes(s.by_hand, PointName(p))
-        millimetres = float(s.hand.ruled(abs(ends[self.index])))
-        return millimetres * s.scales[PlanKind.POSITION].per_mm
+        read = s.construction.draft.measured_before(p, q)
+        return abs(self._number(read)) * s.scales[PlanKind.POSITION].per_mm
 
     def _length(self, p: str, q: str) -> str:
         """Return a length's symbol with the letters in the order of the statement."""
@@ -128,7 +129,8 @@ class Calculation:
             for relative in self.kin.relatives.values():
                 if (relative.a_start, relative.a_turned) == (vector.tail, vector.head):
                     return self._coriolis(vector, relative)
-        if (vector.tail, vector.head) not in self.solution.laid_off:
+        made = self.solution.construction.step(self.segments.drawn((vector.tail, vector.head)))
+        if not isinstance(made, Compute):
             return None
         if vector.note.startswith("∥"):
             return ""
@@ -193,11 +195,9 @@ class Calculation:
             half = first[: len(first) // 2]
             figure = half + letters[0].removeprefix(half) + letters[1].removeprefix(half)
             return f"△{figure} ∼ △{mark(b, c, s)}"
-        lengths = [float(abs(arm)), float(abs(span))]
-        if step.read_arm:
-            lengths[0] = float(self.solution.hand.ruled(lengths[0]))
-        if step.read_span:
-            lengths[1] = float(self.solution.hand.ruled(lengths[1]))
+        made = self.solution.construction.step(self.segments.drawn((step.plan_b, step.out)))
+        assert isinstance(made, Compute)
+        lengths = [abs(self._number(name)) for name, _ in made.powers[1:]]
         whole = self._read(step.plan_b, step.plan_c)
         found, given = (self._letters(step.plan_b, p) for p in (step.out, step.plan_c))
         ratio = f"{mark(b, s)}/{mark(b, c)}"

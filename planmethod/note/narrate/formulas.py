@@ -10,7 +10,7 @@ from planmethod.construct.steps import Compute, LineName, NumberName, PointName
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import found, given, plain_text
 from planmethod.plans.model import PlanKind, Vector
-from planmethod.solved.solution import Complexes, Solution
+from planmethod.solved.solution import Solution
 
 _POWER = {1: "", 2: "²", 3: "³"}
 
@@ -40,23 +40,6 @@ class Formulas:
     def exact(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
         return float(self.solution.reals(self.solution.paper, name)[self.index])
-
-    def _between(self, tail: PointName, head: PointName) -> tuple[complex, complex]:
-        def ends(column: Complexes) -> complex:
-            return complex(column[self.index])
-
-        s = self.solution
-        drawn = ends(s.complexes(s.by_hand, head)) - ends(s.complexes(s.by_hand, tail))
-        exact = ends(s.complexes(s.paper, head)) - ends(s.complexes(s.paper, tail))
-        return drawn, exact
-
-    def read(self, tail: PointName, head: PointName) -> float:
-        """Return a segment as the hand reads it, mm."""
-        return float(self.solution.hand.ruled(abs(self._between(tail, head)[0])))
-
-    def true_length(self, tail: PointName, head: PointName) -> float:
-        """Return a segment of the exact plan, mm."""
-        return abs(self._between(tail, head)[1])
 
     def place(self, point: PointName) -> complex:
         """Return a point of the exact drawing, mm."""
@@ -134,16 +117,17 @@ class Formulas:
 
         Parameters
         ----------
+        step : Compute
+            The length: a quantity over the scale.
         segment : str
             What the length is called, as ``(pb)``.
         """
-        scale = next(n for n, p in step.powers if n in SCALE_KIND and p < 0 and n != "mu_l")
-        rest = [(n, p) for n, p in step.powers if n != scale]
+        (value, _), (scale, _) = step.powers
         length, mu = abs(self.number(step.out)), self.per_mm(kind)
-        symbol = plain_text(vector.symbol) if vector else self.names.symbol(step.out)
-        lines = []
-        if len(rest) > 1 or step.factor != 1.0:
-            sides = self.product(rest, step.factor)
+        symbol = plain_text(vector.symbol) if vector else self.names.symbol(value)
+        made, lines = self.names.step[value], []
+        if isinstance(made, Compute):
+            sides = self.product(made.powers, made.factor)
             lines.append(self.formula(symbol, sides, length * mu, UNIT[kind], ";"))
         sides = self.fraction(
             [(symbol, _shown(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
@@ -151,24 +135,14 @@ class Formulas:
         lines.append(self.formula(segment, sides, length, "mm", "."))
         return lines
 
-    def scaled(self, vector: Vector, kind: PlanKind) -> str:
+    def read(self, step: Compute, kind: PlanKind) -> str:
         """Return a quantity from the read segment that shows it."""
-        segment = f"({self.names.segment(vector.tail, vector.head)})"
-        length, mu = self.read(vector.tail, vector.head), self.per_mm(kind)
-        scale = next(name for name, of in SCALE_KIND.items() if of is kind)
-        sides = self.fraction(
-            [
-                (self.names.symbol(NumberName(scale)), mu, 1, True),
-                (segment, length, 1, False),
-            ]
-            if not self.names.is_inverse_scale()
-            else [(segment, length, 1, False), (self.names.symbol(NumberName(scale)), mu, 1, True)]
+        symbol = self.names.symbol(step.out)
+        powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
+        exact = self.exactly(abs(self.exact(step.out)))
+        return self.formula(
+            symbol, self.product(powers), abs(self.number(step.out)), UNIT[kind], exact
         )
-        exact = self.exactly(self.true_length(vector.tail, vector.head) * mu)
-        symbol = plain_text(vector.symbol)
-        if vector.tail in self.names.poles:  # from the pole: the whole, whatever drew it first
-            symbol = self.names.absolute(vector.head) or symbol
-        return self.formula(symbol, sides, length * mu, UNIT[kind], exact)
 
 
 def _shown(value: float) -> float:

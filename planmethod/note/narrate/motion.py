@@ -5,10 +5,11 @@ from __future__ import annotations
 from planmethod.construct.steps import Compute, LayOff, LineName, NumberName, PointName, Similar
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.equations import note_text
-from planmethod.note.narrate.formulas import NOTHING, TURNING_UNIT, UNIT, Formulas
-from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.formulas import NOTHING, TURNING_UNIT, Formulas
+from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import given, plain_text
 from planmethod.plans.model import PlanKind, Vector, VectorKind
+from planmethod.plans.motion.leads import Relative
 from planmethod.solved.solution import Solution
 
 COLLINEAR = 1e-9
@@ -21,8 +22,11 @@ class MotionVoice:
     def __init__(self, solution: Solution, names: Names, say: Formulas) -> None:
         self.solution, self.names, self.say, self.words = solution, names, say, names.words
         self.kin = names.kin
-        self.laid: set[tuple[PointName, PointName]] = set()
-        self.computed: set[tuple[PointName, PointName]] = set()
+        self._values = {
+            number: motion.kind
+            for motion in (self.kin.velocity, self.kin.acceleration)
+            for number in motion.segments.values.values()
+        }
 
     def direction(self, line: LineName, ray: Vector | None) -> tuple[str, float]:
         """Return base and angle of a line; the equation's own note says them best."""
@@ -43,7 +47,6 @@ class MotionVoice:
         vector, made = names.vector(step.origin, step.out), names.step[step.length]
         plan = names.plan_of(step.out)
         assert isinstance(made, Compute) and plan is not None
-        self.laid.add((step.origin, step.out))
         segment = names.segment(step.origin, step.out)
         length = abs(self.say.number(step.length))
         symbol = plain_text(vector.symbol) if vector else segment
@@ -67,7 +70,8 @@ class MotionVoice:
     def _sense(self, step: LayOff, made: Compute, vector: Vector | None) -> tuple[str, str]:
         """Return direction and sense of a vector that is laid off."""
         words, names = self.words, self.names
-        value = self.say.number(step.length)
+        value, known = self.say.number(step.length), self.names.step[made.powers[0][0]]
+        powers = known.powers if isinstance(known, Compute) else ()
         if vector is not None and vector.kind is VectorKind.NORMAL:
             place, _, joint = (
                 text.strip() for text in note_text(names, vector.note).partition("→")
@@ -78,7 +82,7 @@ class MotionVoice:
         template = words.perpendicular if abs(angle) == 90.0 else words.parallel
         direction = template.format(base=base)
         turning = next(
-            (n for n, _ in made.powers if n in (*self.kin.omega.values(), *self._epsilons)),
+            (n for n, _ in powers if n in (*self.kin.omega.values(), *self._epsilons)),
             None,
         )
         if turning is None:
@@ -86,7 +90,7 @@ class MotionVoice:
         said = {"sense": self._turn(self.say.number(turning))}
         symbol = names.symbol(turning)
         if vector is not None and vector.kind is VectorKind.CORIOLIS:
-            speed = next(n for n, _ in made.powers if n in self._speeds)
+            speed = next(n for n, _ in powers if n in self._speeds)
             relative = names.symbol(speed)
             return direction, words.sense_coriolis.format(relative=relative, omega=symbol, **said)
         return direction, words.sense_of.format(symbol=symbol, **said)
@@ -110,18 +114,29 @@ class MotionVoice:
         ):
             if step.out in table.values():
                 return self._turning(step, kind)
+        if not self.is_value(step):
+            return []
+        plan = self._values[step.out]
+        text = self.say.read(step, plan)
         for relative in self.kin.relatives.values():
-            if relative.speed == step.out:
-                self.computed.add((relative.start, relative.head))
-                value = abs(self.say.number(step.out))
-                exact = self.say.exactly(abs(self.say.exact(step.out)))
-                sides = self.say.product(step.powers, step.factor)
-                symbol, unit = self.names.symbol(step.out), UNIT[PlanKind.VELOCITY]
-                if relative.to == FRAME:  # on a fixed guide the relative velocity is the whole one
-                    whole = self.names.absolute(relative.head)
-                    symbol = f"{whole} = {symbol}" if whole else symbol
-                return [self.say.formula(symbol, sides, value, unit, exact + ".")]
-        return []
+            if relative.to == FRAME and step.out in (relative.speed, self._along(relative)):
+                # On a fixed guide the relative motion is the whole one.
+                ends = (relative.start, relative.head)
+                if plan is PlanKind.ACCELERATION:
+                    assert relative.a_turned is not None and relative.a_head is not None
+                    ends = (relative.a_turned, relative.a_head)
+                vector, whole = self.names.vector(*ends), self.names.symbol(step.out)
+                own = plain_text(vector.symbol) if vector else whole
+                return [text.replace(whole, f"{whole} = {own}", 1) if own != whole else text]
+        return [text]
+
+    def is_value(self, step: Compute) -> bool:
+        """Tell whether a step is what a segment of a plan stands for, by its length."""
+        return step.out in self._values and step.powers[0][0] in SCALE_KIND
+
+    def _along(self, relative: Relative) -> NumberName | None:
+        """Return the number of a relative acceleration."""
+        return self.solution.legend[relative.label("ar")].size
 
     def _turning(self, step: Compute, kind: PlanKind) -> list[str]:
         words, link = self.words, self.names.owner(step.out)
@@ -161,30 +176,24 @@ class MotionVoice:
         b, c = names.point(step.plan_b), names.point(step.plan_c)
         link_b, link_c = say.place(step.link_b), say.place(step.link_c)
         ratio = (say.place(step.link_s) - link_b) / (link_c - link_b)
-        side = say.read(step.plan_b, step.plan_c)
+        side = abs(say.number(step.side))
         if abs(ratio) < COLLINEAR or side == 0:
             return [words.similar_same.format(point=point, other=b, coincide=coincide)]
         if abs(ratio - 1) < COLLINEAR:
             return [words.similar_same.format(point=point, other=c, coincide=coincide)]
-        whole = f"({names.segment(step.plan_b, step.plan_c)})"
-        span = self._drawn(step.link_b, step.link_c, read=step.read_span)
 
-        def part(start: PointName, corner: PointName) -> str:
-            arm = self._drawn(corner, step.link_s, read=step.read_arm)
-            link = names.axis(f"{corner}{step.link_s}")
-            base = names.axis(f"{step.link_b}{step.link_c}")
-            sides = say.fraction(
-                [(whole, side, 1, False), (link, arm, 1, False), (base, span, -1, False)]
-            )
+        def part(start: PointName) -> str:
+            made = names.step[self._length(start, step.out)]
+            assert isinstance(made, Compute)
             segment = f"({names.segment(start, step.out)})"
-            return say.formula(segment, sides, side * arm / span, "mm")
+            return say.formula(segment, say.product(made.powers), abs(say.number(made.out)), "mm")
 
-        first = part(step.plan_b, step.link_b)
+        first = part(step.plan_b)
         said = {"point": point, "coincide": coincide}
         if abs(ratio.imag) >= COLLINEAR * abs(ratio):
             link = f"{step.link_b}{step.link_c}{step.link_s}"
             text = words.similar_triangle.format(plan=f"{b}{c}{point}", link=link, **said)
-            return [first + ",", part(step.plan_c, step.link_c) + ".", text]
+            return [first + ",", part(step.plan_c) + ".", text]
         said |= {"of": names.of(step.plan_b), "part": names.segment(step.plan_b, step.out)}
         if 0 < ratio.real < 1:
             return [first + ".", words.similar_on.format(segment=f"{b}{c}", **said)]
@@ -194,19 +203,11 @@ class MotionVoice:
             words.similar_beyond.format(segment=ends[0], beyond=ends[1], **said),
         ]
 
-    def _drawn(self, tail: PointName, head: PointName, *, read: bool) -> float:
-        """Return a segment of the drawing, mm: read with the ruler, or given by its length."""
-        return self.say.read(tail, head) if read else self.say.true_length(tail, head)
-
-    def readings(self, kind: PlanKind, made: set[PointName]) -> list[str]:
-        """Return the quantities read off a plan whose segments end in the points just made."""
-        plan = self.names.construction.plan(kind)
-        lines = []
-        for vector in plan.vectors:
-            ends = (vector.tail, vector.head)
-            if vector.head in made and ends not in self.laid | self.computed:
-                lines.append(self.say.scaled(vector, kind))
-        return lines
+    def _length(self, tail: PointName, head: PointName) -> NumberName:
+        """Return the number of a segment's length."""
+        motions = (self.kin.velocity, self.kin.acceleration)
+        lengths = next(m.segments for m in motions if (tail, head) in m.segments.lengths)
+        return lengths.drawn((tail, head))
 
     def without_coriolis(self, made: set[PointName]) -> list[str]:
         """Return which Coriolis accelerations vanish because the guide does not turn."""

@@ -223,10 +223,14 @@ class Names:
                 if self.owner(number) == link and number not in seen:
                     seen.add(number)
                     yield number, f"{letter}_{{{link}}}"
-        for relative in self.kin.relatives.values():
-            vector = self.vector(relative.start, relative.head)
-            if vector is not None:
-                yield relative.speed, vector.symbol
+        for motion in (self.kin.velocity, self.kin.acceleration):
+            for ends, number in motion.segments.lengths.items():
+                yield number, f"({self.segment(*ends)})"
+            for ends, number in motion.segments.values.items():
+                whole = self.absolute(ends[1]) if ends[0] == motion.pole else ""
+                vector = self.vector(*ends)
+                if whole or vector is not None:
+                    yield number, whole or (vector.symbol if vector else "")
 
     def owner(self, number: NumberName) -> str:
         """Return the link whose own angular velocity or acceleration a number is."""

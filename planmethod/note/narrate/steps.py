@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import assert_never
 
 from planmethod.construct.steps import (
@@ -15,10 +16,11 @@ from planmethod.construct.steps import (
     LineName,
     Measure,
     MeasureAlong,
+    MeasureArm,
     MeetCircles,
     MeetLineCircle,
     MeetLines,
-    Moment,
+    NumberName,
     Parallel,
     Perpendicular,
     PointName,
@@ -26,6 +28,7 @@ from planmethod.construct.steps import (
     Step,
     Total,
     Touch,
+    operands,
 )
 from planmethod.note.narrate.equations import note_text
 from planmethod.note.narrate.formulas import Formulas
@@ -54,6 +57,21 @@ class Narrator:
             for line in _carriers(step):
                 self._drawers.setdefault(line, set()).add(type(step))
 
+        steps = names.construction.program.steps
+        self._told_later = {
+            step.out
+            for step, after in pairwise(steps)
+            if isinstance(step, Measure)
+            and step.tail in names.letters
+            and step.out in (name for name, _ in operands(after))
+        }
+
+    def is_reading(self, step: Step) -> bool:
+        """Tell whether a step is the value of a segment that is read for it alone."""
+        if not (isinstance(step, Compute) and self.motion.is_value(step)):
+            return False
+        return not isinstance(self.names.step[step.powers[1][0]], MeasureAlong)
+
     def tell(self, step: Step) -> list[str]:
         """Return the lines that tell a step; none when another step tells it."""
         match step:
@@ -74,11 +92,11 @@ class Narrator:
                 return self.drawing.touch(step)
             case Similar():
                 return self.motion.similar(step)
-            case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
-                return [self._measure(tail, head)]
+            case Measure(out, tail, head) | MeasureAlong(out, tail, head, _):
+                return [] if out in self._told_later else [self._measure(out, tail, head)]
             case Compute():
                 return self.motion.compute(step)
-            case Carry() | Moment() | Total():
+            case Carry() | MeasureArm() | Total():
                 return []  # of force plans only: ForceVoice tells them with the forces they carry
             case _:
                 assert_never(step)
@@ -122,13 +140,13 @@ class Narrator:
             coincide=self.motion.coincide(out),
         )
 
-    def _measure(self, tail: PointName, head: PointName) -> str:
+    def _measure(self, out: NumberName, tail: PointName, head: PointName) -> str:
         on_plan = tail in self.names.letters
         template = self.words.measure if on_plan else self.words.measure_drawing
         return template.format(
             segment=self.names.segment(tail, head),
-            length=given(self.say.read(tail, head), self.words, 5),
-            exact=fixed(self.say.true_length(tail, head), self.words),
+            length=given(abs(self.say.number(out)), self.words, 5),
+            exact=fixed(abs(self.say.exact(out)), self.words),
         )
 
 

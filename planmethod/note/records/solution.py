@@ -67,14 +67,15 @@ def _segments(
 
 def _hand(solution: Solution, index: int) -> dict[str, Any]:
     """Return what follows from the read segments, and one sigma of each quantity."""
-    hand, spreads = solution.by_hand_results, solution.drafting.spreads
+    spreads = solution.drafting.spreads
 
-    def told(label: str, value: Any) -> dict[str, float | None]:
+    def told(label: str) -> dict[str, float | None]:
         """Return a quantity and its sigma; the name is the first part of the label."""
         name = LONG.get(label.split("_")[0], label.split("_")[0])
         spread = spreads.get(label)
         sigma = 0.0 if spread is None else finite_or_none(spread.sigma[index])
-        return {name: finite_or_none(value), f"sigma_{name}": sigma}
+        value = finite_or_none(solution.read_off(label)[index])
+        return {name: value, f"sigma_{name}": sigma}
 
     def place(name: str) -> dict[str, float | None]:
         return {
@@ -87,26 +88,22 @@ def _hand(solution: Solution, index: int) -> dict[str, Any]:
         "ruler": solution.hand.ruler,
         "profile": solution.profile.name,
         "points": {
-            name: {**told(f"v_{name}", v[index]), **told(f"a_{name}", a[index]), **place(name)}
-            for name, (v, a) in hand.points.items()
+            name: {**told(f"v_{name}"), **told(f"a_{name}"), **place(name)}
+            for name in solution.points
         },
         "links": {
-            name: {
-                **told(f"omega_{name}", omega[index]),
-                **told(f"epsilon_{name}", epsilon[index]),
-            }
-            for name, (omega, epsilon) in hand.links.items()
+            name: {**told(f"omega_{name}"), **told(f"epsilon_{name}")} for name in solution.links
         },
         "relative": [
             {
                 "point": r.point,
                 "of": r.of,
                 "to": r.to,
-                **told(r.speed, v[index]),
-                **told(f"ak_{r.speed.removeprefix('v_')}", k[index]),
-                **told(f"ar_{r.speed.removeprefix('v_')}", a[index]),
+                **told(r.label("v")),
+                **told(r.label("ak")),
+                **told(r.label("ar")),
             }
-            for r, (v, k, a) in zip(sliding, hand.relatives, strict=True)
+            for r in sliding
         ],
         "monte_carlo": [label for label, spread in spreads.items() if spread.drawn[index]],
     }

@@ -16,10 +16,10 @@ from planmethod.construct.steps import (
     LayOff,
     Measure,
     MeasureAlong,
+    MeasureArm,
     MeetCircles,
     MeetLineCircle,
     MeetLines,
-    Moment,
     Parallel,
     Perpendicular,
     PointName,
@@ -31,11 +31,10 @@ from planmethod.construct.steps import (
 from planmethod.note.narrate.given import asked_links, asked_points
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
-from planmethod.note.tables.sigmas import label_of, marked, rounded_to, sigma_text
-from planmethod.plans.build import measured_segments
+from planmethod.note.rounding import rounded_to, sigma_text
+from planmethod.note.tables.sigmas import label_of, marked
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.spread import SHORT
-from planmethod.solved.solution import Solution
 
 MOST = 3
 """Causes that are told of one result."""
@@ -54,7 +53,6 @@ class Causes:
 
     def __init__(self, names: Names) -> None:
         self.names, self.words, self.solution = names, names.words, names.solution
-        self._ends = _segments(names.solution)
         titles = {
             PlanKind.POSITION: names.words.plan_position,
             PlanKind.VELOCITY: names.words.plan_velocity,
@@ -112,12 +110,9 @@ class Causes:
 
     def tell(self, stroke: str) -> str:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
-        if stroke in self._ends:
-            tail, head = self._ends[stroke]
-            text = self.words.cause_read.format(segment=self.names.segment(tail, head))
-            plan = self._plan.get(head, "")
-        else:
-            text, plan = self._stroke(self.names.step[PointName(stroke)]), self._plan[stroke]
+        step = self.names.step[PointName(stroke)]
+        text = self._stroke(step)
+        plan = self._plan.get(stroke) or self._plan.get(getattr(step, "head", ""), "")
         return f"{text} ({plan})" if plan else text
 
     def _stroke(self, step: Step) -> str:
@@ -141,27 +136,9 @@ class Causes:
                 return words.cause_similar.format(point=names.point(out))
             case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
                 return words.cause_read.format(segment=names.segment(tail, head))
-            case Moment(_, about, at):
+            case MeasureArm(_, about, at):
                 return words.cause_read.format(segment=names.segment(about, at))
             case Known() | Compute() | Total():
                 raise TypeError(f"{step.out} is no stroke")
             case _:
                 assert_never(step)
-
-
-def _segments(solution: Solution) -> dict[str, tuple[PointName, PointName]]:
-    """Return the ends of every segment that is read for a result, by what the reading is called."""
-    construction = solution.construction
-    ends = [
-        (PointName(tail), PointName(head))
-        for tail, head in measured_segments(solution.problem, construction.draft)
-    ]
-    for plan in construction.plans:
-        ends += [(vector.tail, vector.head) for vector in plan.vectors]
-    kin = construction.kinematics
-    for motion in (kin.velocity, kin.acceleration):
-        ends += [(motion.pole, motion.point[at]) for at in kin.velocity.named.values()]
-    for r in kin.relatives.values():
-        assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
-        ends += [(r.start, r.head), (r.a_start, r.a_turned), (r.a_turned, r.a_head)]
-    return {f"{tail}-{head}": (tail, head) for tail, head in ends}

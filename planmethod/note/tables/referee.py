@@ -9,7 +9,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.plaintext import heading, plain_text, table, wrap
 from planmethod.note.tables.results import position_line
 from planmethod.note.wording import Wording, wording
-from planmethod.solved.results import NUMBERS, ResultKind
+from planmethod.plans.legend import QuantityKind
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Examined, Verdict, examine
 
@@ -23,7 +23,7 @@ def judged(solution: Solution, digits: int) -> list[Examined]:
 
     def worth(verdict: Verdict) -> bool:
         head, _, tail = verdict.label.partition("_")
-        return verdict.kind is not ResultKind.UNIT and (tail or head) not in fixed
+        return verdict.kind is not QuantityKind.UNIT and (tail or head) not in fixed
 
     return [
         replace(position, verdicts=tuple(filter(worth, position.verdicts))) for position in found
@@ -63,7 +63,7 @@ def _shown(label: str) -> str:
 def _parts(verdict: Verdict) -> tuple[Any, Any]:
     """Return the coordinates of what the referee found; None for the second of a number."""
     value = verdict.value
-    return value.real, None if verdict.kind in NUMBERS else value.imag
+    return value.real, None if verdict.kind.is_number else value.imag
 
 
 def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:

@@ -161,12 +161,14 @@ def moving_points(solution: Solution) -> list[str]:
 def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     for name in moving_points(solution):
-        point, (v, a) = solution.points[name], solution.by_hand_results.points[name]
+        point = solution.points[name]
         place = point.place[i]
         row = [name, *(_place(solution, float(x), words) for x in (place.real, place.imag))]
-        for symbol, vector, read in (("v", point.velocity, v), ("a", point.acceleration, a)):
+        for symbol, vector in (("v", point.velocity), ("a", point.acceleration)):
+            label = label_of(symbol, name)
+            read = solution.read_off(label)
             row += [found(float(abs(vector[i])), words), found(float(read[i]), words)]
-            row += sigmas.cell(label_of(symbol, name), i)
+            row += sigmas.cell(label, i)
         rows.append(row)
     return rows
 
@@ -194,11 +196,11 @@ def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> 
 def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     for name, link in solution.links.items():
-        omega, epsilon = solution.by_hand_results.links[name]
         row = [name, fixed(float(link.phi_deg[i]), words)]
-        for symbol, exact, read in (("ω", link.omega[i], omega), ("ε", link.epsilon[i], epsilon)):
-            row += [found(float(exact), words), found(float(read[i]), words)]
-            row += [*sigmas.cell(label_of(symbol, name), i), _sense(exact, words)]
+        for symbol, exact in (("ω", link.omega[i]), ("ε", link.epsilon[i])):
+            label = label_of(symbol, name)
+            row += [found(float(exact), words), found(float(solution.read_off(label)[i]), words)]
+            row += [*sigmas.cell(label, i), _sense(exact, words)]
         rows.append(row)
     return rows
 
@@ -211,15 +213,15 @@ def _sense(value: float, words: Wording) -> str:
 
 def _sliding(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
-    hand = solution.by_hand_results.relatives
     told = solution.construction.kinematics.relatives.values()
-    for relative, read, named in zip(solution.relatives, hand, told, strict=True):
+    for relative, named in zip(solution.relatives, told, strict=True):
         row = [words.sliding_row.format(point=relative.point, of=relative.of, to=relative.to)]
         exact = (relative.velocity, relative.coriolis, relative.acceleration)
-        name = str(named.speed).removeprefix("v_")
-        for symbol, vector, length in zip(("v", "ak", "ar"), exact, read, strict=True):
-            row += [found(abs(complex(vector[i])), words), found(float(length[i]), words)]
-            row += sigmas.cell(f"{symbol}_{name}", i)
+        for symbol, vector in zip(("v", "ak", "ar"), exact, strict=True):
+            label = named.label(symbol)
+            read = float(solution.read_off(label)[i])
+            row += [found(abs(complex(vector[i])), words), found(read, words)]
+            row += sigmas.cell(label, i)
         rows.append(row)
     return rows
 
@@ -272,7 +274,7 @@ def _resultants(solution: Solution, words: Wording) -> list[str]:
 
 def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
     """Return tables with a row for each position."""
-    drive, hand = solution.problem.drive, solution.by_hand_results
+    drive = solution.problem.drive
     symbol = plain_text(f"φ_{{{drive.link}}}, °") if drive.is_crank else f"s, {words.units['m']}"
     lead = [
         [words.number, *(str(i + 1) for i in range(len(solution.positions)))],
@@ -282,6 +284,9 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
 
     def column(head: str, values: Iterable[float]) -> list[str]:
         return [plain_text(head), *(found(float(value), words) for value in values)]
+
+    def read_column(symbol: str, name: str) -> list[str]:
+        return column(f"{symbol}_{{{name}}}", solution.read_off(label_of(symbol, name)))
 
     places = []
     for name in moving_points(solution):
@@ -293,10 +298,10 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
     v += [column(f"ω_{{{k}}}", solution.links[k].omega) for k in links]
     a = [column(f"a_{{{p}}}", np.abs(solution.points[p].acceleration)) for p in points]
     a += [column(f"ε_{{{k}}}", solution.links[k].epsilon) for k in links]
-    read_v = [column(f"v_{{{p}}}", hand.points[p][0]) for p in points]
-    read_v += [column(f"ω_{{{k}}}", hand.links[k][0]) for k in links]
-    read_a = [column(f"a_{{{p}}}", hand.points[p][1]) for p in points]
-    read_a += [column(f"ε_{{{k}}}", hand.links[k][1]) for k in links]
+    read_v = [read_column("v", p) for p in points]
+    read_v += [read_column("ω", k) for k in links]
+    read_a = [read_column("a", p) for p in points]
+    read_a += [read_column("ε", k) for k in links]
     errors = []
     for symbol in "vωaε" if sigmas.asked else "":
         for name in points if symbol in "va" else links:

@@ -17,23 +17,30 @@ from planmethod.plans.forces.loads import Applied, LoadKind, Shift, free_letter,
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
 from planmethod.plans.model import FORCE_PREFIX
 from planmethod.plans.motion.leads import Kinematics
-from planmethod.problem.load_records import Mass
+from planmethod.plans.segments import Ends, Segments
+from planmethod.problem.load_records import Dynamics
 
 SCALE = "mu_F"
 
 
+def plain_name(symbol: str) -> str:
+    """Return the letters of a symbol as they stand in the name of a number: ``F_21``."""
+    return symbol.replace("^{", "").replace("_{", "_").replace("}", "")
+
+
 @dataclass(frozen=True, slots=True)
 class Force:
-    """Force on a link (сила): where it acts, its segment on a force plan, and its letter.
-
-    ``read`` is a force that a plan has found: who uses it reads its length with the ruler.
-    """
+    """Force on a link (сила): where it acts, its segment on a force plan, and its letter."""
 
     at: PointName
     tail: PointName
     head: PointName
     symbol: str = ""
-    read: bool = False
+
+    @property
+    def ends(self) -> Ends:
+        """The segment."""
+        return self.tail, self.head
 
     def reversed(self, symbol: str = "") -> Force:
         """Return the force that acts back."""
@@ -77,12 +84,14 @@ class Board:
 
     ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
     groups that hang on it do to it. ``symbols`` are the letters of the couples; ``shifts`` are the
-    forces of inertia, by link, that stand for their couples as well. ``changing`` are loads that
-    differ from position to position, by name, with the known numbers that hold them.
+    forces of inertia, by link, that stand for their couples as well. ``arms`` are those that were
+    measured: about a point, of a force at a place and of a size. ``changing`` are loads that differ
+    from position to position, by name, with the known numbers that hold them.
     """
 
     draft: Draft
     kin: Kinematics
+    dynamics: Dynamics | None = None
     data: dict[str, Number] = field(default_factory=dict)
     forces: dict[str, list[Force]] = field(default_factory=dict)
     couples: dict[str, list[NumberName]] = field(default_factory=dict)
@@ -92,14 +101,24 @@ class Board:
     symbols: dict[NumberName, str] = field(default_factory=dict)
     shifts: dict[str, Shift] = field(default_factory=dict)
     starts: list[PointName] = field(default_factory=list)
+    arms: dict[tuple[PointName, PointName, NumberName], NumberName] = field(default_factory=dict)
     changing: list[tuple[str, tuple[NumberName, ...]]] = field(default_factory=list)
-    scale: NumberName = field(init=False)
+    segments: Segments = field(init=False)
+    accelerations: Segments = field(init=False)
     pole: PointName = field(init=False)
+    _masses: dict[str, NumberName] = field(default_factory=dict)
+    _gravity: NumberName | None = None
     _count: int = 0
 
     def __post_init__(self) -> None:
-        self.scale = self.draft.b.known(SCALE)
+        self.segments = Segments(self.draft.b, self.draft.b.known(SCALE), FORCE_PREFIX)
+        self.accelerations = self.kin.acceleration.segments.on(self.draft.b)
         self.pole = self.start()
+
+    @property
+    def scale(self) -> NumberName:
+        """Scale of all force plans, N per mm."""
+        return self.segments.scale
 
     def name(self, hint: str) -> str:
         """Return a name that nothing has."""
@@ -121,9 +140,7 @@ class Board:
 
     # Loads -----------------------------------------------------------------------------------
 
-    def load(
-        self, masses: Mapping[str, Mass], applied: Iterable[Applied], single: Mapping[str, Applied]
-    ) -> None:
+    def load(self, applied: Iterable[Applied], single: Mapping[str, Applied]) -> None:
         """Lay off what acts on the links beside the reactions.
 
         ``single`` are the couples of inertia, by link, that the shifted force stands for.
@@ -132,7 +149,7 @@ class Board:
             if one is single.get(one.link):
                 continue
             if one.point is None:
-                couple = self._couple(masses, one)
+                couple = self._couple(one)
                 self.couples.setdefault(one.link, []).append(couple)
                 self.symbols[couple] = one.name
                 self.given.append(Given(one, None, couple))
@@ -140,19 +157,19 @@ class Board:
             link, place = self.kin.velocity.named[one.point]
             at = PointName(place)
             if one.kind is LoadKind.INERTIA:
-                mass = self._mass(masses, one)
-                tail, head = self._inertia(mass, link, place)
+                ends = self._inertia(one, (link, place))
                 if one.link in single:
-                    at = self._shifted(masses, single[one.link], mass, link, place)
+                    at = self._shifted(single[one.link], (link, place), ends)
             else:
-                tail, head = self._laid_off(one)
-            force = Force(at, tail, head, one.name)
+                ends = self._laid_off(one)
+            force = Force(at, *ends, one.name)
             self.forces.setdefault(one.link, []).append(force)
             self.given.append(Given(one, force, None))
 
-    def _couple(self, masses: Mapping[str, Mass], one: Applied) -> NumberName:
+    def _couple(self, one: Applied) -> NumberName:
         if one.kind is LoadKind.INERTIA_COUPLE and one.link in self.kin.epsilon:
-            inertia = self.known("J", masses[one.link].inertia)
+            assert self.dynamics is not None
+            inertia = self.known("J", self.dynamics.masses[one.link].inertia)
             turning = self.kin.epsilon[one.link]
             return self.draft.b.compute(self.name("M"), (inertia, 1), (turning, 1), factor=-1.0)
         (size,) = numbers_of(one)
@@ -161,44 +178,58 @@ class Board:
             self.changing.append((one.name, (couple,)))
         return couple
 
-    def _mass(self, masses: Mapping[str, Mass], one: Applied) -> NumberName:
-        return self.known("m", masses[one.link].mass)
+    def _mass(self, link: str) -> NumberName:
+        assert self.dynamics is not None
+        if link not in self._masses:
+            self._masses[link] = self.known("m", self.dynamics.masses[link].mass)
+        return self._masses[link]
 
-    def _inertia(self, mass: NumberName, link: str, place: str) -> tuple[PointName, PointName]:
+    def _inertia(self, one: Applied, at: tuple[str, str]) -> Ends:
         """Carry the acceleration of the centre of mass over, turned back: Φ = -m·a."""
-        motion, b = self.kin.acceleration, self.draft.b
-        times = b.compute(
-            self.name("k"), (mass, 1), (motion.scale, 1), (self.scale, -1), factor=-1.0
-        )
-        head = motion.point[link, place]
-        return self.pole, b.carry(self.name("F"), self.pole, motion.pole, head, times, read=True)
+        motion, b, mass = self.kin.acceleration, self.draft.b, self._mass(one.link)
+        ends = (motion.pole, motion.point[at])
+        powers = ((mass, 1), (self.accelerations.scale, 1), (self.scale, -1))
+        times = b.compute(self.name("k"), *powers, factor=-1.0)
+        length = self.accelerations.length(*ends)
+        head = b.carry(self.name("F"), self.pole, *ends, length, times=times)
+        acceleration = self.accelerations.value(*ends, f"a_{one.point}")
+        product = ((mass, 1), (acceleration, 1))
+        size = self.segments.compute(plain_name(one.name), *product, size=True)
+        self.segments.values[self.pole, head] = size
+        drawn = b.compute(self.name("l"), (size, 1), (self.scale, -1))
+        self.segments.lengths[self.pole, head] = drawn
+        return self.pole, head
 
-    def _shifted(
-        self, masses: Mapping[str, Mass], couple: Applied, mass: NumberName, link: str, place: str
-    ) -> PointName:
+    def _shifted(self, couple: Applied, at: tuple[str, str], force: Ends) -> PointName:
         """Lay h = M_Φ/Φ off from the centre of mass, across its acceleration, and note the end."""
-        motion, b, centre = self.kin.acceleration, self.draft.b, PointName(place)
-        head = motion.point[link, place]
-        moment = self._couple(masses, couple)
-        read = b.measure(self.name("a"), motion.pole, head)
-        force = ((mass, -1), (read, -1), (motion.scale, -1))
-        length = b.compute(self.name("h"), (moment, 1), *force, (self.draft.mu_l, -1))
+        motion, b, centre = self.kin.acceleration, self.draft.b, PointName(at[1])
+        moment = self._couple(couple)
+        over = ((self.segments.values[force], -1), (self.draft.mu_l, -1))
+        length = b.compute(self.name("h"), (moment, 1), *over)
         # Φ is against the acceleration: to the left of that it turns as a positive M_Φ does.
-        across = b.perpendicular(centre, b.join(motion.pole, head))
-        at = b.lay_off(self.name("T"), centre, across, length)
+        across = b.perpendicular(centre, b.join(motion.pole, motion.point[at]))
+        end = b.lay_off(self.name("T"), centre, across, length)
         letter = free_letter("T", couple.link, self.draft.problem)
-        self.shifts[couple.link] = Shift(letter, couple, moment, centre, at, length)
-        return at
+        self.shifts[couple.link] = Shift(letter, couple, moment, centre, end, length)
+        return end
 
-    def _laid_off(self, one: Applied) -> tuple[PointName, PointName]:
+    def _laid_off(self, one: Applied) -> Ends:
         turned, size = numbers_of(one)
-        angle, newtons = self.known("angle", turned), self.known("F", size)
+        angle = self.known("angle", turned)
+        weighs = one.kind is LoadKind.WEIGHT
+        newtons = self._weight(one) if weighs else self.known("F", size)
         if one.steady is None:
             self.changing.append((one.name, (angle, newtons)))
-        b = self.draft.b
-        line = b.at_angle(self.pole, None, angle)
-        length = b.compute(self.name("l"), (newtons, 1), (self.scale, -1))
-        return self.pole, b.lay_off(self.name("F"), self.pole, line, length)
+        line = self.draft.b.at_angle(self.pole, None, angle)
+        return self.pole, self.segments.lay_off(self.name("F"), self.pole, line, newtons)
+
+    def _weight(self, one: Applied) -> NumberName:
+        """Compute a weight: G = m·g."""
+        assert self.dynamics is not None
+        if self._gravity is None:
+            self._gravity = self.known("g", self.dynamics.gravity)
+        powers = ((self._mass(one.link), 1), (self._gravity, 1))
+        return self.segments.compute(plain_name(one.name), *powers)
 
     # Plans -----------------------------------------------------------------------------------
 
@@ -208,7 +239,8 @@ class Board:
         The laid off edges are put ``into`` a list.
         """
         for force in self.forces.get(link, ()):
-            end = self.draft.b.carry(self.name("c"), start, force.tail, force.head, read=force.read)
+            end = self._carried(start, force.tail, force.head)
+            self.segments.same(start, end, force.ends)
             into.append(Edge(force.symbol, link, force.at, start, end))
             start = end
         return start
@@ -216,10 +248,19 @@ class Board:
     def back(self, end: PointName, link: str, into: list[Edge]) -> PointName:
         """Return where the forces on a link start that end in a point."""
         for force in self.forces.get(link, ()):
-            start = self.draft.b.carry(self.name("c"), end, force.head, force.tail, read=force.read)
+            start = self._carried(end, force.head, force.tail)
+            self.segments.same(start, end, force.ends)
             into.insert(0, Edge(force.symbol, link, force.at, start, end))
             end = start
         return end
+
+    def _carried(self, origin: PointName, tail: PointName, head: PointName) -> PointName:
+        """Return where a force ends that is carried to another point.
+
+        What one plan has given to another is read there and laid off here.
+        """
+        length = self.segments.read((tail, head))
+        return self.draft.b.carry(self.name("c"), origin, tail, head, length)
 
     def couples_on(self, *links: str) -> tuple[CoupleOn, ...]:
         """Return the couples on links so far, with their letters."""
@@ -243,9 +284,14 @@ class Board:
         """Return the moment of a force about a point, N·m; None of one that acts in the point."""
         if force.at == about:
             return None
-        b = self.draft.b
-        area = b.moment(self.name("h"), about, force.at, force.tail, force.head, read=force.read)
-        return b.compute(self.name("M"), (area, 1), (self.scale, 1), (self.draft.mu_l, 1))
+        size = self.size(force)
+        arm = self.draft.b.measure_arm(self.name("h"), about, force.at, *force.ends)
+        self.arms[about, force.at, size] = arm
+        return self.draft.b.compute(self.name("M"), (arm, 1), (size, 1), (self.draft.mu_l, 1))
+
+    def size(self, force: Force) -> NumberName:
+        """Return the size of a force, N: computed, or read off the plan that found it."""
+        return self.segments.value(*force.ends, plain_name(force.symbol) or "F")
 
     def negative(self, number: NumberName) -> NumberName:
         """Return a number with the other sign."""
@@ -259,10 +305,16 @@ class Board:
         arm: tuple[tuple[NumberName, int], ...],
     ) -> PointName:
         """Lay off a tangential component: a moment over an arm, across a line."""
-        b = self.draft.b
         over = tuple((name, -power) for name, power in arm)
-        length = b.compute(self.name("t"), (moment, 1), *over, (self.scale, -1))
-        return b.lay_off(self.name("t"), origin, b.perpendicular(origin, line), length)
+        value = self.draft.b.compute(self.name("t"), (moment, 1), *over)
+        across = self.draft.b.perpendicular(origin, line)
+        return self.segments.lay_off(self.name("t"), origin, across, value)
+
+    def read_off(self, plan: ForcePlan) -> None:
+        """Add a plan; every force that it finds is read."""
+        for edge in plan.reactions:
+            self.segments.value(edge.tail, edge.head, plain_name(edge.symbol))
+        self.plans.append(plan)
 
     def react(
         self,
@@ -279,7 +331,8 @@ class Board:
         ``couple`` is about the place of ``force``. ``inner`` reactions act between links that are
         both done with.
         """
-        force = replace(force, symbol=reaction_symbol(on, by), read=True)
+        force = replace(force, symbol=reaction_symbol(on, by))
+        self.size(force)
         self.reactions.append(Reaction(joint, on, by, force, couple))
         if couple is not None:
             self.symbols[couple] = reaction_symbol(on, by, letter="M")

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, Lead
-from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.forces.board import Board, Force
 from planmethod.plans.forces.polygons import (
     BALANCING_FORCE,
@@ -42,184 +42,129 @@ from planmethod.plans.motion.position import (
     slide_of,
     split,
 )
+from planmethod.plans.segments import Ends
 from planmethod.problem.model import Slide
 
 
 @dataclass(frozen=True, slots=True)
 class Driving:
-    """What balances the driving link: a moment on a crank (N·m), or a force along a guide.
+    """What balances the driving link (уравновешивающий момент или уравновешивающая сила).
 
-    ``axis`` is the line of that guide.
+    Attributes
+    ----------
+    balance : NumberName
+        Moment on a crank, N·m, counter-clockwise positive, or force on a slider, N, positive in the
+        direction of its guide.
+    symbol : str
+    force : Force or None
+        The force on a slider.
     """
 
-    moment: NumberName | None = None
+    balance: NumberName
+    symbol: str
     force: Force | None = None
-    axis: LineName | None = None
 
 
 def group_forces(board: Board, group: AssurGroup) -> None:
     """Find the reactions in all joints of a dyad."""
     match group.signature:
-        case "RRR":
-            _two_revolute(board, group)
-        case "RRP":
-            _revolute_and_slider(board, group)
-        case "PRP":
-            _two_sliders(board, group)
+        case "RRR" | "RRP" | "PRP":
+            _middle_revolute(board, group)
         case "RPR":
             _swinging(board, group)
         case "RPP":
             _sliding(board, group)
 
 
-def _tangent(
-    board: Board, lead: Lead, origin: PointName, middle: str
-) -> tuple[PointName, Components]:
-    """Lay off the tangential reaction of a revolute lead: its moment about the middle joint."""
-    outer = lead_point(lead)
-    lever = arm(board.draft, lead.link, outer, middle)
-    moment = board.moment((lead.link,), PointName(middle))
-    end = board.across(origin, lever.line, moment, lever.length)
-    return end, Components(lead, PointName(outer), mark(outer, middle))
-
-
-def _two_revolute(board: Board, group: AssurGroup) -> None:
-    b, middle = board.draft.b, PointName(inner_point(group))
-    one, two = group.leads
+def _middle_revolute(board: Board, group: AssurGroup) -> None:
+    """RRR, RRP, PRP: what moments leave unknown of both outer reactions closes the plan."""
+    middle = PointName(inner_point(group))
+    one, two = split(group)
     start = board.start()
     first, at_one = _tangent(board, one, start, middle)
     loads: tuple[list[Edge], list[Edge]] = ([], [])
     between = board.chain(first, one.link, loads[0])
     loaded = board.chain(between, two.link, loads[1])
     last, at_two = _tangent(board, two, loaded, middle)
-    lines = (
-        b.parallel(start, arm(board.draft, one.link, lead_point(one), middle).line),
-        b.parallel(last, arm(board.draft, two.link, lead_point(two), middle).line),
+    lines = _unknown(board, one, start, middle), _unknown(board, two, last, middle)
+    end = board.draft.b.meet_lines(board.name("x"), *lines)
+    held = ((end, first), (loaded, end))  # both outer reactions
+    outer = (
+        _outer(board, one, at_one, (end, start), (start, first), held[0]),
+        _outer(board, two, at_two, (last, end), (loaded, last), held[1]),
     )
-    end = b.meet_lines(board.name("x"), *lines)
-    edges = (
-        at_one.normal(end, start),
-        at_one.tangential(start, first),
-        at_two.tangential(loaded, last),
-        at_two.normal(last, end),
-    )
-    polygon = (*edges[:2], *loads[0], *loads[1], *edges[2:])
-    wholes = (at_one.whole(end, first), at_two.whole(loaded, end))
-    inner = reaction_edge(one.link, two.link, middle, between, end)
-    board.plans.append(
-        ForcePlan(
-            group.links,
-            polygon,
-            wholes,
-            inner,
-            (
-                Balance(group.links, polygon),
-                Balance((one.link,), (as_known(wholes[0]), *loads[0], inner)),
-            ),
-            (
-                Moments((one.link,), middle, tuple(loads[0]), board.couples_on(one.link), edges[1]),
-                Moments((two.link,), middle, tuple(loads[1]), board.couples_on(two.link), edges[2]),
-            ),
-            board.couples_on(*group.links),
-        )
-    )
-    for lead, tail, head in ((one, end, first), (two, loaded, end)):
-        at = PointName(lead_point(lead))
-        board.react(at, lead.link, lead.to, Force(at, tail, head))
-    board.react(middle, one.link, two.link, Force(middle, between, end), inner=True)
-
-
-def _revolute_and_slider(board: Board, group: AssurGroup) -> None:
-    b, middle = board.draft.b, PointName(inner_point(group))
-    revolute, prismatic = split(group)
-    slide = slide_of(board.draft, prismatic.joint)
-    start = board.start()
-    first, hinged = _tangent(board, revolute, start, middle)
-    loads: tuple[list[Edge], list[Edge]] = ([], [])
-    between = board.chain(first, revolute.link, loads[0])
-    loaded = board.chain(between, prismatic.link, loads[1])
-    end = b.meet_lines(
-        board.name("x"),
-        b.parallel(start, arm(board.draft, revolute.link, lead_point(revolute), middle).line),
-        b.perpendicular(loaded, board.draft.direction(slide)),
-    )
-    pressed = _guide_edge(board, prismatic, loaded, end)
-    two = (hinged.normal(end, start), hinged.tangential(start, first))
-    whole = hinged.whole(end, first)
-    polygon = (*two, *loads[0], *loads[1], pressed)
-    inner = reaction_edge(revolute.link, prismatic.link, middle, between, end)
-    known = (board.couples_on(revolute.link), board.couples_on(prismatic.link))
-    at = PointName(lead_point(revolute))
-    board.react(at, revolute.link, revolute.to, Force(at, end, first))
-    back_on_slider = Force(middle, end, between, read=True)
-    guide = _guide_reaction(board, prismatic, Force(middle, loaded, end), back_on_slider)
-    board.react(middle, revolute.link, prismatic.link, Force(middle, between, end), inner=True)
-    board.plans.append(
-        ForcePlan(
-            group.links,
-            polygon,
-            (whole,),
-            inner,
-            (
-                Balance(group.links, polygon),
-                Balance((revolute.link,), (as_known(whole), *loads[0], inner)),
-            ),
-            (
-                Moments((revolute.link,), middle, tuple(loads[0]), known[0], two[1]),
-                _of_guide(guide, [*loads[1], back(inner, prismatic.link)], known[1]),
-            ),
-            (*known[0], *known[1], guide),
-        )
-    )
-
-
-def _two_sliders(board: Board, group: AssurGroup) -> None:
-    b, middle = board.draft.b, PointName(inner_point(group))
-    one, two = group.leads
-    start = board.start()
-    loads: tuple[list[Edge], list[Edge]] = ([], [])
-    between = board.chain(start, one.link, loads[0])
-    loaded = board.chain(between, two.link, loads[1])
-    guides = [board.draft.direction(slide_of(board.draft, lead.joint)) for lead in (one, two)]
-    end = b.meet_lines(
-        board.name("x"), b.perpendicular(start, guides[0]), b.perpendicular(loaded, guides[1])
-    )
-    pressed = (_guide_edge(board, one, end, start), _guide_edge(board, two, loaded, end))
-    polygon = (pressed[0], *loads[0], *loads[1], pressed[1])
+    polygon = (*outer[0], *loads[0], *loads[1], *outer[1][::-1])
     inner = reaction_edge(one.link, two.link, middle, between, end)
     known = (board.couples_on(one.link), board.couples_on(two.link))
-    found = (
-        _guide_reaction(
-            board, one, Force(middle, end, start), Force(middle, between, end, read=True)
-        ),
-        _guide_reaction(
-            board, two, Force(middle, loaded, end), Force(middle, end, between, read=True)
-        ),
+    wholes, moments, guides = [], [], []
+    for lead, parts, ends, sides, own, couples, force in (
+        (one, at_one, held[0], outer[0], loads[0], known[0], inner),
+        (two, at_two, held[1], outer[1], loads[1], known[1], back(inner, two.link)),
+    ):
+        if parts is None:
+            guide = _guide_reaction(board, lead, Force(middle, *ends), force)
+            guides.append(guide)
+            moments.append(_of_guide(guide, [*own, force], couples))
+            continue
+        whole = parts.whole(*ends)
+        board.react(parts.at, lead.link, lead.to, Force(parts.at, *whole.ends))
+        wholes.append(whole)
+        moments.append(Moments((lead.link,), middle, tuple(own), couples, sides[1], arm=parts.arm))
+    board.react(middle, one.link, two.link, Force(middle, *inner.ends), inner=True)
+    of_one = as_known(outer[0][0] if at_one is None else wholes[0])
+    balances = (
+        Balance(group.links, polygon),
+        Balance((one.link,), (of_one, *loads[0], inner)),
     )
-    board.react(middle, one.link, two.link, Force(middle, between, end), inner=True)
-    board.plans.append(
+    known_couples = (*known[0], *known[1], *guides)
+    board.read_off(
         ForcePlan(
-            group.links,
-            polygon,
-            (),
-            inner,
-            (
-                Balance(group.links, polygon),
-                Balance((one.link,), (as_known(pressed[0]), *loads[0], inner)),
-            ),
-            (
-                _of_guide(found[0], [*loads[0], inner], known[0]),
-                _of_guide(found[1], [*loads[1], back(inner, two.link)], known[1]),
-            ),
-            (*known[0], *known[1], *found),
+            group.links, polygon, tuple(wholes), inner, balances, tuple(moments), known_couples
         )
     )
 
 
-def _guide_reaction(board: Board, lead: Lead, force: Force, inner: Force) -> CoupleOn:
-    """Note the reaction of a guide: its moment about the pin balances those of all other forces."""
+def _tangent(
+    board: Board, lead: Lead, origin: PointName, middle: PointName
+) -> tuple[PointName, Components | None]:
+    """Lay off the tangential reaction of a revolute lead: its moment about the middle joint.
+
+    A guide has none: its reaction is across it.
+    """
+    if not isinstance(lead.joint, Revolute):
+        return origin, None
+    outer = lead_point(lead)
+    lever = arm(board.draft, lead.link, outer, middle)
+    moment = board.moment((lead.link,), middle)
+    end = board.across(origin, lever.line, moment, lever.length)
+    return end, Components(lead, PointName(outer), mark(outer, middle), lever.length)
+
+
+def _unknown(board: Board, lead: Lead, through: PointName, middle: PointName) -> LineName:
+    """Draw the line of what is unknown of an outer reaction: along the link, across the guide."""
+    b = board.draft.b
+    if isinstance(lead.joint, Revolute):
+        return b.parallel(through, arm(board.draft, lead.link, lead_point(lead), middle).line)
+    return b.perpendicular(through, board.draft.direction(slide_of(board.draft, lead.joint)))
+
+
+def _outer(
+    board: Board, lead: Lead, parts: Components | None, normal: Ends, tangential: Ends, whole: Ends
+) -> tuple[Edge, ...]:
+    """Return the sides of an outer reaction: normal and tangential, or that across the guide."""
+    if parts is None:
+        return (_guide_edge(board, lead, *whole),)
+    return parts.normal(*normal), parts.tangential(*tangential)
+
+
+def _guide_reaction(board: Board, lead: Lead, force: Force, inner: Edge) -> CoupleOn:
+    """Note the reaction of a guide: its moment about the pin balances those of all other forces.
+
+    ``inner`` is the reaction of the middle joint on the slider.
+    """
     pin = PointName(slide_of(board.draft, lead.joint).pin)
-    couple = board.negative(board.moment((lead.link,), pin, inner))
+    acting = Force(inner.at, *inner.ends, inner.symbol)
+    couple = board.negative(board.moment((lead.link,), pin, acting))
     return board.press(pin, lead.link, lead.to, replace(force, at=pin), couple)
 
 
@@ -245,7 +190,8 @@ def _swinging(board: Board, group: AssurGroup) -> None:
     apart = board.draft.measured(at, pivot)
     moment = board.moment((slider.link, host.link), pivot)
     start = board.start()
-    first = board.across(start, line, moment, ((apart, 1), (board.draft.mu_l, 1)))
+    over = ((apart, 1), (board.draft.mu_l, 1))
+    first = board.across(start, line, moment, over)
     loads: tuple[list[Edge], list[Edge]] = ([], [])
     between = board.chain(first, slider.link, loads[0])
     end = b.meet_lines(
@@ -254,7 +200,7 @@ def _swinging(board: Board, group: AssurGroup) -> None:
         b.perpendicular(between, board.draft.direction(slide)),
     )
     loaded = board.chain(between, host.link, loads[1])
-    hinged = Components(slider, at, mark(at, pivot))
+    hinged = Components(slider, at, mark(at, pivot), over)
     two = (hinged.normal(end, start), hinged.tangential(start, first))
     whole = hinged.whole(end, first)
     stands = reaction_edge(host.link, host.to, pivot, loaded, end)
@@ -272,7 +218,7 @@ def _swinging(board: Board, group: AssurGroup) -> None:
         held = board.press(slide.pin, slider.link, host.link, pressed, couple, inner=True)
         weighed = _of_guide(held, loads[0], of_slider)
     polygon = (*two, *loads[0], *loads[1], stands)
-    board.plans.append(
+    board.read_off(
         ForcePlan(
             group.links,
             polygon,
@@ -283,7 +229,7 @@ def _swinging(board: Board, group: AssurGroup) -> None:
                 Balance(group.links, (as_known(whole), *loads[0], *loads[1], stands)),
             ),
             (
-                Moments(group.links, pivot, (*loads[0], *loads[1]), known, two[1]),
+                Moments(group.links, pivot, (*loads[0], *loads[1]), known, two[1], arm=over),
                 weighed,
             ),
             known,
@@ -318,7 +264,7 @@ def _sliding(board: Board, group: AssurGroup) -> None:
     first = board.back(start, revolute.link, loads[0])
     own = board.moment((revolute.link,), at)
     pin = PointName(outer.pin)
-    whole = board.moment((revolute.link, prismatic.link), pin, Force(at, end, first, read=True))
+    whole = board.moment((revolute.link, prismatic.link), pin, Force(at, end, first))
     across = _guide_edge(board, prismatic, loaded, end)
     hinge = reaction_edge(revolute.link, revolute.to, at, end, first)
     note = track_note(inner, board.draft.problem, turned=True)
@@ -331,7 +277,7 @@ def _sliding(board: Board, group: AssurGroup) -> None:
     held = board.press(
         inner.pin, revolute.link, prismatic.link, pressed, board.negative(own), inner=True
     )
-    board.plans.append(
+    board.read_off(
         ForcePlan(
             group.links,
             (hinge, *loads[0], *loads[1], across),
@@ -364,7 +310,7 @@ def drive_forces(board: Board) -> Driving:
         moment = board.negative(board.moment((drive.link,), pivot))
         stands = reaction_edge(drive.link, FRAME, pivot, loaded, start)
         balancing = CoupleOn(BALANCING_MOMENT, drive.link, moment, pivot)
-        board.plans.append(
+        board.read_off(
             ForcePlan(
                 links,
                 (*loads, stands),
@@ -373,7 +319,7 @@ def drive_forces(board: Board) -> Driving:
                 couples=(*known, balancing),
             )
         )
-        return Driving(moment=moment)
+        return Driving(moment, BALANCING_MOMENT)
     slide = board.draft.problem.slides[drive.link]
     guide, pin = board.draft.direction(slide), PointName(slide.pin)
     end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
@@ -385,7 +331,8 @@ def drive_forces(board: Board) -> Driving:
     )
     note = track_note(slide, problem, turned=True)
     presses = reaction_edge(drive.link, FRAME, pin, end, start, note)
-    board.plans.append(
+    balance = board.segments.read_along(loaded, end, guide, "F_dr")
+    board.read_off(
         ForcePlan(
             links,
             (*loads, drives, presses),
@@ -394,4 +341,4 @@ def drive_forces(board: Board) -> Driving:
             couples=(*known, held),
         )
     )
-    return Driving(force=Force(pin, loaded, end, BALANCING_FORCE), axis=guide)
+    return Driving(balance, BALANCING_FORCE, Force(pin, loaded, end, BALANCING_FORCE))

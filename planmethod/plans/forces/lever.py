@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Board, Given
+from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.loads import Shift
 
 
@@ -25,30 +26,42 @@ class Lever:
     pole : PointName
     balance : NumberName
         Balancing moment on the crank, N·m, or force along the guide of a driving slider, N.
-    hung : tuple of (Given, PointName or None)
-        The loads that do work, and the points of the lever where the forces among them hang.
+    difference : NumberName
+        What the lever gives less what the force plans give.
+    hung : tuple of Hung
+        The loads that do work.
     """
 
     pole: PointName
     balance: NumberName
-    hung: tuple[tuple[Given, PointName | None], ...] = ()
+    difference: NumberName
+    hung: tuple[Hung, ...] = ()
 
 
-def hang(board: Board) -> Lever | None:
+@dataclass(frozen=True, slots=True)
+class Hung:
+    """Load on the lever; of a force the point where it hangs, and its arm about the pole, mm."""
+
+    given: Given
+    at: PointName | None = None
+    arm: NumberName | None = None
+
+
+def hang(board: Board, driving: Driving) -> Lever | None:
     """Hang the given loads on the turned velocity plan; None where the driver stands."""
     b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
     if drive.rate == 0:
         return None
     pole = board.start()
     powers: list[NumberName] = []
-    hung: list[tuple[Given, PointName | None]] = []
+    hung: list[Hung] = []
     for given in board.given:
         link = given.applied.link
         if given.couple is not None:
             if link in board.kin.omega:
                 turning = board.kin.omega[link]
                 powers.append(b.compute(board.name("P"), (given.couple, 1), (turning, 1)))
-                hung.append((given, None))
+                hung.append(Hung(given))
             continue
         assert given.force is not None and given.applied.point is not None
         at = motion.point[motion.named[given.applied.point]]
@@ -58,16 +71,16 @@ def hang(board: Board) -> Lever | None:
         shift = board.shifts.get(link)
         if shift is not None and given.force.at == shift.at:
             turned = _beside(board, shift, turned)
-        hung.append((given, turned))
-        area = b.moment(board.name("h"), pole, turned, given.force.tail, given.force.head)
+        arm = b.measure_arm(board.name("h"), pole, turned, *given.force.ends)
+        hung.append(Hung(given, turned, arm))
         # The plan is turned by +90°: a moment on it is the power with the other sign.
-        powers.append(
-            b.compute(board.name("P"), (area, 1), (board.scale, 1), (motion.scale, 1), factor=-1.0)
-        )
+        factors = ((arm, 1), (board.size(given.force), 1), (motion.segments.scale, 1))
+        powers.append(b.compute(board.name("P"), *factors, factor=-1.0))
     rate = board.kin.omega[drive.link] if drive.is_crank else NumberName("v")
     whole = b.total(board.name("P"), *powers)
     balance = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
-    return Lever(pole, balance, tuple(hung))
+    off = b.total(board.name("d"), balance, board.negative(driving.balance))
+    return Lever(pole, balance, off, tuple(hung))
 
 
 def _beside(board: Board, shift: Shift, centre: PointName) -> PointName:
@@ -78,7 +91,6 @@ def _beside(board: Board, shift: Shift, centre: PointName) -> PointName:
     """
     b, motion = board.draft.b, board.kin.velocity
     turning = board.kin.omega[shift.link]
-    times = b.compute(
-        board.name("k"), (turning, 1), (board.draft.mu_l, 1), (motion.scale, -1), factor=-1.0
-    )
-    return b.carry(board.name("t"), centre, shift.centre, shift.at, times)
+    powers = ((turning, 1), (board.draft.mu_l, 1), (motion.segments.scale, -1))
+    times = b.compute(board.name("k"), *powers, factor=-1.0)
+    return b.carry(board.name("t"), centre, shift.centre, shift.at, shift.length, times=times)

@@ -12,6 +12,7 @@ from enum import Enum
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.groups import Lead
 from planmethod.plans.model import Known
+from planmethod.plans.segments import Ends
 
 BALANCING_MOMENT = "M_{ур}"
 BALANCING_FORCE = "F_{ур}"
@@ -55,6 +56,11 @@ class Edge:
     note: str = ""
     share: Share = Share.WHOLE
 
+    @property
+    def ends(self) -> Ends:
+        """The segment."""
+        return self.tail, self.head
+
 
 @dataclass(frozen=True, slots=True)
 class CoupleOn:
@@ -93,6 +99,8 @@ class Moments:
         The found force, whose arm is from ``about`` to its place.
     couple : CoupleOn or None
         The found couple.
+    arm : tuple of (NumberName, int)
+        Factors of the arm of the found force, m.
     """
 
     links: tuple[str, ...]
@@ -101,6 +109,7 @@ class Moments:
     couples: tuple[CoupleOn, ...]
     force: Edge | None = None
     couple: CoupleOn | None = None
+    arm: tuple[tuple[NumberName, int], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,12 +159,14 @@ def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = 
 class Components:
     """Reaction of a revolute lead in two shares (нормальная и касательная составляющие).
 
-    ``line`` are the letters of the link from the joint to the middle one, in rich text.
+    ``line`` are the letters of the link from the joint to the middle one, in rich text, ``arm`` the
+    factors of its length, m.
     """
 
     lead: Lead
     at: PointName
     line: str
+    arm: tuple[tuple[NumberName, int], ...]
 
     def _edge(self, tail: PointName, head: PointName, share: Share) -> Edge:
         symbol = reaction_symbol(self.lead.link, self.lead.to, share)

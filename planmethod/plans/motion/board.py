@@ -13,12 +13,14 @@ from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
+from planmethod.plans.segments import Segments
 
 PREFIX = {PlanKind.VELOCITY: "v:", PlanKind.ACCELERATION: "a:"}
 SYMBOL = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
 UNKNOWN_KINDS = (VectorKind.RELATIVE, VectorKind.SLIDING)
 """Components that end in a middle joint: from the pole they are its absolute vector as well."""
 
+POLE = {PlanKind.VELOCITY: "p", PlanKind.ACCELERATION: "π"}
 SCALE = {PlanKind.VELOCITY: "mu_v", PlanKind.ACCELERATION: "mu_a"}
 
 
@@ -38,6 +40,11 @@ def mark(*points: str) -> str:
     return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)
 
 
+def _number(vector: Vector) -> str:
+    """Return what the number is called that a vector stands for: ``v_CB``."""
+    return vector.symbol.replace("^{", "").replace("_{", "_").replace("}", "")
+
+
 @dataclass(slots=True)
 class Motion:
     """One plan being planned (план скоростей или ускорений в работе).
@@ -50,6 +57,8 @@ class Motion:
         What is published: point name to (link, place).
     alias : set of (link, place)
         Points of a link that does not turn: they share the plan point of its first point.
+    segments : Segments
+        Their values are in m/s or m/s².
     moving : dict of link to list of str
         Places of a link that the plan has, in the order they came.
     """
@@ -57,7 +66,7 @@ class Motion:
     kind: PlanKind
     draft: Draft
     pole: PointName
-    scale: NumberName
+    segments: Segments
     point: dict[tuple[str, str], PointName] = field(default_factory=dict)
     named: dict[str, tuple[str, str]] = field(default_factory=dict)
     moving: dict[str, list[str]] = field(default_factory=dict)
@@ -71,7 +80,7 @@ class Motion:
         """Put the pole down: the fixed points are there."""
         pole = draft.b.given(PREFIX[kind] + "0")
         draft.places[pole] = 0j
-        motion = cls(kind, draft, pole, draft.b.known(SCALE[kind]))
+        motion = cls(kind, draft, pole, Segments(draft.b, draft.b.known(SCALE[kind])))
         for point in draft.problem.bodies[FRAME].points:
             motion.put(FRAME, point, pole, show=bool(motion.sharers(point, FRAME)))
         return motion
@@ -111,6 +120,22 @@ class Motion:
         taken = any(name in body.points for body in bodies.values())
         return f"{place}({link})" if taken else name
 
+    # Segments --------------------------------------------------------------------------------
+
+    def size(self, of: tuple[str, str]) -> NumberName | None:
+        """Return the number of the speed (acceleration) of a link's point; None of a fixed one."""
+        at = self.point[of]
+        return None if at == self.pole else self.segments.values[self.pole, at]
+
+    def read_off(self) -> None:
+        """Read every vector and every point that has not been read or laid off yet."""
+        for vector in self.vectors:
+            self.segments.value(vector.tail, vector.head, _number(vector))
+        for name, at in self.named.items():
+            if self.point[at] != self.pole:
+                number = f"{SYMBOL[self.kind]}_{name}"
+                self.segments.value(self.pole, self.point[at], number)
+
     # Vectors ---------------------------------------------------------------------------------
 
     def add(self, vector: Vector) -> Vector:
@@ -131,6 +156,18 @@ class Motion:
         return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, note))
 
 
+def plain_letter(motion: Motion, point: PointName) -> str:
+    """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
+    if point == motion.pole:
+        return POLE[motion.kind]
+    first = motion.letters.get(point, [str(point)])[0]
+    head, brace, tail = first.partition("_{")
+    if not brace:
+        return first
+    tail = tail.rstrip("}")
+    return f"{head}_{tail}" if head in ("n", "k") else f"{head}{tail}"
+
+
 @dataclass(frozen=True, slots=True)
 class Ray:
     """Half of a vector equation: where a lead's line starts on the plan and how it runs (луч).
@@ -144,13 +181,16 @@ class Ray:
     terms : tuple of Vector
         Terms of the equation laid off before the line.
     unknown : (symbol, VectorKind, note)
-        What is laid off along the line.
+        What is found along the line.
+    name : str
+        What the number is called that is read off the line, signed along it.
     """
 
     start: PointName
     line: LineName
     terms: tuple[Vector, ...]
     unknown: tuple[str, VectorKind, str]
+    name: str
 
     def close(self, motion: Motion, head: PointName) -> Vector:
         """Return the unknown component, its end being found."""

@@ -45,9 +45,8 @@ def drive_motion(kin: Kinematics, motion: Motion) -> None:
         slide = kin.draft.problem.slides[drive.link]
         rate = b.known("v" if motion.kind is PlanKind.VELOCITY else "a")
         out = motion.name(slide.pin)
-        length = b.compute(f"|{out}|", (rate, 1), (motion.scale, -1))
         along = b.parallel(motion.pole, kin.draft.direction(slide))
-        head = b.lay_off(out, motion.pole, along, length)
+        head = motion.segments.lay_off(out, motion.pole, along, rate)
         symbol = f"{SYMBOL[motion.kind]}_{{{slide.pin}}}"
         note = track_note(slide, kin.draft.problem)
         motion.add(Vector(symbol, VectorKind.ABSOLUTE, motion.pole, head, Known.BOTH, note))
@@ -73,6 +72,7 @@ def carry_rest(kin: Kinematics, motion: Motion, links: tuple[str, ...]) -> None:
         for place in kin.draft.problem.bodies[link].points:
             at = carried(kin, motion, link, place)
             motion.absolute(motion.label(link, place), at)
+    motion.read_off()
 
 
 def _middle_revolute(kin: Kinematics, motion: Motion, group: AssurGroup) -> None:

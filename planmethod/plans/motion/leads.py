@@ -40,15 +40,23 @@ class Relative:
     a_turned: PointName | None = None
     a_head: PointName | None = None
 
+    def label(self, letter: str) -> str:
+        """Return how one of its quantities is asked for: ``v_B3/2``, ``ak_B3/2``."""
+        return f"{letter}_{self.point}{self.of}/{self.to}"
+
 
 @dataclass(frozen=True, slots=True)
 class Turning:
-    """Segment of a plan from which a link's angular velocity or acceleration was read."""
+    """Segment of a plan from which a link's angular velocity or acceleration was read.
+
+    ``arm`` are the factors of the length between the joint and the place, m.
+    """
 
     start: PointName
     head: PointName
     joint: str
     place: str
+    arm: tuple[tuple[NumberName, int], ...]
 
 
 @dataclass(slots=True)
@@ -116,6 +124,7 @@ def revolute_ray(kin: Kinematics, motion: Motion, link: str, joint: str, place: 
             line,
             tuple(terms),
             (f"v_{{{both}}}", VectorKind.RELATIVE, f"⊥ {mark(place, joint)}"),
+            f"v_{both}",
         )
     end = _normal(kin, motion, link, (joint, place), start, lever)
     symbol = f"a^{{n}}_{{{both}}}"
@@ -123,7 +132,7 @@ def revolute_ray(kin: Kinematics, motion: Motion, link: str, joint: str, place: 
     terms.append(motion.add(Vector(symbol, VectorKind.NORMAL, start, end, Known.BOTH, note)))
     line = b.perpendicular(end, lever.line)
     unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, f"⊥ {mark(place, joint)}")
-    return Ray(end, line, tuple(terms), unknown)
+    return Ray(end, line, tuple(terms), unknown, f"at_{both}")
 
 
 def _normal(
@@ -138,9 +147,10 @@ def _normal(
     b, (joint, place) = kin.draft.b, ends
     n = motion.name(f"n_{motion.label(link, place)}{joint}")
     inward = b.parallel(start, b.join(PointName(place), PointName(joint)))
-    length = b.compute(f"|{n}|", (kin.omega[link], 2), *lever.length, (motion.scale, -1))
-    motion.letters.setdefault(PointName(n), [f"n_{{{motion.label(link, place)}{joint}}}"])
-    return b.lay_off(n, start, inward, length)
+    both = f"{motion.label(link, place)}{joint}"
+    value = motion.segments.compute(f"an_{both}", (kin.omega[link], 2), *lever.length)
+    motion.letters.setdefault(PointName(n), [f"n_{{{both}}}"])
+    return motion.segments.lay_off(n, start, inward, value)
 
 
 def track_note(slide: Slide, problem: Problem, *, turned: bool = False) -> str:
@@ -186,21 +196,17 @@ def prismatic_ray(
     terms: list[Vector] = [motion.absolute(base, start)]
     if motion.kind is PlanKind.VELOCITY:
         line = b.parallel(start, guide)
-        return Ray(start, line, tuple(terms), (f"{symbol}_{{{both}}}", VectorKind.SLIDING, note))
+        unknown = (f"{symbol}_{{{both}}}", VectorKind.SLIDING, note)
+        return Ray(start, line, tuple(terms), unknown, f"v_{place}{of}/{to}")
     relative = kin.relatives[place, of, to]
     relative.a_start = relative.a_turned = start
     end = start
     if to in kin.omega:
         name = motion.name(f"k_{both}")
-        length = b.compute(
-            f"|{name}|",
-            (kin.omega[to], 1),
-            (relative.speed, 1),
-            (motion.scale, -1),
-            factor=2.0,
-        )
-        # v_rel turned by 90 degrees along omega: the signs of both are in the length.
-        end = b.lay_off(name, start, b.perpendicular(start, guide), length)
+        powers = ((kin.omega[to], 1), (relative.speed, 1))
+        # v_rel turned by 90 degrees along omega: the signs of both are in the product.
+        value = motion.segments.compute(f"ak_{place}{of}/{to}", *powers, factor=2.0)
+        end = motion.segments.lay_off(name, start, b.perpendicular(start, guide), value)
         relative.a_turned = end
         motion.letters.setdefault(end, [f"k_{{{both}}}"])
         turned = Vector(
@@ -213,7 +219,8 @@ def prismatic_ray(
         )
         terms.append(motion.add(turned))
     line = b.parallel(end, guide)
-    return Ray(end, line, tuple(terms), (f"a^{{r}}_{{{both}}}", VectorKind.SLIDING, note))
+    unknown = (f"a^{{r}}_{{{both}}}", VectorKind.SLIDING, note)
+    return Ray(end, line, tuple(terms), unknown, f"ar_{place}{of}/{to}")
 
 
 def close(
@@ -241,9 +248,9 @@ def read_turning(
     b = kin.draft.b
     head = motion.point[link, place]
     lever = arm(kin.draft, link, joint, place)
-    segment = b.measure_along(f"|{ray.start}→{head}|{ray.line}", ray.start, head, ray.line)
-    kin.turnings[motion.kind, link] = Turning(ray.start, head, joint, place)
-    powers = ((motion.scale, 1), (segment, 1), *_inverse(lever.length))
+    kin.turnings[motion.kind, link] = Turning(ray.start, head, joint, place, lever.length)
+    value = motion.segments.read_along(ray.start, head, ray.line, ray.name)
+    powers = ((value, 1), *_inverse(lever.length))
     if motion.kind is PlanKind.VELOCITY:
         kin.omega[link] = b.compute(f"omega_{link}", *powers)
     else:
@@ -251,15 +258,13 @@ def read_turning(
 
 
 def read_sliding(kin: Kinematics, motion: Motion, of: str, to: str, place: str, ray: Ray) -> None:
-    """Read the relative velocity off a closed ray; the acceleration plan only notes its end."""
+    """Read the relative motion off a closed ray."""
     head = motion.point[of, place]
+    value = motion.segments.read_along(ray.start, head, ray.line, ray.name)
     if motion.kind is PlanKind.ACCELERATION:
         kin.relatives[place, of, to].a_head = head
         return
-    b = kin.draft.b
-    segment = b.measure_along(f"|{ray.start}→{head}|{ray.line}", ray.start, head, ray.line)
-    speed = b.compute(f"v_{place}{of}/{to}", (motion.scale, 1), (segment, 1))
-    kin.relatives[place, of, to] = Relative(place, of, to, speed, ray.start, head)
+    kin.relatives[place, of, to] = Relative(place, of, to, value, ray.start, head)
 
 
 def carried(kin: Kinematics, motion: Motion, link: str, place: str) -> PointName:
@@ -283,16 +288,42 @@ def carried(kin: Kinematics, motion: Motion, link: str, place: str) -> PointName
     pair = _spread(motion, link)
     if pair is not None:
         p, q = pair
-        at = kin.draft.b.similar(
-            motion.name(name),
-            (motion.point[link, p], motion.point[link, q]),
-            (PointName(p), PointName(q), PointName(place)),
-            read_span=not {p, q} <= set(body),
-            read_arm=place not in body,
-        )
+        at = _similar(kin, motion, link, (p, q), place)
     else:
         at = turn_about(kin, motion, link, here[0], place)
     return motion.put(link, place, at, name=name)
+
+
+def _similar(
+    kin: Kinematics, motion: Motion, link: str, known: tuple[str, str], place: str
+) -> PointName:
+    """Find a point by similarity; its distances from the two known points are computed."""
+    b, name, segments = kin.draft.b, motion.name(motion.label(link, place)), motion.segments
+    one, two = motion.point[link, known[0]], motion.point[link, known[1]]
+    side, span = segments.length(one, two), _on_drawing(kin.draft, link, *known)
+    arm = _on_drawing(kin.draft, link, known[0], place)
+    first = b.compute(f"|{name}|", (side, 1), (arm, 1), (span, -1))
+    segments.lengths[one, PointName(name)] = first
+    if not kin.draft.in_line(link, *known, place):  # then the corner of a triangle, by two arcs
+        other = _on_drawing(kin.draft, link, known[1], place)
+        second = b.compute(f"|{name}|*", (side, 1), (other, 1), (span, -1))
+        segments.lengths[two, PointName(name)] = second
+    given = kin.draft.problem.bodies[link].points
+    return b.similar(
+        name,
+        (one, two),
+        (PointName(known[0]), PointName(known[1]), PointName(place)),
+        side,
+        span=None if set(known) <= set(given) else span,
+        arm=None if {known[0], place} <= set(given) else arm,
+    )
+
+
+def _on_drawing(draft: Draft, link: str, p: str, q: str) -> NumberName:
+    """Return the distance of two places of a link on the drawing, mm: given, or read."""
+    if {p, q} <= set(draft.problem.bodies[link].points):
+        return draft.drawn(draft.length(link, p, q))
+    return draft.measured(p, q)
 
 
 def _spread(motion: Motion, link: str) -> tuple[str, str] | None:
@@ -318,8 +349,8 @@ def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: st
     both = label if fixed else f"{label}{joint}"
     terms = [] if fixed else [motion.absolute(joint, start)]
     if motion.kind is PlanKind.VELOCITY:
-        length = b.compute(f"|{out}|", (kin.omega[link], 1), *lever.length, (motion.scale, -1))
-        head = b.lay_off(out, start, b.perpendicular(start, lever.line), length)
+        value = motion.segments.compute(f"v_{both}", (kin.omega[link], 1), *lever.length)
+        head = motion.segments.lay_off(out, start, b.perpendicular(start, lever.line), value)
         note = f"⊥ {mark(place, joint)}"
         kind = VectorKind.ABSOLUTE if fixed else VectorKind.RELATIVE
         last = motion.add(Vector(f"v_{{{both}}}", kind, start, head, Known.BOTH, note))
@@ -329,12 +360,12 @@ def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: st
         return head
     if link in kin.epsilon:
         end = _normal(kin, motion, link, (joint, place), start, lever)
-        length = b.compute(f"|{out}|", (kin.epsilon[link], 1), *lever.length, (motion.scale, -1))
-        head = b.lay_off(out, end, b.perpendicular(end, lever.line), length)
+        value = motion.segments.compute(f"at_{both}", (kin.epsilon[link], 1), *lever.length)
+        head = motion.segments.lay_off(out, end, b.perpendicular(end, lever.line), value)
     else:
         inward = b.parallel(start, b.join(PointName(place), PointName(joint)))
-        length = b.compute(f"|{out}|", (kin.omega[link], 2), *lever.length, (motion.scale, -1))
-        head = end = b.lay_off(out, start, inward, length)
+        value = motion.segments.compute(f"an_{both}", (kin.omega[link], 2), *lever.length)
+        head = end = motion.segments.lay_off(out, start, inward, value)
     normal = Vector(
         f"a^{{n}}_{{{both}}}",
         VectorKind.NORMAL,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from importlib.util import find_spec
 from types import MappingProxyType
 
 from planmethod.errors import OutputError
@@ -43,8 +44,6 @@ DXF_NEEDS = "DXF needs ezdxf: pip install 'planmethod[dxf]'"
 
 def is_absent(fmt: str) -> bool:
     """Return whether a format cannot be written for want of a library, without importing it."""
-    from importlib.util import find_spec
-
     return fmt == "dxf" and find_spec("ezdxf") is None
 
 

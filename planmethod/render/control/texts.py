@@ -24,11 +24,11 @@ from shapely.geometry.base import BaseGeometry
 from planmethod.render.control.remarks import REMARKS, Facts, Severity, action, what
 from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
+from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import PART_OF, SMALLEST, text_bounds, text_corners
 from planmethod.render.labels.model import BREAKABLE, UNDER_LABEL
 from planmethod.render.labels.paper import arc_step
 from planmethod.render.layout.block import CUT
-from planmethod.render.symbols import arc_points
 
 CODES = {code: remark.said["en"].title for code, remark in REMARKS.items()}
 """Every code of the norm control, those of `planmethod.render.control.sheet` too, and its title."""

@@ -7,8 +7,8 @@ from itertools import pairwise
 from math import ceil, floor
 
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
+from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import text_corners
-from planmethod.render.symbols import arc_points
 
 CELL = 5.0
 """Side of the squares that the paper is looked at in, mm."""

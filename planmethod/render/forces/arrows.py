@@ -12,9 +12,10 @@ from itertools import pairwise
 
 from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
+from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.symbols import arc_points, turn_arrow, unit, vector_arrow
+from planmethod.render.symbols import turn_arrow, unit, vector_arrow
 
 LENGTH = 22.0
 """Length of the arrow of a force on a link, mm: the same for all, whatever the force."""

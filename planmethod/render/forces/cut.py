@@ -34,11 +34,11 @@ from planmethod.render.forces.guides import (
 )
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.ink.drawing import Disc, Ink, Item
-from planmethod.render.ink.extent import lettered
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, revolute, slider
 from planmethod.render.symbols.axes import axis_line

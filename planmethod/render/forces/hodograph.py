@@ -11,11 +11,11 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.extent import lettered
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
 from planmethod.solved.forces.cycle import Cycle
 from planmethod.solved.forces.reading import NOTHING

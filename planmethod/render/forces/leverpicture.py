@@ -16,11 +16,11 @@ from planmethod.render.forces.arrows import (
 )
 from planmethod.render.forces.shifts import Shifted, shift_items
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.extent import lettered
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import similar_lines
 from planmethod.solved.forces.lever import HungCouple, LeverReading
 from planmethod.solved.forces.reading import ForceReading

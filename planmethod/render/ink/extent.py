@@ -1,14 +1,22 @@
-"""Room that items take on the paper, and pictures with their letters put around them."""
+"""Room that items take on the paper (габариты)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import cmath
+from collections.abc import Iterable
+from math import ceil
 
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
+from planmethod.render.ink.style import sweep
 from planmethod.render.ink.typeset import text_corners
-from planmethod.render.labels import Label, place_labels
-from planmethod.render.layout.block import Picture
-from planmethod.render.symbols import arc_points
+
+
+def arc_points(arc: Arc, *, step: float = 0.25) -> list[complex]:
+    """Return points along an arc, ``step`` radians apart at most."""
+    turn = sweep(arc)
+    count = max(2, ceil(turn / step))
+    angles = (arc.start + turn * k / count for k in range(count + 1))
+    return [arc.centre + cmath.rect(arc.radius, angle) for angle in angles]
 
 
 def ink_bounds(items: Iterable[Item]) -> Bounds:
@@ -30,26 +38,7 @@ def ink_bounds(items: Iterable[Item]) -> Bounds:
     return min(xs), min(ys), max(xs), max(ys)
 
 
-ROOMS = (26.0, 60.0)
-"""Room around a picture for its letters, mm: more where they find no free place in less."""
-
-
-def lettered(
-    items: Sequence[Item], labels: Sequence[Label], *, clear: Sequence[Item] = ()
-) -> Picture:
-    """Return a picture of items with their labels in free places around them.
-
-    ``clear`` is what the labels keep clear of though it is not drawn, as long as there is room.
-    """
-    left, low, right, high = ink_bounds(items)
-    for hidden in (clear, ()) if clear else ((),):
-        for room in ROOMS:
-            bounds = (left - room, low - room, right + room, high + room)
-            placed = place_labels(labels, [*items, *hidden], bounds)
-            if all(label.free for label in placed):
-                break
-        else:
-            continue
-        break
-    whole = [*items, *(item for label in placed for item in label.items())]
-    return Picture(tuple(whole), ink_bounds(whole))
+def overlap(one: Bounds, two: Bounds, gap: float = 0.0) -> bool:
+    """Whether two boxes are nearer than ``gap`` mm, or lie on each other."""
+    across = one[0] < two[2] + gap - 1e-6 and two[0] < one[2] + gap - 1e-6
+    return across and one[1] < two[3] + gap - 1e-6 and two[1] < one[3] + gap - 1e-6

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from shapely import STRtree, box, intersects, linestrings, points, polygons
 
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
+from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import text_corners
 from planmethod.render.labels.candidates import (
     Candidates,
@@ -21,7 +22,6 @@ from planmethod.render.labels.candidates import (
     inside,
 )
 from planmethod.render.labels.model import ALONE, BREAKABLE, CLEAR
-from planmethod.render.symbols import arc_points
 
 FORBIDDEN = 1e6
 CROSSED = 4000.0  # a label on a line, and its share per mm of line under it

@@ -21,6 +21,7 @@ from planmethod.render.labels.candidates import (
     far,
     near,
 )
+from planmethod.render.labels.ladder import dense, ladder
 from planmethod.render.labels.model import ALONE, Label, Placed
 from planmethod.render.labels.others import LEADERS_CROSS, Others
 from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
@@ -121,8 +122,6 @@ class _Places:
         names = dict.fromkeys(label.series for label in self.labels if label.series)
         if not names:
             return
-        from planmethod.render.labels.ladder import dense, ladder
-
         numbers = {id(label): k for k, label in enumerate(self.labels)}
         for name in names:
             for series in dense([label for label in self.labels if label.series == name]):

@@ -20,8 +20,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from planmethod.render.frame.clearance import overlap
 from planmethod.render.ink.drawing import Bounds
+from planmethod.render.ink.extent import overlap
 from planmethod.render.layout.cuttings import (
     GAP,
     Group,

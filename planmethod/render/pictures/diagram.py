@@ -15,10 +15,10 @@ from math import ceil, floor
 from planmethod.construct.scale import series_near
 from planmethod.note.numbers import russian, trimmed
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.extent import lettered
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
 
 AXIS = "diagram axis"

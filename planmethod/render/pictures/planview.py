@@ -8,12 +8,12 @@ from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.extent import lettered
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
+from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import vector_arrow
 from planmethod.solved.scaling import own_scale
 from planmethod.solved.solution import Solution

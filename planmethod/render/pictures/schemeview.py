@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,17 +16,17 @@ from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Item, Pen, Stroke
-from planmethod.render.ink.extent import ink_bounds, lettered
+from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label, Placed, place_labels, segment_label
+from planmethod.render.labels.tidy import untidiness
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.pictures.positions import Positions
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.solution import Solution
-
-if TYPE_CHECKING:
-    from planmethod.render.pictures.positions import Positions
 
 
 @dataclass(slots=True)
@@ -232,8 +231,6 @@ def scheme_picture(
     many = len(overlay) > 1
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
     if many:
-        from planmethod.render.pictures.positions import Positions
-
         return _many_picture(view, Positions(solution, index, overlay, letter_height), ellipses)
     for write in (_letter_points, _letter_axes, _letter_links, _draw_angle):
         write(view)
@@ -257,8 +254,6 @@ ROOM = 40.0
 
 def _many_picture(view: _View, positions: Positions, ellipses: Ellipses) -> Picture:
     """Return the scheme with other positions behind it; smaller letters where larger do not fit."""
-    from planmethod.render.labels.tidy import untidiness
-
     scheme = view.scheme
     fixed = scheme.solution.problem.bodies[FRAME].points
     _letter_points(view, [point for point in scheme.named if point in fixed])

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from planmethod.render.layout.block import Block
-from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import results_block
 from planmethod.render.sheets.texts import (
     calculation_block,

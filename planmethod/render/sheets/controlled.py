@@ -16,8 +16,8 @@ from planmethod.render.control.sheet import SHORTEST, inspect
 from planmethod.render.control.texts import Finding
 from planmethod.render.frame.frame import FORMATS
 from planmethod.render.ink.drawing import Bounds, Drawing, Span, Text, View
-from planmethod.render.sheets.composition.model import Composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.model import Composition
 from planmethod.render.sheets.structure import structure_sheet
 
 LARGEST = 20.0

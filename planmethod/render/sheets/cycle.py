@@ -35,8 +35,8 @@ from planmethod.render.pictures.diagram import (
     diagram_picture,
     mark_items,
 )
-from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.cycletable import reactions_table
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription
 from planmethod.solved.forces.cycle import Cycle, Peak, Piece, cycle

@@ -11,8 +11,8 @@ from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
-from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import scale_inscription

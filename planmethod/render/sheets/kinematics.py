@@ -15,9 +15,9 @@ from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.lettering import lettering, using
-from planmethod.render.sheets.composition.model import Composition, Extras
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.growth import grown
+from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 from planmethod.solved.scaling import Views
 from planmethod.solved.selfcheck import verify

@@ -15,7 +15,7 @@ from planmethod.render.layout.block import Block
 from planmethod.render.layout.cuttings import Arrange, Group, Part
 from planmethod.render.layout.pack import pack
 from planmethod.render.sheets.blocks import BLOCKS
-from planmethod.render.sheets.composition.model import Composition, Entry, Extras, Manner
+from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
 from planmethod.solved.solution import Solution
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planmethod.note.numbers import russian
-from planmethod.note.tables.sigmas import DRAWN, as_long, marked, rounded_to, sigma_text
+from planmethod.note.rounding import as_long, rounded_to, sigma_text
+from planmethod.note.tables.sigmas import DRAWN, marked
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.tables import Cell, TableColumn
 from planmethod.render.sheets.guides import guided_at, is_couple

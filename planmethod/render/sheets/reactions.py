@@ -12,8 +12,8 @@ from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
-from planmethod.render.sheets.composition.model import Manner
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.reactionerrors import (
     angle_column,
     balance_columns,
@@ -74,11 +74,11 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 def _balances(reading: ForceReading) -> list[TableColumn]:
     """Return the columns of what balances the driver, by both methods."""
     symbol = reading.balancing_symbol
-    unit = UNITS_RU["N·m" if reading.statics.driving.moment is not None else "N"]
+    unit = UNITS_RU["N·m" if reading.statics.driving.force is None else "N"]
     exact = float(reading.statics.balance[reading.index])
     plans, lever = both_balances(reading)
     share = difference(reading)
-    sense = reading.statics.driving.moment is not None
+    sense = reading.statics.driving.force is None
 
     def cell(value: float | None) -> Cell:
         if value is None:

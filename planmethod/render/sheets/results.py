@@ -8,12 +8,13 @@ import numpy as np
 
 from planmethod.note.narrate.given import asked_links, asked_points, number, solution_peak
 from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
-from planmethod.note.tables.sigmas import DRAWN, as_long, label_of, marked, rounded_to, sigma_text
+from planmethod.note.rounding import as_long, rounded_to, sigma_text
+from planmethod.note.tables.sigmas import DRAWN, label_of, marked
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
-from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.model import Manner
 from planmethod.solved.solution import Reals, Solution
 
 
@@ -31,8 +32,7 @@ def _sense(value: float) -> int:
 
 def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple[Cell, Cell]:
     """Return what was read on the drawing, to the place of its error, and the error."""
-    hand, which = solution.by_hand_results, symbol in "aε"
-    read = float((hand.links if symbol in "ωε" else hand.points)[name][which][index])
+    read = float(solution.read_off(label_of(symbol, name))[index])
     sigma, mark = marked(solution.drafting, label_of(symbol, name), index)
     turns = symbol in "ωε"
     return (

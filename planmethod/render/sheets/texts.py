@@ -9,7 +9,7 @@ from planmethod.note.narrate.given import given, wanted
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.block import Block, Column, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
-from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.views import shown_position
 from planmethod.solved.solution import Solution
 

@@ -17,8 +17,9 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row
 from planmethod.render.pictures.ellipses import ellipse_inscription
 from planmethod.render.pictures.planview import POLE, plan_picture, plan_places
+from planmethod.render.pictures.positions import bold_position
 from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.render.sheets.composition.model import Manner
+from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.solved.scaling import own_scale
 from planmethod.solved.solution import Solution
@@ -169,8 +170,6 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
         return asked
     if len(indices) == 1:
         return indices[0]
-    from planmethod.render.pictures.positions import bold_position
-
     return bold_position(solution, indices)
 
 

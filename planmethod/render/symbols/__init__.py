@@ -26,7 +26,6 @@ from planmethod.render.symbols.grounds import (
 )
 from planmethod.render.symbols.hatching import (
     GROUND,
-    arc_points,
     before_links,
     clipped,
     hatch,
@@ -47,7 +46,6 @@ __all__ = [
     "SIZES",
     "Sizes",
     "angle_of",
-    "arc_points",
     "arrowhead",
     "bearing",
     "before_links",

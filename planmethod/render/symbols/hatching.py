@@ -12,7 +12,8 @@ from math import ceil, radians
 from typing import TYPE_CHECKING
 
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
-from planmethod.render.ink.style import PENS, sweep
+from planmethod.render.ink.extent import arc_points
+from planmethod.render.ink.style import PENS
 from planmethod.render.symbols.sizes import SIZES
 
 if TYPE_CHECKING:
@@ -131,11 +132,3 @@ def _paths(shape: BaseGeometry, least: float) -> list[tuple[complex, ...]]:
     return [
         tuple(complex(*point) for point in part.coords) for part in parts if part.length > least
     ]
-
-
-def arc_points(arc: Arc, *, step: float = 0.25) -> list[complex]:
-    """Return points along an arc, ``step`` radians apart at most."""
-    turn = sweep(arc)
-    count = max(2, ceil(turn / step))
-    angles = (arc.start + turn * k / count for k in range(count + 1))
-    return [arc.centre + cmath.rect(arc.radius, angle) for angle in angles]

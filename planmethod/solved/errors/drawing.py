@@ -13,7 +13,7 @@ from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
-from planmethod.construct.steps import LayOff, Measure, MeasureAlong, Name, PointName
+from planmethod.construct.steps import Name, PointName
 
 Flags = npt.NDArray[np.bool_]
 
@@ -58,37 +58,12 @@ class Item:
     direction: str = ""
 
 
+@dataclass(frozen=True, slots=True)
 class Reading:
-    """A trace and what is read off it: every segment once, as a person does."""
+    """A program drawn and read by a hand (чертёж и его прочтение)."""
 
-    def __init__(self, program: Program, trace: Trace, pencil: Arithmetic) -> None:
-        self.trace, self.pencil = trace, pencil
-        self._read: dict[tuple[PointName, PointName], Number] = {}
-        self._computed: dict[tuple[PointName, PointName], Number] = {}
-        self._once: dict[str, Number] = {}
-        for step in program.steps:
-            if isinstance(step, Measure | MeasureAlong):
-                self._read[step.tail, step.head] = abs(trace.value[step.out])
-            elif isinstance(step, LayOff):
-                self._computed[step.origin, step.out] = abs(trace.value[step.length])
-
-    def length(self, tail: PointName, head: PointName) -> Number:
-        """Return a segment as it is read on the drawing, mm."""
-        if (tail, head) not in self._read:
-            drawn = abs(self.trace.value[head] - self.trace.value[tail])
-            self._read[tail, head] = self.pencil.read(f"{tail}-{head}", drawn)
-        return self._read[tail, head]
-
-    def once(self, label: str, take: Callable[[], Number]) -> Number:
-        """Return what is taken when it is first asked for, and the same from then on."""
-        if label not in self._once:
-            self._once[label] = take()
-        return self._once[label]
-
-    def known(self, tail: PointName, head: PointName) -> Number:
-        """Return a segment as a person knows it: computed if it was laid off, else read, mm."""
-        computed = self._computed.get((tail, head))
-        return self.length(tail, head) if computed is None else computed
+    trace: Trace
+    pencil: Arithmetic
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,11 +98,8 @@ class Drafted:
 # Takers --------------------------------------------------------------------------------------
 
 
-def segment(tail: PointName, head: PointName) -> Callable[[Reading], Number]:
-    """Return what reads a segment, mm."""
-    return lambda reading: reading.length(tail, head)
-
-
-def number(name: Name) -> Callable[[Reading], Number]:
-    """Return what takes a computed number."""
+def number(name: Name, *, size: bool = False) -> Callable[[Reading], Number]:
+    """Return what takes a number, or its size."""
+    if size:
+        return lambda reading: abs(reading.trace.value[name])
     return lambda reading: reading.trace.value[name]

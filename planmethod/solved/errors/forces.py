@@ -14,7 +14,7 @@ import numpy as np
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
-from planmethod.construct.steps import Name, PointName
+from planmethod.construct.steps import NumberName, PointName
 from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind, Reading, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.solution import Reals
@@ -89,7 +89,7 @@ class DrawnForces(Errors):
     @cached_property
     def _by_hand(self) -> dict[str, Reals]:
         shape, hand = self.solution.positions.shape, self.solution.hand
-        read = self.taken(Reading(self.statics.program, self.statics.by_hand, hand))
+        read = self.taken(Reading(self.statics.by_hand, hand))
         return {
             label: np.broadcast_to(np.asarray(value, dtype=float), shape)
             for label, value in read.items()
@@ -150,33 +150,21 @@ def _items(statics: Statics) -> Iterator[Item]:
     for reaction in statics.board.reactions:
         force, absent = reaction.force, partial(_absent, statics, reaction.force)
         ends = (force.tail, force.head)
-        size, way = _size(force, statics.scale.per_mm), angle_label(reaction)
-        yield Item(size_label(reaction), ends, size, ItemKind.LENGTH, absent, direction=way)
+        size, way = statics.board.segments.known(force.ends), angle_label(reaction)
+        label = size_label(reaction)
+        yield Item(label, (size,), number(size), ItemKind.LENGTH, absent, direction=way)
         yield Item(way, ends, _direction(force), ItemKind.DIRECTION, absent)
         if reaction.couple is not None:
-            yield Item(moment_label(reaction), (reaction.couple,), number(reaction.couple))
-    driving, hung = statics.driving, statics.hung
-    needs: tuple[Name, ...] = (driving.moment,) if driving.moment is not None else ()
-    if driving.force is not None and driving.axis is not None:
-        needs = (driving.force.tail, driving.force.head, driving.axis)
-    balance = partial(_balance, statics)
-    yield Item(BALANCE, needs, balance)
+            yield _number(moment_label(reaction), reaction.couple)
+    hung = statics.hung
+    yield _number(BALANCE, statics.driving.balance)
     if hung is not None:
-        lever = hung.balance
-        yield Item(LEVER, (lever,), number(lever))
-        yield Item(
-            DIFFERENCE,
-            (*needs, lever),
-            lambda reading: reading.trace.value[lever] - balance(reading),
-        )
+        yield _number(LEVER, hung.balance)
+        yield _number(DIFFERENCE, hung.difference)
 
 
-def _balance(statics: Statics, reading: Reading) -> Number:
-    return reading.once(BALANCE, lambda: statics.balance_in(reading.trace, reading.pencil))
-
-
-def _size(force: Force, mu: float) -> Callable[[Reading], Number]:
-    return lambda reading: reading.length(force.tail, force.head) * mu
+def _number(label: str, name: NumberName) -> Item:
+    return Item(label, (name,), number(name))
 
 
 def _direction(force: Force) -> Callable[[Reading], Number]:

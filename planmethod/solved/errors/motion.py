@@ -10,7 +10,7 @@ import numpy as np
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import PointName
-from planmethod.plans.build import measured_segments
+from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.drawing import (
     Drafted,
@@ -19,10 +19,9 @@ from planmethod.solved.errors.drawing import (
     ItemKind,
     Reading,
     number,
-    segment,
 )
 from planmethod.solved.errors.spread import DRAWS, Errors
-from planmethod.solved.solution import Solution, plain
+from planmethod.solved.solution import Solution
 
 PLAN_OF = {
     **dict.fromkeys(("velocity", "v", "omega"), PlanKind.VELOCITY),
@@ -91,50 +90,20 @@ def _plan_points(solution: Solution) -> tuple[PointName, ...]:
 def _items(solution: Solution) -> Iterable[Item]:
     """Yield every quantity that the drawing gives."""
     construction = solution.construction
-    mu = {kind: scale.per_mm for kind, scale in solution.scales.items()}
-    for kind in PlanKind:
-        for name, tail, head in _segment_ends(solution, kind):
-            yield Item(f"{kind.value}.{name}", (tail, head), segment(tail, head), ItemKind.LENGTH)
-    kin = construction.kinematics
-    for name, at in kin.velocity.named.items():
-        place = PointName(at[1])
-        origin, mu_l = construction.draft.origin, mu[PlanKind.POSITION]
-        for axis, part in (("x", "real"), ("y", "imag")):
-            take = _coordinate(place, mu_l, part, getattr(origin, part))
-            yield Item(f"{axis}_{name}", (place,), take)
-        for letter, motion in (("v", kin.velocity), ("a", kin.acceleration)):
-            ends = (motion.pole, motion.point[at])
-            yield Item(f"{letter}_{name}", ends, _length(*ends, mu[motion.kind]), ItemKind.LENGTH)
-    for table in (kin.omega, kin.epsilon):
-        word = "omega" if table is kin.omega else "epsilon"
-        for link, name in table.items():
-            yield Item(f"{word}_{link}", (name,), number(name))
-    for r in kin.relatives.values():
-        assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
-        told = str(r.speed).removeprefix("v_")
-        for letter, kind, tail, head in (
-            ("v", PlanKind.VELOCITY, r.start, r.head),
-            ("ak", PlanKind.ACCELERATION, r.a_start, r.a_turned),
-            ("ar", PlanKind.ACCELERATION, r.a_turned, r.a_head),
-        ):
-            yield Item(
-                f"{letter}_{told}", (tail, head), _length(tail, head, mu[kind]), ItemKind.LENGTH
-            )
-
-
-def _segment_ends(solution: Solution, kind: PlanKind) -> list[tuple[str, PointName, PointName]]:
-    """Return the segments of a plan by name, as `Solution.segments` has them."""
-    if kind is PlanKind.POSITION:
-        pairs = measured_segments(solution.problem, solution.construction.draft)
-        return [(f"{p}-{q}", PointName(p), PointName(q)) for p, q in pairs]
-    plan = solution.construction.plan(kind)
-    return [(f"{plain(plan, v.tail)}-{plain(plan, v.head)}", v.tail, v.head) for v in plan.vectors]
-
-
-def _length(tail: PointName, head: PointName, mu: float) -> Callable[[Reading], Number]:
-    if tail == head:
-        return lambda reading: np.zeros(1)
-    return lambda reading: reading.known(tail, head) * mu
+    for segment in construction.segments:
+        size = number(segment.drawn, size=True)
+        yield Item(segment.label, (segment.drawn,), size, ItemKind.LENGTH)
+    origin, mu_l = construction.draft.origin, solution.scales[PlanKind.POSITION].per_mm
+    for quantity in construction.legend:
+        if quantity.kind is QuantityKind.PLACE:
+            place = PointName(quantity.name)
+            for axis, part in (("x", "real"), ("y", "imag")):
+                take = _coordinate(place, mu_l, part, getattr(origin, part))
+                yield Item(f"{axis}_{quantity.of}", (place,), take)
+        elif quantity.size is not None:
+            sized = quantity.kind.is_size
+            kind = ItemKind.LENGTH if sized else ItemKind.NUMBER
+            yield Item(quantity.label, (quantity.size,), number(quantity.size, size=sized), kind)
 
 
 def _coordinate(

@@ -86,7 +86,7 @@ class Errors:
         """Draw the construction with a pencil and take every quantity off it."""
         program = self.drawing.program
         trace = evaluate(program, self.drawing.data(chosen), pencil)
-        return trace, self.taken(Reading(program, trace, pencil))
+        return trace, self.taken(Reading(trace, pencil))
 
     def taken(self, reading: Reading) -> dict[str, Number]:
         """Return every quantity as it is read."""

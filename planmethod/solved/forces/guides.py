@@ -85,9 +85,7 @@ class Guided:
     @property
     def read_force(self) -> float:
         """Size of the force as the ruler has it on the force plan, N."""
-        force, reading = self.reaction.force, self.reading
-        length = abs(reading.by_hand(force.tail, force.head))
-        return float(reading.solution.hand.ruled(length)) * reading.scale.per_mm
+        return self.reading.read_size(self.reaction.force.ends)
 
     @property
     def read_moment(self) -> float:

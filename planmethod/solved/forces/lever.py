@@ -22,6 +22,7 @@ _Own: TypeAlias = tuple[
     tuple[complex, complex] | None,
     tuple[PointName, PointName] | None,
     tuple[str, str] | None,
+    float,
 ]
 
 
@@ -46,8 +47,8 @@ class OnLink:
     """Something on a link as the lever has the link.
 
     ``segment`` is the segment of the plan, mm, that stands for the link, ``ends`` are its points,
-    ``joints`` those of the link. ``ratio`` is the link's |omega| as the hand has it over the plan's
-    scale, mm/m.
+    ``joints`` those of the link, ``length`` is their distance as the hand has it, m. ``ratio`` is
+    the link's |omega| as the hand has it over the plan's scale, mm/m.
     """
 
     symbol: str
@@ -56,6 +57,7 @@ class OnLink:
     segment: tuple[complex, complex] | None
     ends: tuple[PointName, PointName] | None
     joints: tuple[str, str] | None
+    length: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,13 +75,13 @@ class HungCouple(OnLink):
 class HungShift(OnLink):
     """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
 
-    ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``length`` is h as
+    ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``shift`` is h as
     the hand has it, m.
     """
 
     letters: tuple[str, str]
     line: tuple[complex, complex]
-    length: float
+    shift: float
 
 
 class LeverReading:
@@ -112,9 +114,9 @@ class LeverReading:
         self.forces: list[HungForce] = []
         self.couples: list[HungCouple] = []
         self.shifts: list[HungShift] = []
-        for given, at in reading.statics.hung.hung:
-            one = given.applied
-            if at is None:
+        for hung in reading.statics.hung.hung:
+            given, at, one = hung.given, hung.at, hung.given.applied
+            if at is None or hung.arm is None:
                 assert given.couple is not None
                 if abs(reading.number(given.couple)) > 1e-9 * reading.peak_moment:
                     moment = reading.read_number(given.couple)
@@ -123,9 +125,7 @@ class LeverReading:
             force, place = complex(one.force[index]), reading.end(at) * self._share
             if abs(force) > 1e-9 * reading.peak:
                 assert given.force is not None and one.point is not None
-                drawn = reading.by_hand(given.force.tail, given.force.head)
-                spot = reading.by_hand(reading.statics.hung.pole, at) * self._share
-                size, arm = reading.read_load(given), self._arm(spot, drawn)
+                size, arm = reading.read_load(given), reading.read_number(hung.arm) * self._share
                 self.forces.append(HungForce(one.name, place, force, arm, size, one.point))
                 self._shift(given, place)
         self._balance(reading.statics.hung.balance)
@@ -146,10 +146,6 @@ class LeverReading:
             # Its arm is the driver's own velocity, which is laid off and not measured.
             arm, size = _across(place, force), abs(reading.read_number(balance))
             self.forces.append(HungForce(reading.balancing_symbol, place, force, arm, size, pin))
-
-    def _arm(self, place: complex, force: complex) -> float:
-        """Return the arm of a force about the pole as the hand measures it, mm."""
-        return float(self.reading.solution.hand.ruled(_across(place, force)))
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever, mm from the pole."""
@@ -185,15 +181,18 @@ class LeverReading:
         """Return the ratio of a link, its segment on the plan, its ends and their joints."""
         solution = self.reading.solution
         kin = solution.construction.kinematics
-        ends, joints = None, None
+        ends, joints, length = None, None, 0.0
         for (kind, other), turning in kin.turnings.items():
             if kind is PlanKind.VELOCITY and kin.omega.get(other) == kin.omega.get(link):
                 ends = (turning.start, turning.head)
                 joints = (str(turning.joint), str(turning.place))
+                length = self.reading.read_product(turning.arm)
         if ends is None and link == solution.problem.drive.link:
             ends, joints = self._crank()
+            own = solution.problem.bodies[link].points
+            length = abs(own[joints[1]] - own[joints[0]])
         segment = None if ends is None else (self.place(ends[0]), self.place(ends[1]))
-        return abs(self._omega(link)) / self.per_mm, segment, ends, joints
+        return abs(self._omega(link)) / self.per_mm, segment, ends, joints, length
 
     def _crank(self) -> tuple[tuple[PointName, PointName], tuple[str, str]]:
         """Return the pole and the point of the crank's end, and the crank's points."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
@@ -11,13 +13,12 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
 from planmethod.plans.forces.board import Force, Given
 from planmethod.plans.forces.polygons import (
-    BALANCING_FORCE,
-    BALANCING_MOMENT,
     CoupleOn,
     Edge,
     ForcePlan,
     Share,
 )
+from planmethod.plans.segments import Ends
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 
@@ -64,10 +65,6 @@ class ForceReading:
         """Return the position plan if it has a point."""
         return self.solution.paper if point in self.solution.paper.value else None
 
-    def distance(self, one: str, other: str) -> float:
-        """Return how far two places of the position plan are apart, mm."""
-        return abs(self.place(PointName(other)) - self.place(PointName(one)))
-
     def end(self, point: PointName) -> complex:
         """Return an end of a force plan, or a point of the lever, mm."""
         return self._column(self.statics.paper, point)
@@ -90,24 +87,17 @@ class ForceReading:
         hand = self.statics.by_hand
         return self._column(hand, head) - self._column(hand, tail)
 
-    @cached_property
-    def _found(self) -> frozenset[frozenset[PointName]]:
-        """Segments that the plans find: their lengths are read with the ruler."""
-        edges = [edge for plan in self.plans for edge in plan.reactions]
-        return frozenset(frozenset((edge.tail, edge.head)) for edge in edges)
-
     def length(self, edge: Edge) -> float:
-        """Return the length of a force on its plan, mm: laid off, or read where the plan finds it.
-
-        What was laid off was computed before, and nobody reads it.
-        """
-        drawn = abs(self.by_hand(edge.tail, edge.head))
-        found = frozenset((edge.tail, edge.head)) in self._found
-        return float(self.solution.hand.ruled(drawn)) if found else drawn
+        """Return the length of a force on its plan, mm: laid off, or read."""
+        return abs(self.read_number(self.statics.board.segments.drawn(edge.ends)))
 
     def read(self, edge: Edge) -> float:
-        """Return the size of a force as the hand has it from its plan, N."""
-        return self.length(edge) * self.scale.per_mm
+        """Return the size of a force as the hand has it, N."""
+        return self.read_size(edge.ends)
+
+    def read_size(self, ends: Ends) -> float:
+        """Return the size of the force that a segment shows, as the hand has it, N."""
+        return abs(self.read_number(self.statics.board.segments.known(ends)))
 
     def number(self, name: NumberName) -> float:
         """Return a moment, N·m, or another computed number."""
@@ -117,30 +107,35 @@ class ForceReading:
         """Return a moment as the hand has it, N·m."""
         return float(self.solution.reals(self.statics.by_hand, name)[self.index])
 
+    def read_product(self, powers: Iterable[tuple[NumberName, int]]) -> float:
+        """Return a product of powers as the hand has it."""
+        return math.prod(self.read_number(name) ** power for name, power in powers)
+
     def read_load(self, given: Given) -> float:
-        """Return a given force as the hand lays it off, N, or a couple as it computes it, N·m."""
+        """Return a given force as the hand has it, N, or a couple as it computes it, N·m."""
         if given.force is not None:
-            return abs(self.by_hand(given.force.tail, given.force.head)) * self.scale.per_mm
+            return self.read_size(given.force.ends)
         assert given.couple is not None
         return self.read_number(given.couple)
 
     def arm(self, edge: Edge, about: PointName) -> float:
         """Return the arm of a force about a point as the hand measures it, mm.
 
-        Positive where the force turns counter-clockwise. A shifted force acts where the hand has
-        laid off the h that follows from its own readings.
+        Positive where the force turns counter-clockwise; 0 of a force through the point.
         """
-        force, drawn = self.by_hand(edge.tail, edge.head), self.solution.by_hand
-        if not abs(force):
-            return 0.0
-        at = self._column(drawn if edge.at in drawn.value else self.statics.by_hand, edge.at)
-        lever = at - self._column(drawn, about)
-        return float(self.solution.hand.ruled((lever.conjugate() * force).imag / abs(force)))
+        board = self.statics.board
+        arm = board.arms.get((about, edge.at, board.segments.known(edge.ends)))
+        return 0.0 if arm is None else self.read_number(arm)
+
+    def turns(self, edge: Edge, about: PointName) -> bool:
+        """Tell whether a force turns its link counter-clockwise about a point."""
+        lever = self.place(edge.at) - self.place(about)
+        return (lever.conjugate() * self.by_hand(*edge.ends)).imag > 0
 
     @property
     def balancing_symbol(self) -> str:
         """The letter of what balances the driving link."""
-        return BALANCING_MOMENT if self.statics.driving.force is None else BALANCING_FORCE
+        return self.statics.driving.symbol
 
     # What there is to show -------------------------------------------------------------------
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from planmethod.construct.arithmetic import Number
-from planmethod.construct.steps import Name
 from planmethod.plans.forces.board import SCALE, Board, Reaction
+from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces
-from planmethod.solved.results import Result, ResultKind, Results
+from planmethod.solved.results import Results
 from planmethod.solved.solution import Solution
 
 
@@ -56,28 +56,23 @@ def _plain(value: Number) -> complex | float:
     return complex(value) if np.iscomplexobj(value) else float(value)
 
 
-def _reactions(board: Board) -> Iterator[Result]:
+def _reactions(board: Board) -> Iterator[Quantity]:
     b = board.draft.b
     for reaction in board.reactions:
         force, index = reaction.force, f"{reaction.joint}_{reaction.on}/{reaction.by}"
         vector = b.carry(board.name("R"), board.pole, force.tail, force.head)
-        yield Result(f"F_{index}", ResultKind.REACTION, vector, force_row(reaction))
+        yield Quantity(f"F_{index}", QuantityKind.REACTION, vector, force_row(reaction))
         if reaction.couple is not None:
             moment = moment_row(reaction)
-            yield Result(f"M_{index}", ResultKind.MOMENT, reaction.couple, moment)
+            yield Quantity(f"M_{index}", QuantityKind.MOMENT, reaction.couple, moment)
 
 
-def _balances(planned: Planned) -> Iterator[Result]:
+def _balances(planned: Planned) -> Iterator[Quantity]:
     """Yield what balances the driver, by the force plans and by the lever."""
-    board, driving = planned.board, planned.driving
-    letter, quantity, kind = "M", "moment", ResultKind.MOMENT
-    number: Name | None = driving.moment
+    driving = planned.driving
+    letter, quantity, kind = "M", "moment", QuantityKind.MOMENT
     if driving.force is not None:
-        assert driving.axis is not None
-        letter, quantity, kind = "F", "force", ResultKind.THRUST
-        tail, head = driving.force.tail, driving.force.head
-        number = board.draft.b.measure_along(board.name("F"), tail, head, driving.axis)
-    assert number is not None
-    yield Result(f"{letter}_dr", kind, number, f"driving.{quantity}")
+        letter, quantity, kind = "F", "force", QuantityKind.THRUST
+    yield Quantity(f"{letter}_dr", kind, driving.balance, f"driving.{quantity}")
     if planned.lever is not None:
-        yield Result(f"{letter}_lever", kind, planned.lever.balance, f"lever.{quantity}")
+        yield Quantity(f"{letter}_lever", kind, planned.lever.balance, f"lever.{quantity}")

@@ -87,12 +87,12 @@ def plan_forces(
     single : mapping of str to Applied
         Couples that the force of inertia of their link stands for as well, by link.
     """
-    board = Board(draft, solution.construction.kinematics)
-    dynamics = solution.problem.dynamics
-    board.load({} if dynamics is None else dynamics.masses, loads, single)
+    board = Board(draft, solution.construction.kinematics, solution.problem.dynamics)
+    board.load(loads, single)
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
-    return Planned(board, drive_forces(board), hang(board))
+    driving = drive_forces(board)
+    return Planned(board, driving, hang(board, driving))
 
 
 class Statics:
@@ -127,14 +127,11 @@ class Statics:
         for reaction in self.board.reactions:
             asked += [reaction.force.at, reaction.force.tail, reaction.force.head]
             asked += [reaction.couple] if reaction.couple is not None else []
-        if self.driving.moment is not None:
-            asked.append(self.driving.moment)
-        if self.driving.force is not None:
-            asked += [self.driving.force.tail, self.driving.force.head]
-        if self.driving.axis is not None:
-            asked.append(self.driving.axis)
+        asked.append(self.driving.balance)
+        asked += [*self.board.segments.values.values(), *self.board.segments.lengths.values()]
+        asked += self.board.arms.values()
         asked.append(self.board.scale)
-        return asked + ([self.hung.balance] if self.hung is not None else [])
+        return asked + ([self.hung.balance, self.hung.difference] if self.hung else [])
 
     def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Trace:
         """Read the force plans in an arithmetic, at scales of all plans (units per mm)."""
@@ -211,24 +208,10 @@ class Statics:
 
         return contacts(self)
 
-    def balance_in(self, trace: Trace, arithmetic: Arithmetic) -> Number:
-        """Return what balances the driver, N or N·m, as the force plans of a trace give it.
-
-        A force is read on its plan in the arithmetic of the trace.
-        """
-        if self.driving.moment is not None:
-            return trace.value[self.driving.moment]
-        assert self.driving.force is not None and self.driving.axis is not None
-        vector = trace.value[self.driving.force.head] - trace.value[self.driving.force.tail]
-        along = trace.value[self.driving.axis][1]
-        length = (vector * along.conjugate()).real / abs(along)
-        return arithmetic.read("balance", length) * trace.value[self.board.scale]
-
     @cached_property
     def balance(self) -> Reals:
         """Balancing moment on the crank, N·m, or force along the guide of a driving slider, N."""
-        balance = self.balance_in(self.si, Float64())
-        return np.broadcast_to(np.asarray(balance, dtype=float), self.solution.positions.shape)
+        return self._number(self.driving.balance)
 
     @cached_property
     def lever(self) -> Reals | None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from planmethod.construct.compiled.symbolic import Symbol, Written
 from planmethod.construct.compiled.tape import Ref
-from planmethod.solved.results import FORCES, NUMBERS, Result, ResultKind
+from planmethod.plans.legend import Quantity, QuantityKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,24 +27,8 @@ class Row:
     label: str
 
 
-SUFFIX: Mapping[ResultKind, tuple[str, ...]] = {
-    ResultKind.PLACE: (".x", ".y"),
-    ResultKind.VELOCITY: (".vx", ".vy"),
-    ResultKind.ACCELERATION: (".ax", ".ay"),
-    ResultKind.DIRECTION: (".phi_deg",),
-    ResultKind.UNIT: (".cos", ".sin"),
-    ResultKind.OMEGA: (".omega",),
-    ResultKind.EPSILON: (".epsilon",),
-    ResultKind.SLIDING: (),
-    ResultKind.REACTION: (".x", ".y", ""),
-    ResultKind.MOMENT: ("",),
-    ResultKind.THRUST: ("",),
-}
-"""What the names of the rows of a result end with."""
-
-
 def rows_of(
-    chosen: Sequence[Result], written: Written, origin: complex, moved: Sequence[Result] = ()
+    chosen: Sequence[Quantity], written: Written, origin: complex, moved: Sequence[Quantity] = ()
 ) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
     """Return the rows of some results: their names, their numbers on the tape, their guards.
 
@@ -61,30 +45,29 @@ def rows_of(
     depends: list[frozenset[int]] = []
     for result in chosen:
         parts = list(_parts(result, written))
-        if result.kind is ResultKind.PLACE:
+        if result.kind is QuantityKind.PLACE:
             here = zip(parts, (origin.real, origin.imag), strict=True)
             parts = [written.tape.add(part, at) for part, at in here]
-        suffixes = SUFFIX[result.kind]
-        names = [result.of + suffix for suffix in suffixes] or [result.label]
+        names = [result.of + end for end in result.kind.columns] or [result.label]
         rows += [Row(name, result.label) for name in names]
         refs += parts
         mine = written.depends[result.name]
-        depends += [mine | loaded if result.kind in FORCES else mine] * len(parts)
+        depends += [mine | loaded if result.kind.is_force else mine] * len(parts)
     return tuple(rows), refs, depends
 
 
-def _parts(result: Result, written: Written) -> Iterator[Ref]:
+def _parts(result: Quantity, written: Written) -> Iterator[Ref]:
     """Yield the numbers of the tape that a result consists of."""
     value, tape = written.value[result.name], written.tape
     if isinstance(value, tuple):
         along: Symbol = value[1]
-        if result.kind is ResultKind.DIRECTION:
+        if result.kind is QuantityKind.DIRECTION:
             x, y = along.re, 0.0 if along.im is None else along.im
             yield tape.make("degrees", tape.make("atan2", y, x))
             return
         value = along / abs(along)
     yield value.re
-    if result.kind not in NUMBERS:
+    if not result.kind.is_number:
         yield 0.0 if value.im is None else value.im
-    if result.kind is ResultKind.REACTION:
+    if result.kind is QuantityKind.REACTION:
         yield abs(value).re

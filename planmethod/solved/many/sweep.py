@@ -14,12 +14,13 @@ from planmethod.construct.compiled.straight import ImpossibleError, Straight, st
 from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import PlanMethodError
+from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FORCE_PREFIX
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import drive_data
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.many.rows import Row, rows_of
-from planmethod.solved.results import FORCES, Result, ResultKind, Results, results_for
+from planmethod.solved.results import Results, results_for
 from planmethod.solved.solution import Solution
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ class Sweep:
         solution = Solution(problem, positions=[])
         results = results_for(solution, asked, forces=forces)
         chosen = results.choose(asked)
-        self.forces = any(result.kind in FORCES for result in chosen)
+        self.forces = any(result.kind.is_force for result in chosen)
         self.loads = self._changing(solution, results)
         # Loads against a motion are known only where all steps of that motion exist.
         moved = _motion(results) if self.loads is not None and self.loads.need_motion else []
@@ -354,7 +355,7 @@ def _named(problem: Problem) -> str:
     return problem.name + (f" ({problem.variant})" if problem.variant else "")
 
 
-def _motion(results: Results) -> list[Result]:
+def _motion(results: Results) -> list[Quantity]:
     """Return the results that loads may depend on: places, velocities, rotations."""
-    kinds = (ResultKind.PLACE, ResultKind.VELOCITY, ResultKind.OMEGA)
+    kinds = (QuantityKind.PLACE, QuantityKind.VELOCITY, QuantityKind.OMEGA)
     return [result for result in results.all if result.kind in kinds]

@@ -15,9 +15,10 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.referee import DIGITS, Precise
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
+from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.solved.impossible import failing
-from planmethod.solved.results import Result, ResultKind, natural_size, results_of
+from planmethod.solved.results import natural_size, results_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import SCALES
 
@@ -37,7 +38,7 @@ class Verdict:
     Attributes
     ----------
     label : str
-        As in `Result`.
+        As in `Quantity`.
     error : float
         |float64 - referee|, SI.
     size, reach : float
@@ -49,7 +50,7 @@ class Verdict:
         Condition number: reach over size, inf for a zero.
     value : complex or real number of mpmath
         What the referee finds, to all his digits; of a direction its unit vector.
-    kind : ResultKind
+    kind : QuantityKind
     """
 
     label: str
@@ -59,7 +60,7 @@ class Verdict:
     multiple: float
     kappa: float
     value: Number
-    kind: ResultKind
+    kind: QuantityKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,10 +150,10 @@ def _entry(value: Number, i: int) -> Number:
 
 
 def _judge(
-    results: Sequence[Result], trace: Trace, right: Mapping[Name, tuple[Number, Number]], i: int
+    results: Sequence[Quantity], trace: Trace, right: Mapping[Name, tuple[Number, Number]], i: int
 ) -> tuple[tuple[Verdict, ...], bool]:
     """Return verdicts on the results that exist, and whether the referee finds the same to."""
-    rows: list[tuple[Result, Number, float, float]] = []
+    rows: list[tuple[Quantity, Number, float, float]] = []
     agreed = True
     for result in results:
         value, span = right[result.name]
@@ -161,27 +162,27 @@ def _judge(
             agreed = agreed and cmath.isnan(found) == cmath.isnan(complex(value))
             continue
         rows.append((result, value, float(abs(value - found)), float(span)))
-    largest: dict[ResultKind, float] = {}
+    largest: dict[QuantityKind, float] = {}
     for result, value, _, _ in rows:
         largest[result.kind] = max(float(abs(value)), largest.get(result.kind, 0.0))
     natural = _natural(largest)
     return tuple(_verdict(*row, natural[row[0].kind]) for row in rows), agreed
 
 
-def _natural(largest: Mapping[ResultKind, float]) -> dict[ResultKind, float]:
+def _natural(largest: Mapping[QuantityKind, float]) -> dict[QuantityKind, float]:
     """Return the largest of each kind, or what it would be if all did not move evenly.
 
     Where links do not turn, or turn evenly, angular velocities or accelerations are zero by
     nature: they are small against what speeds and sizes would make of them.
     """
-    full = {kind: largest.get(kind, 0.0) for kind in ResultKind}
-    speed, size = full[ResultKind.VELOCITY], full[ResultKind.PLACE]
-    full[ResultKind.OMEGA] = max(full[ResultKind.OMEGA], speed / size if size else 0.0)
-    full[ResultKind.SLIDING] = max(full[ResultKind.SLIDING], speed)
+    full = {kind: largest.get(kind, 0.0) for kind in QuantityKind}
+    speed, size = full[QuantityKind.VELOCITY], full[QuantityKind.PLACE]
+    full[QuantityKind.OMEGA] = max(full[QuantityKind.OMEGA], speed / size if size else 0.0)
+    full[QuantityKind.SLIDING] = max(full[QuantityKind.SLIDING], speed)
     return {kind: float(natural_size(kind, full)) for kind in full}
 
 
-def _verdict(result: Result, value: Number, error: float, span: float, largest: float) -> Verdict:
+def _verdict(result: Quantity, value: Number, error: float, span: float, largest: float) -> Verdict:
     size = float(abs(value))
     # Zero by nature: neither it nor its slopes are anything, but for rounding of the slopes.
     nothing = span <= NOTHING * largest or (size <= VANISHED * largest and span <= NOISE * largest)

@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
-from planmethod.solved.results import NOTHING, Result, ResultKind, natural_size, results_of
+from planmethod.plans.legend import ZERO, Quantity, QuantityKind
+from planmethod.solved.results import natural_size, results_of
 from planmethod.solved.solution import UNIT_SCALES, Reals, Solution
 
 MULTIPLE = 16
@@ -25,11 +26,11 @@ FEW, BLOCK = 64, 256
 """Positions that are all looked at closely; positions looked at in one go."""
 
 JUDGED = (
-    ResultKind.PLACE,
-    ResultKind.VELOCITY,
-    ResultKind.OMEGA,
-    ResultKind.ACCELERATION,
-    ResultKind.EPSILON,
+    QuantityKind.PLACE,
+    QuantityKind.VELOCITY,
+    QuantityKind.OMEGA,
+    QuantityKind.ACCELERATION,
+    QuantityKind.EPSILON,
 )
 
 
@@ -42,7 +43,7 @@ def doubt(solution: Solution) -> Reals:
     """
     solution.si  # noqa: B018 - what does not exist is told first
     bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
-    results = [r for r in results_of(solution.construction).all if r.name != NOTHING]
+    results = [r for r in results_of(solution.construction).all if r.name != ZERO]
     for chosen in _blocks(_suspects(solution)):
         bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, results, chosen)
     return bound
@@ -79,7 +80,7 @@ def _extent(solution: Solution) -> float:
 
 
 def _relative_reach(
-    solution: Solution, results: Sequence[Result], chosen: npt.NDArray[np.intp]
+    solution: Solution, results: Sequence[Quantity], chosen: npt.NDArray[np.intp]
 ) -> Reals:
     found = reach(solution.construction.program, solution.data(chosen=chosen), SCALES)
     worst = np.ones(len(chosen))

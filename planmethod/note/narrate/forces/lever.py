@@ -19,7 +19,7 @@ from planmethod.note.narrate.forces.lever_lines import (
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, spoken
-from planmethod.note.tables.sigmas import sigma_text
+from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.lever import HungCouple, LeverReading
 

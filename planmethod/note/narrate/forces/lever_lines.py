@@ -9,7 +9,7 @@ import numpy as np
 from planmethod.note.narrate.forces.formulas import arm_symbol, signed_sum
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.numbers import RUSSIAN, Notation
-from planmethod.note.tables.sigmas import sigma_text
+from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.solved.forces.lever import HungShift, LeverReading, OnLink
@@ -47,7 +47,7 @@ def difference(reading: ForceReading) -> float | None:
 
 def lever_unit(reading: ForceReading, say: Notation = RUSSIAN) -> str:
     """Return the unit of what balances the driving link."""
-    return say.units["N" if reading.statics.driving.moment is None else "N·m"]
+    return say.units["N·m" if reading.statics.driving.force is None else "N"]
 
 
 def lever_lines(reading: ForceReading) -> list[str]:
@@ -109,8 +109,7 @@ def pair(lever: LeverReading, one: OnLink, say: Notation = RUSSIAN) -> PairText:
         omega = say.short(one.ratio * lever.per_mm)
         return PairText(f"ω_{{{one.link}}}{sign}μ_{{v}}", f"{omega}{sign}{say.short(scale)}", "")
     letters, length = ends
-    metres = _length(lever, one.link, one.joints)
-    segment, link = say.ruled(one.ratio * metres), say.short(metres)
+    segment, link = say.ruled(one.ratio * one.length), say.short(one.length)
     told = f"{letters} = {segment} {say.units['mm']};  {length} = {link} {say.units['m']}"
     return PairText(f"{letters}/{length}", f"{segment}/{link}", told)
 
@@ -118,19 +117,9 @@ def pair(lever: LeverReading, one: OnLink, say: Notation = RUSSIAN) -> PairText:
 def shift_text(lever: LeverReading, one: HungShift, say: Notation = RUSSIAN) -> str:
     """Return how far the point of a shifted force is from the centre of mass on the lever."""
     told = pair(lever, one, say)
-    formula = f"{one.symbol}·{told.letters} = {say.found(one.length)}·{told.numbers}"
-    length = say.number(f"{one.length * one.ratio:.1f}")
+    formula = f"{one.symbol}·{told.letters} = {say.found(one.shift)}·{told.numbers}"
+    length = say.number(f"{one.shift * one.ratio:.1f}")
     return f"({''.join(one.letters)}) = {formula} = {length} {say.units['mm']}"
-
-
-def _length(lever: LeverReading, link: str, joints: tuple[str, str]) -> float:
-    """Return the length between two points of a link, m: given, or measured on the drawing."""
-    reading, solution = lever.reading, lever.reading.solution
-    body = solution.problem.bodies[link].points
-    if all(joint in body for joint in joints):
-        return abs(body[joints[1]] - body[joints[0]])
-    drawn = reading.distance(*joints)
-    return float(solution.hand.ruled(drawn)) * solution.scales[PlanKind.POSITION].per_mm
 
 
 def _letters(lever: LeverReading, one: OnLink) -> tuple[str, str] | None:

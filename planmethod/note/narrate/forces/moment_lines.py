@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planmethod.construct.steps import PointName
 from planmethod.note.narrate.forces.formulas import arm_symbol, signed_sum
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS, RUSSIAN, Notation
@@ -76,7 +75,7 @@ def moment_text(
     if not head:
         head = f"Σ_{{{','.join(equation.links)}}}M_{{{point_name(str(equation.about))}}}"
     if equation.force is not None:
-        return _force_found(reading, equation.force, equation.about, terms, head)
+        return _force_found(reading, equation, equation.force, terms, head)
     assert equation.couple is not None
     nothing = reading.is_no_couple(equation.couple)
     if nothing and terms.are_none:
@@ -86,36 +85,34 @@ def moment_text(
 
 
 def _force_found(
-    reading: ForceReading, edge: Edge, about: PointName, terms: _Terms, head: str
+    reading: ForceReading, equation: Moments, edge: Edge, terms: _Terms, head: str
 ) -> MomentText:
-    nothing = reading.is_none(edge)
+    nothing, about = reading.is_none(edge), equation.about
     if nothing and terms.are_none:
         return MomentText(f"{head} = 0: {edge.symbol} = 0")
-    sense = 1.0 if reading.arm(edge, about) > 0 else -1.0
-    letters, length, measured = _arm_length(reading, edge, about, terms.say)
+    sense = 1.0 if reading.turns(edge, about) else -1.0
+    letters, length, measured = _arm_length(reading, equation, edge, terms.say)
     value, unit = 0.0 if nothing else sense * reading.read(edge), terms.say.units["N"]
     return terms.told(head, edge.symbol, value, unit, (letters, length), measured)
 
 
 def _arm_length(
-    reading: ForceReading, edge: Edge, about: PointName, say: Notation
+    reading: ForceReading, equation: Moments, edge: Edge, say: Notation
 ) -> tuple[str, str, str]:
     """Return the letters and the length, m, of the arm of a tangential component.
 
     The third is how it was measured, where no given length tells it.
     """
-    solution = reading.solution
-    body = solution.problem.bodies[edge.on].points
-    ends = (str(edge.at), str(about))
-    if all(end in body for end in ends):
-        named = {name for _, name, _ in solution.problem.lengths}
+    problem, ends = reading.solution.problem, (str(edge.at), str(equation.about))
+    metres = say.short(reading.read_product(equation.arm))
+    if len(equation.arm) == 1:
+        named = {name for _, name, _ in problem.lengths}
         letters = "".join(ends[::-1] if "".join(ends[::-1]) in named else ends)
-        return f"l_{{{letters}}}", say.short(abs(body[ends[1]] - body[ends[0]])), ""
+        return f"l_{{{letters}}}", metres, ""
     letters = f"l_{{{''.join(ends)}}}"
-    length = float(solution.hand.ruled(abs(reading.place(edge.at) - reading.place(about))))
-    metres = say.short(length * solution.scales[PlanKind.POSITION].per_mm)
+    length = say.ruled(reading.read_number(equation.arm[0][0]))
     factor = position_factor(reading, say)
-    return letters, metres, f"{letters} = {say.ruled(length)}{factor} = {metres} {say.units['m']}"
+    return letters, metres, f"{letters} = {length}{factor} = {metres} {say.units['m']}"
 
 
 def position_factor(reading: ForceReading, say: Notation) -> str:

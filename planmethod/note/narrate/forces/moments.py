@@ -50,7 +50,7 @@ class MomentVoice:
                 yield self._balancing(equation, equation.couple)
 
     def _is_balancing(self, couple: CoupleOn) -> bool:
-        return couple.moment == self.statics.driving.moment
+        return couple.moment == self.statics.driving.balance
 
     def _component(self, equation: Moments, edge: Edge) -> list[str]:
         told, point = self._moment(equation), equation.about

@@ -1,1 +1,1 @@
-"""Compositions of sheets (компоновка): what they are, and how their files are read."""
+"""How the files of compositions (компоновка) are read; the records are in `sheets.model`."""

@@ -10,7 +10,6 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import Faults, Table, read_keys, read_text, show
 from planmethod.problem.names import is_label
 from planmethod.render.sheets.blocks import BLOCKS
-from planmethod.render.sheets.composition.model import Entry
 from planmethod.render.sheets.composition.values import (
     read_choice,
     read_height,
@@ -22,6 +21,7 @@ from planmethod.render.sheets.composition.values import (
     read_switch,
     read_whole,
 )
+from planmethod.render.sheets.model import Entry
 
 ALWAYS = ("kind", "group", "sheet", "droppable")
 """Keys of every block; the others are those of its kind."""

@@ -19,7 +19,6 @@ from planmethod.problem.source import parse, read_source
 from planmethod.render.frame.frame import paper_format
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.render.sheets.composition.entries import GROUP, GROUP_DEPTH, OF, read_entries
-from planmethod.render.sheets.composition.model import FORMATS, Composition, Entry, Sizes
 from planmethod.render.sheets.composition.values import (
     read_choice,
     read_height,
@@ -30,6 +29,7 @@ from planmethod.render.sheets.composition.values import (
     read_whole,
 )
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text
+from planmethod.render.sheets.model import FORMATS, Composition, Entry, Sizes
 
 TOP = ("about", "formats", "per_sheet", "grow", "arrange", "sizes", "groups", "sheets", "blocks")
 SIZES = ("letter", "title", "text", "column", "scheme", "velocity", "acceleration")

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
-from planmethod.render.ink.extent import lettered
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import paragraph
+from planmethod.render.pictures.lettered import lettered
 
 NUMBER, NAME, CLAUSE = 2.5, 3.5, 2.5
 """Heights of the letters of a cell, mm."""

@@ -26,7 +26,7 @@ omega = 10
 [assembly]
 C = "left of BD"
 """
-"""The four-bar of the peers (see `planmethod.bench.peers`)."""
+"""The four-bar of the peers (see `benchmarks.peers`)."""
 
 FOURBAR_ROWS = (
     "B", "v_B", "a_B", "C", "v_C", "a_C",

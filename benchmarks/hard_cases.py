@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 
-from planmethod.bench import hard_problems as texts
-from planmethod.bench.hard import HardCase, HardInput
+from benchmarks import hard_problems as texts
+from benchmarks.hard import HardCase, HardInput
 
 NEARER = tuple(10.0**-k for k in range(1, 13))
 GAPS = (*NEARER, 1e-13, 1e-14, 1e-15)

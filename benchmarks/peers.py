@@ -5,7 +5,7 @@ B -> D; the crank turns at a constant 10 1/s. A solution has 20 rows, one column
 x y, vx vy, ax ay of B and of C, then cos sin, omega, epsilon of link 2 (B -> C) and of link 3
 (D -> C).
 
-What cannot run here (no compiler, no library) is left out and told by `missing`.
+What cannot run here (no compiler, no library) is left out; `missing` says so.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Peer:
         Which of the 20 rows of a solution its answer consists of, in its order.
     run : callable
         From crank angles (degrees) to an array of ``len(rows)`` rows, or None where the peer
-        needs equally spaced angles and these are not. An array of angles is looked at when it is
+        needs equally spaced angles and these are not. An array of angles is examined when it is
         first met: to ask about other angles, give another array. The answer may be overwritten
         by the next call.
     """
@@ -97,7 +97,7 @@ def missing() -> list[str]:
 
 
 class _Unavailable(Exception):  # noqa: N818 - a finding, not an error
-    """What was not found, in a sentence."""
+    """Says in a sentence what was not found."""
 
 
 @cache

@@ -9,10 +9,10 @@ from dataclasses import replace
 import pytest
 from cases import thinned
 
-from planmethod.bench import hard_problems as texts
-from planmethod.bench.hard import HardCase, HardRow, Outcome, run
-from planmethod.bench.hard_cases import HARD
-from planmethod.bench.hard_report import summarise, table
+from benchmarks import hard_problems as texts
+from benchmarks.hard import HardCase, HardRow, Outcome, run
+from benchmarks.hard_cases import HARD
+from benchmarks.hard_report import summarise, table
 from planmethod.errors import AssemblyError
 from planmethod.problem import loads
 from planmethod.solved.selfcheck import verify

@@ -2,7 +2,7 @@
 
 Every row is solved in float64 and judged by the referee (`planmethod.solved.trust.accuracy`), and
 asked of the package as a user asks it. A row may be good, warned of, or refused with a reason; a
-number that is wrong and not warned of is a fault, wherever it comes from.
+wrong number without a warning is a fault, wherever it comes from.
 """
 
 from __future__ import annotations
@@ -17,18 +17,19 @@ import numpy as np
 from planmethod.construct.condition import UNIT_ROUNDOFF
 from planmethod.construct.referee import DIGITS
 from planmethod.errors import PlanMethodError
+from planmethod.plans.legend import QuantityKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
-from planmethod.solved.results import ResultKind, natural_size
+from planmethod.solved.results import natural_size
 from planmethod.solved.selfcheck import SelfCheckError, verify, warnings
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Examined, Verdict, examine
 
 WRONG = 1e-6
-"""Relative error above which a result that nobody warned of is a wrong one."""
+"""Relative error above which a result without a warning is a wrong one."""
 
 CROWD = 65
-"""Positions asked at once where many are meant: more than are all looked at closely."""
+"""Positions asked for at once where many are meant: too many for all to be examined closely."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +157,7 @@ def _examine_row(case: str, row: HardInput, digits: int) -> HardRow:
     try:
         problem = loads(row.text, name=case)
         positions = row.positions or problem.drive.positions
-        # Whether numpy grumbles about what does not exist is another test's matter.
+        # Whether NumPy warns about what does not exist is the matter of another test.
         with np.errstate(all="ignore"):
             judged = _judge_positions(blank, row, problem, positions, digits)
     except PlanMethodError as error:
@@ -228,16 +229,16 @@ def _add(row: HardRow, found: Examined) -> HardRow:
     )
 
 
-def sizes(verdicts: Iterable[Verdict]) -> dict[ResultKind, float]:
-    """Return what a result of each kind is small against in a position, by the referee.
+def sizes(verdicts: Iterable[Verdict]) -> dict[QuantityKind, float]:
+    """Return the size beside which a result of each kind is small in a position, by the referee.
 
     It is the natural size of the kind, a sliding speed being a velocity.
     """
-    size = dict.fromkeys(ResultKind, 0.0)
+    size = dict.fromkeys(QuantityKind, 0.0)
     for verdict in verdicts:
         size[verdict.kind] = max(size[verdict.kind], verdict.size)
-    fast = max(size[ResultKind.VELOCITY], size[ResultKind.SLIDING])
-    size[ResultKind.VELOCITY] = size[ResultKind.SLIDING] = fast
+    fast = max(size[QuantityKind.VELOCITY], size[QuantityKind.SLIDING])
+    size[QuantityKind.VELOCITY] = size[QuantityKind.SLIDING] = fast
     return {kind: float(natural_size(kind, size)) for kind in size}
 
 

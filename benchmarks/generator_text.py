@@ -65,7 +65,7 @@ class Draft:
         return frozenset(found | ({FRAME} if point in self.fixed else set()))
 
     def is_bare_host(self, name: str) -> bool:
-        """Whether a link has no other axis than the line it carries."""
+        """Whether a link has no axis other than the line it carries."""
         link = self.links[name]
         carries = any(other.line and other.line.host == name for other in self.links.values())
         return carries and len(link.points) == 1 and link.line is None

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from planmethod.bench import report
-from planmethod.bench.report import Table
+from benchmarks import at_once, report
+from benchmarks.hard_report import hard_section
+from benchmarks.random_report import random_section
+from benchmarks.random_run import Tally, run, wrong_branches
+from benchmarks.scenes import loaded
+from planmethod.bench import forces
+from planmethod.bench.drawn import compare_all
+from planmethod.bench.report import Table, drafting_section, forces_section
 from planmethod.problem.model import Problem
 
 SECTIONS = ("speed", "forces", "hard", "random", "drafting")
@@ -40,25 +46,18 @@ def make(
         measured, figure = report.measure(say, quick=quick)
         sections += measured
     if "forces" in wanted:
-        from planmethod.bench.forces_report import forces_section
-
         say("forces")
-        sections.append(forces_section(problems, quick=quick))
+        sections.append(_forces(problems, (1, 12) if quick else (1, 12, 10_000)))
     if "hard" in wanted:
-        from planmethod.bench.hard_report import hard_section
-
         say("hard cases")
         sections.append(hard_section())
     if "random" in wanted and count:
         sections.append(_random(count, say))
     if "drafting" in wanted and problems:
-        from planmethod.bench.drawn import compare_all
-        from planmethod.bench.random_report import drafting_section
-
         say("drafting errors")
-        sections.append(drafting_section(compare_all(list(problems))))
+        sections.append(drafting_section(compare_all(problems)))
     if figure:
-        command = "planmethod bench" + (" --quick" if quick else "")
+        command = "python -m benchmarks" + (" --quick" if quick else "")
         if problems:
             names = sorted({problem.name for problem in problems})
             command += " " + (" ".join(names) if len(names) < 4 else "problems/*/*.toml")
@@ -66,10 +65,15 @@ def make(
     return "\n".join(line for section in sections for line in [*section, ""]), figure
 
 
-def _random(count: int, say: Callable[[str], None]) -> Table:
-    from planmethod.bench.random_report import random_section
-    from planmethod.bench.random_run import Tally, run, wrong_branches
+def _forces(problems: Sequence[Problem], counts: Sequence[int]) -> Table:
+    scene = loaded()
+    readings = [*forces.readings(scene, counts), *at_once.readings(scene, counts)]
+    lever = [forces.discrepancy(one) for one in problems if one.dynamics is not None]
+    more = "; the linear system starts from a motion that is known"
+    return forces_section(readings, lever, more=more)
 
+
+def _random(count: int, say: Callable[[str], None]) -> Table:
     tally = Tally()
     for tally in run(count):
         if tally.mechanisms % 1000 == 0:

@@ -64,7 +64,7 @@ def driven_by_slider(
     a: float = 0.0,
     start: float = 0.0,
 ) -> str:
-    """Return a slider-crank driven by its slider, as an engine; s counts from ``start``."""
+    """Return a slider-crank driven by its slider, like an engine; s counts from ``start``."""
     u = cis(turn)
     return f"""
 [frame]
@@ -189,7 +189,7 @@ def pin_from_pivot(
 
 
 def pivot_at_origin() -> str:
-    """Return a slotted link whose pin meets its pivot in the origin, the crank at 0 deg."""
+    """Return a slotted link whose pin meets its pivot at the origin, the crank at 0 deg."""
     return slotted(origin=-0.125 + 0j, pivot=0j)
 
 
@@ -230,7 +230,7 @@ slides = {{ on = "x-x" }}
 
 
 def leaning_guide(*, angle: float, turn: float = 0.0) -> str:
-    """Return a slider-crank whose guide leans by an angle to the ray square to its rod."""
+    """Return a slider-crank whose guide leans at an angle to the ray square to its rod."""
     rod = cis(turn - 60.0) * 0.375
     pin = cis(turn + 90.0) * 0.125
     return f"""
@@ -259,7 +259,7 @@ def cross_slide(
     origin: complex = 0j,
     size: float = 1.0,
 ) -> str:
-    """Return a bar on a guide, in its slot at an angle to the guide a stone on the crank (RPP)."""
+    """Return a bar on a guide, and in its slot, at an angle to it, a stone on the crank (RPP)."""
     return f"""
 [frame]
 O = {_pair(origin)}

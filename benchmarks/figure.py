@@ -5,7 +5,12 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 
-from planmethod.bench.speed import Reading, Rival
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from benchmarks.rivals import Rival
+from planmethod.bench.speed import Reading
 
 MARKS = (
     ("sweep, float64", "o", "#1f5aa6"),
@@ -24,9 +29,6 @@ def draw(
     links: Sequence[tuple[int, int, float, float, float]],
 ) -> bytes:
     """Return the figure as PNG: two log-log plots side by side."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=(11, 5.2), layout="constrained")
     FigureCanvasAgg(figure)
     left, right = figure.subplots(1, 2)
@@ -37,10 +39,7 @@ def draw(
     return target.getvalue()
 
 
-def _errors(axes: object, readings: Sequence[Reading], rivals: Sequence[Rival]) -> None:
-    from matplotlib.axes import Axes
-
-    assert isinstance(axes, Axes)
+def _errors(axes: Axes, readings: Sequence[Reading], rivals: Sequence[Rival]) -> None:
     for start, mark, colour in MARKS:
         mine = [r for r in readings if r.name.startswith(start)]
         if not mine:
@@ -72,13 +71,10 @@ def _errors(axes: object, readings: Sequence[Reading], rivals: Sequence[Rival]) 
 
 
 def _growth(
-    axes: object,
+    axes: Axes,
     positions: Sequence[tuple[int, float]],
     links: Sequence[tuple[int, int, float, float, float]],
 ) -> None:
-    from matplotlib.axes import Axes
-
-    assert isinstance(axes, Axes)
     axes.loglog(
         [n for n, _ in positions],
         [seconds / n for n, seconds in positions],

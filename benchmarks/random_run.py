@@ -1,4 +1,4 @@
-"""Random mechanisms before the referee, twelve positions each; crank-rockers and their branch."""
+"""Random mechanisms judged by the referee, twelve positions each; branches of crank-rockers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from planmethod.bench.generator import random_problem
+from benchmarks.generator import random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.solved.many.sweep import Sweep
@@ -27,7 +27,7 @@ CHUNK = 50
 
 @dataclass
 class Tally:
-    """What came of some random mechanisms.
+    """What became of some random mechanisms.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Tally:
     worst: list[tuple[float, int, float, str, float]] = field(default_factory=list)
 
     def add(self, other: Tally) -> None:
-        """Take another tally in."""
+        """Add another tally."""
         for name in ("mechanisms", "positions", "impossible", "disagreed", "unexplained"):
             setattr(self, name, getattr(self, name) + getattr(other, name))
         self.exceptions += other.exceptions
@@ -76,7 +76,7 @@ def judge(seeds: Sequence[int]) -> Tally:
         try:
             problem = loads(random_problem(seed)[0], name=f"random-{seed}")
             found = examine(problem, positions_of(problem), digits=DIGITS, closely=False)
-        except Exception as error:  # whatever it is, it is the finding
+        except Exception as error:  # whatever it is, it is a finding
             tally.exceptions.append(f"seed {seed}: {type(error).__name__}: {error}")
             continue
         for position in found:

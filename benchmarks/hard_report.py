@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import groupby
 
-from planmethod.bench.hard import HardRow, Outcome, run
-from planmethod.bench.hard_cases import HARD
+from benchmarks.hard import HardRow, Outcome, run
+from benchmarks.hard_cases import HARD
 
 HEAD = (
     "case",

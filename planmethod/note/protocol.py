@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planmethod.construct.steps import MeasureAlong, PointName
+from planmethod.construct.steps import Compute, MeasureAlong, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.equations import equation_lines
 from planmethod.note.narrate.given import given_lines
@@ -126,16 +126,18 @@ class _Writer(Steps):
         if section.kind is PlanKind.ACCELERATION:
             self.item(self._constant_speed(section))
             self.item(self.narrator.motion.without_coriolis(made))
-        measured = False
+        measured, read = False, []
         for step in section.steps:
             told = self.narrator.tell(step)
-            self.item(told, more=measured and bool(told))
-            measured = isinstance(step, MeasureAlong)
-        if section.kind is not PlanKind.POSITION:
-            read = self.narrator.motion.readings(section.kind, made)
-            if read:
-                closed = [*(f"{line};" for line in read[:-1]), f"{read[-1]}."]
-                self.item([words.read_off, *closed])
+            if self.narrator.is_reading(step):
+                read += told
+                continue
+            told = [line if line.endswith((".", ",", ";")) else f"{line}." for line in told]
+            self.item(told, more=measured and isinstance(step, Compute) and bool(told))
+            measured = isinstance(step, MeasureAlong) or (measured and isinstance(step, Compute))
+        if read:
+            closed = [*(f"{line};" for line in read[:-1]), f"{read[-1]}."]
+            self.item([words.read_off, *closed])
 
     def _forces(self) -> None:
         from planmethod.note.narrate.forces.protocol import tell_forces

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import os
+import statistics
+import subprocess
 import sys
 import tempfile
+import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from planmethod.bench.clock import Timing, clock, clock_processes, run_python
+from planmethod.bench.clock import Timing, clock
 from planmethod.problem import load, template
+from planmethod.render.backends import render
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+ROOT = Path(__file__).parent.parent
+"""Where processes start: they find the package and the benchmarks here."""
 
 FORMATS = ("svg", "pdf", "png")
 
 WATCHED = (
     "click", "numpy", "shapely", "svgwrite", "reportlab", "PIL", "matplotlib", "mpmath", "ezdxf",
 )  # fmt: skip
-"""Third parties whose import a command may pay for."""
+"""Third parties whose import a command may have to pay for."""
 
 COMMANDS = (
     ("--version", ()),
@@ -104,9 +114,6 @@ def _looked_at(arguments: list[str]) -> tuple[tuple[str, ...], int, float]:
 
 def warm_sheets() -> list[tuple[str, Timing, Timing]]:
     """Return (format, seconds to make the sheet, seconds to write it) in a running process."""
-    from planmethod.render.backends import render
-    from planmethod.render.sheets.kinematics import kinematics_sheets
-
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "slotted-link.toml"
         path.write_text(template("slotted-link"), encoding="utf-8")
@@ -125,7 +132,7 @@ PEAK = (
     "lines = status.read_text().splitlines() if status.exists() else []\n"
     "peak = max((int(s.split()[1]) / 1024 for s in lines if s.startswith('VmHWM')), default=0.0)"
 )
-"""Lines that find the peak of a process itself, MB; what was before it started is not its own."""
+"""Lines that find the peak of a process itself, MB; what came before it started is not counted."""
 
 MEMORY = (
     ("interpreter and NumPy", "import numpy"),
@@ -140,7 +147,7 @@ def memory() -> list[tuple[str, float]]:
     """Return (what, peak megabytes), each in a process of its own."""
     head = (
         "import numpy as np\n"
-        "from planmethod.bench.scenes import slotted\n"
+        "from benchmarks.scenes import slotted\n"
         "from planmethod.bench.speed import turn\n"
         "def sweep(n):\n"
         "    from planmethod.solved.many.sweep import Sweep\n"
@@ -151,3 +158,38 @@ def memory() -> list[tuple[str, float]]:
     )
     tail = f"{PEAK}\nprint(peak)\n"
     return [(name, float(run_python(f"{head}{act}\n{tail}"))) for name, act in MEMORY]
+
+
+def clock_processes(commands: Sequence[Sequence[str]], *, runs: int = 5) -> list[Timing]:
+    """Time whole processes, taking turns so that a slow moment falls on all of them.
+
+    The first round warms the disk and lets Python cache what it compiled, as an installed package
+    has it kept.
+    """
+    times: list[list[float]] = [[] for _ in commands]
+    for turn in range(runs + 1):
+        for mine, command in zip(times, commands, strict=True):
+            start = time.perf_counter()
+            subprocess.run(command, check=True, capture_output=True, env=_environment(), cwd=ROOT)
+            if turn:
+                mine.append(time.perf_counter() - start)
+    return [Timing(statistics.median(t), min(t), max(t), len(t)) for t in times]
+
+
+def _environment() -> dict[str, str]:
+    kept = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    return {**kept, "PYTHONIOENCODING": "utf-8"}
+
+
+def run_python(source: str) -> str:
+    """Run a few lines in a fresh interpreter and return what they print."""
+    env = _environment()
+    done = subprocess.run(
+        [sys.executable, "-c", source],
+        check=True,
+        capture_output=True,
+        env=env,
+        encoding="utf-8",
+        cwd=ROOT,
+    )
+    return done.stdout.strip()

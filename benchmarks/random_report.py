@@ -1,16 +1,13 @@
-"""Sections of the document that are about error alone: random mechanisms, drafting errors."""
+"""Section of the document on random mechanisms."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from planmethod.bench.drawn import DRAWS, Compared
-from planmethod.bench.random_run import BOUNDS, POSITIONS, Tally
+from benchmarks.random_run import BOUNDS, POSITIONS, Tally
 from planmethod.bench.report import Table, number, table
 
 
 def random_section(tally: Tally, branches: tuple[int, int]) -> Table:
-    """Return what came of random mechanisms and of crank-rockers."""
+    """Return what became of random mechanisms and of crank-rockers."""
     total = tally.results
     shares = []
     names = [f"up to {bound:g}" for bound in BOUNDS] + [f"above {BOUNDS[-1]:g}"]
@@ -47,32 +44,3 @@ def random_section(tally: Tally, branches: tuple[int, int]) -> Table:
     if tally.exceptions:
         lines += ["", *(f"- {error}" for error in tally.exceptions)]
     return lines
-
-
-def drafting_section(rows: Sequence[Compared]) -> Table:
-    """Return first-order drafting errors beside random sheets."""
-    return [
-        "## Drafting errors: first order against random sheets",
-        "",
-        f"Sigma by first order over the standard deviation of {DRAWS} random sheets, least and "
-        "most over all quantities of a problem that are longer than three sigmas. *Given up*: "
-        "quantities whose first order is not believed, because a step is not ten of its own sigmas "
-        "away from being impossible; *short*: quantities below three sigmas. Both have the sigma "
-        "of the random sheets.",
-        "",
-        *table(
-            ("problem", "hand", "compared", "least", "most", "given up", "short"),
-            [
-                (
-                    row.problem,
-                    row.profile,
-                    str(row.compared),
-                    f"{row.least:.3f}",
-                    f"{row.most:.3f}",
-                    str(row.given_up),
-                    str(row.short),
-                )
-                for row in rows
-            ],
-        ),
-    ]

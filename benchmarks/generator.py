@@ -1,4 +1,4 @@
-"""Random mechanisms, pose first: joints are drawn in a box, the problem file is derived from them.
+"""Random mechanisms, pose first: joints are drawn in a box, the problem file follows from them.
 
 The pose is there before the lengths, so the mechanism certainly assembles. It is a crank or a
 driving slider with one to three dyads of any kind, each hanging on random links drawn before it;
@@ -14,7 +14,7 @@ import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from planmethod.bench.generator_text import FRAME, Draft, Line, Link, TextBuilder
+from benchmarks.generator_text import FRAME, Draft, Line, Link, TextBuilder
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 
@@ -117,7 +117,7 @@ class _Drawing:
         return name
 
     def _direction(self) -> complex:
-        """Direction of a line, often one that a ruler likes."""
+        """Direction of a line, often a multiple of 90 degrees."""
         if self.rng.random() < 0.4:
             return 1j ** self.rng.randrange(4)
         return cmath.rect(1.0, self.rng.uniform(-math.pi, math.pi))
@@ -317,7 +317,7 @@ class _Drawing:
         _demand(abs((u.conjugate() * line.u).imag) >= SINE)
 
     def _not_beside(self, lead: _Lead) -> frozenset[str]:
-        """Links that the other lead may not hang on: it would make one rigid body with them."""
+        """Links that the other lead may not hang on: it would make them one rigid body."""
         driver = {self.draft.driver} if lead.point == self.draft.pivot else set()
         return lead.holders | {lead.to} | driver
 

@@ -1,0 +1,241 @@
+"""The document of the benchmark: every table with the command that makes it."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks import processes, rivals
+from benchmarks.figure import draw
+from benchmarks.peers import missing
+from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
+from planmethod.bench import speed
+from planmethod.bench.clock import Timing
+from planmethod.bench.report import Table, number, span, speed_section, table
+
+NAME = "speed-and-error"
+
+
+def _rate(timing: Timing, count: int) -> str:
+    rate = count / timing.median
+    return f"{span(timing.median)} ({rate / 1e6:.3g} M/s)"
+
+
+def machine() -> str:
+    """Return what the figures were measured on."""
+    name = platform.processor() or platform.machine()
+    info = Path("/proc/cpuinfo")
+    if info.exists():
+        models = [s for s in info.read_text("utf-8").splitlines() if s.startswith("model name")]
+        name = models[0].partition(":")[2].strip() if models else name
+    return (
+        f"{name}, {platform.system()}, Python {platform.python_version()}, NumPy {np.__version__}"
+    )
+
+
+def compiler() -> str:
+    """Return the version of the C compiler that the C loops are made with, if there is one."""
+    try:
+        done = subprocess.run(["cc", "--version"], capture_output=True, check=True, text=True)
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    return done.stdout.splitlines()[0]
+
+
+# Sections ---------------------------------------------------------------------------------------
+
+
+def rivals_section(compared: Sequence[rivals.Rival]) -> Table:
+    """Return the table of the four-bar: this package, C, pylinkage."""
+    sizes = list(compared[0].seconds)
+    rows = []
+    for rival in compared:
+        worst = max(rival.error.values(), default=0.0)
+        rows.append(
+            (
+                rival.name,
+                *(_rate(rival.seconds[n], n) for n in sizes),
+                number(worst) if rival.error else "—",
+            )
+        )
+    ours = compared[0]
+    ratios = [
+        (
+            other.name,
+            *(f"{other.seconds[n].median / ours.seconds[n].median:.2g}" for n in sizes),
+        )
+        for other in compared[1:]
+    ]
+    header = [f"N = {n:,}".replace(",", " ") for n in sizes]
+    notes = [f"- {rival.name}: {rival.computes}." for rival in compared]
+    absent = missing()
+    if absent:
+        notes += ["", "Not run: " + " ".join(absent)]
+    return [
+        "## One four-bar, with peers",
+        "",
+        "Warm, one core, medians, all of them taking turns in one run; every answer goes to a "
+        "buffer that was there before, except where a peer cannot take one. The error is the "
+        "largest over the three sizes.",
+        "",
+        *table(("who", *header, "largest error"), rows),
+        "",
+        *notes,
+        "",
+        "Time over that of the sweep (above 1: slower):",
+        "",
+        *table(("who", *header), ratios),
+    ]
+
+
+def growth_section(
+    positions: Sequence[tuple[int, float]],
+    links: Sequence[tuple[int, int, float, float, float]],
+) -> Table:
+    """Return cost against the number of positions and of links."""
+    return [
+        "## Cost against size",
+        "",
+        "A sweep of a slotted link, everything asked, by number of positions:",
+        "",
+        *table(
+            ("positions", "time", "for a position"),
+            [(f"{n:,}".replace(",", " "), span(s), span(s / n)) for n, s in positions],
+        ),
+        "",
+        "A chain of dyads, everything asked, by number of moving links. To prepare is to analyse "
+        "the structure, choose the closings, plan the construction and compile it, once:",
+        "",
+        *table(
+            ("links", "steps", "to prepare", "one position", "10⁴ positions", "for a position"),
+            [
+                (str(n), str(steps), span(ready), span(one), span(many), span(many / 10_000))
+                for n, steps, ready, one, many in links
+            ],
+        ),
+    ]
+
+
+def scenes_section(scenes: Sequence[tuple[str, int, int, float, float]]) -> Table:
+    """Return what asking for less saves."""
+    return [
+        "## Only what a scene needs",
+        "",
+        "The slotted link: steps kept for what is asked, real operations that are left of them "
+        "when constants are folded, and time.",
+        "",
+        *table(
+            ("asked", "steps", "operations", "one position", "10⁴ positions"),
+            [
+                (name, str(steps), str(operations), span(one), span(many))
+                for name, steps, operations, one, many in scenes
+            ],
+        ),
+    ]
+
+
+def commands_section(
+    commands: Sequence[processes.Command], warm: Sequence[tuple[str, Timing, Timing]]
+) -> Table:
+    """Return whole commands, cold, and sheets in a running process."""
+    rows = []
+    for command in commands:
+        assert command.cold is not None
+        rows.append(
+            (
+                command.name,
+                f"{command.cold.median:.3f} s",
+                " ".join(command.imports) or "—",
+                str(command.modules or "—"),
+                f"{command.peak_mb:.0f} MB" if command.peak_mb else "—",
+            )
+        )
+    return [
+        "## Commands, from the start of the process",
+        "",
+        *table(("command", "cold", "third parties imported", "modules", "peak memory"), rows),
+        "",
+        "A sheet in a process that runs already:",
+        "",
+        *table(
+            ("format", "to make the sheet", "to write it"),
+            [(fmt, span(make.median), span(write.median)) for fmt, make, write in warm],
+        ),
+    ]
+
+
+def memory_section(rows: Sequence[tuple[str, float]]) -> Table:
+    """Return peak memory of batches."""
+    return [
+        "## Memory",
+        "",
+        "Peak of a process of its own. A sweep holds its answers and blocks of buffers, whatever "
+        "the number of steps; 10⁶ positions of the slotted link are "
+        "the answers of 10⁶ positions and little else.",
+        "",
+        *table(("what", "peak"), [(name, f"{peak:.0f} MB") for name, peak in rows]),
+    ]
+
+
+# The whole --------------------------------------------------------------------------------------
+
+
+def measure(say: Callable[[str], None], *, quick: bool = False) -> tuple[list[Table], bytes]:
+    """Measure everything and return the sections and the figure.
+
+    Parameters
+    ----------
+    say : callable
+        Told what is being measured.
+    quick : bool
+        Smaller sizes and fewer runs: a look, not a measurement.
+    """
+    sizes = (12, 10_000) if quick else rivals.SIZES
+    say("time against error")
+    readings = [
+        *speed.sweeps(fourbar(), sizes, FOURBAR_ROWS),
+        *speed.sweeps(slotted(), sizes),
+        *speed.single_readings(fourbar()),
+        *speed.single_readings(slotted()),
+    ]
+    say("peers")
+    compared = rivals.rivals(sizes, rounds=1 if quick else 3)
+    say("positions and links")
+    counts = (1, 12, 100, 1000, 10_000) + (() if quick else (100_000, 1_000_000))
+    positions = rivals.by_positions(counts)
+    links = rivals.by_links((1, 2, 5) if quick else (1, 2, 4, 8, 16, 25))
+    say("scenes")
+    scenes = rivals.by_scene()
+    say("commands")
+    commands = processes.commands(runs=1 if quick else 7)
+    warm = processes.warm_sheets()
+    say("memory")
+    sections = [
+        speed_section(readings),
+        rivals_section(compared),
+        growth_section(positions, links),
+        scenes_section(scenes),
+        commands_section(commands, warm),
+        memory_section(processes.memory()),
+    ]
+    return sections, draw(readings, compared, positions, links)
+
+
+def document(sections: Sequence[Table], *, figure: str, command: str) -> str:
+    """Return the document around the sections."""
+    cc = compiler()
+    lines = [
+        "# Speed and error",
+        "",
+        f"Made by `{command}` on {machine()}{f', {cc}' if cc else ''}. Times are medians; "
+        "compare them with each other, not with another machine's.",
+        "",
+        f"![time against error; cost against size]({figure})",
+    ]
+    for section in sections:
+        lines += ["", *section]
+    return "\n".join(lines) + "\n"

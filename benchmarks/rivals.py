@@ -1,0 +1,152 @@
+"""Speed of this package on one four-bar beside its peers, and how its cost grows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from benchmarks.peers import peers
+from benchmarks.scenes import FOURBAR_ROWS, chain, fourbar, slotted
+from planmethod.bench.clock import Timing, clock
+from planmethod.bench.speed import everything, right_rows, row_error, spread, turn
+from planmethod.solved.many.sweep import Sweep
+
+Array = npt.NDArray[Any]
+
+SIZES = (12, 10_000, 1_000_000)
+"""Numbers of positions of the table of peers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rival:
+    """Somebody who solves the four-bar, at the sizes of the table.
+
+    Attributes
+    ----------
+    seconds : dict of int to Timing
+        By number of positions.
+    error : dict of int to float
+        As in `Reading`.
+    """
+
+    name: str
+    computes: str
+    seconds: dict[int, Timing]
+    error: dict[int, float]
+
+
+def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
+    """Time this package and its peers on one four-bar, taking turns."""
+    sweep = Sweep(fourbar(), FOURBAR_ROWS)
+    angled = Sweep(fourbar(), [*(r for r in FOURBAR_ROWS if r[0] != "u"), "phi_2", "phi_3"])
+    loose = Sweep(fourbar(), FOURBAR_ROWS)
+    buffers = {n: np.empty((len(sweep.rows), n)) for n in sizes}
+    more = {n: np.empty((len(angled.rows), n)) for n in sizes}
+    angles = {n: turn(n) for n in sizes}
+    shuffled = {n: np.random.default_rng(1).permutation(angles[n]) for n in sizes}
+
+    def swept(n: int) -> Array:
+        return sweep.run(angles[n], out=None if n <= 40 else buffers[n])
+
+    def with_angles(n: int) -> Array:
+        return angled.run(angles[n], out=None if n <= 40 else more[n])
+
+    def uneven(n: int) -> Array:
+        return loose.run(shuffled[n], out=None if n <= 40 else buffers[n])
+
+    acts: list[tuple[str, str, Callable[[int], Array | None], tuple[int, ...]]] = [
+        (
+            "planmethod, sweep",
+            "all points and links, 20 rows; directions as unit vectors",
+            swept,
+            tuple(range(20)),
+        ),
+        (
+            "planmethod, sweep, phi in degrees",
+            "all points and links, 18 rows; directions by the arc tangent",
+            with_angles,
+            (),
+        ),
+        ("planmethod, sweep, uneven phi", "20 rows, no table of angles", uneven, ()),
+    ]
+    for peer in peers():
+        acts.append(
+            (peer.name, peer.computes, lambda n, p=peer: p.run(angles[n]), peer.rows)  # type: ignore[misc]
+        )
+    times: dict[tuple[str, int], list[Timing]] = {}
+    for _ in range(rounds):
+        for n in sizes:
+            for name, _, act, _ in acts:
+                times.setdefault((name, n), []).append(
+                    clock(lambda a=act, k=n: a(k), enough=0.25, least=3)  # type: ignore[misc]
+                )
+    right = {n: right_rows(fourbar(), FOURBAR_ROWS, angles[n][spread(n)]) for n in sizes}
+    found = []
+    for name, computes, act, rows in acts:
+        seconds = {n: sorted(times[name, n], key=lambda t: t.median)[rounds // 2] for n in sizes}
+        error = {}
+        for n in sizes if rows else ():
+            answer = act(n)
+            if answer is not None:
+                error[n] = row_error(right[n][list(rows)], answer[:, spread(n)])
+        found.append(Rival(name, computes, seconds, error))
+    return found
+
+
+# How cost grows ---------------------------------------------------------------------------
+
+
+def by_positions(counts: Sequence[int]) -> list[tuple[int, float]]:
+    """Return (positions, seconds) of a sweep of the slotted link."""
+    problem = slotted()
+    sweep = Sweep(problem, everything(problem))
+    found = []
+    for n in counts:
+        out = None if n <= 40 else np.empty((len(sweep.rows), n))
+        angles = turn(n)
+        found.append((n, clock(lambda a=angles, o=out: sweep.run(a, out=o)).median))  # type: ignore[misc]
+    return found
+
+
+def by_links(
+    dyads: Sequence[int], *, count: int = 10_000
+) -> list[tuple[int, int, float, float, float]]:
+    """Return (links, steps, seconds to prepare, seconds for one position, for ``count``)."""
+    found = []
+    angles = turn(count)
+    for k in dyads:
+        problem = chain(k)
+        ready = clock(lambda p=problem: Sweep(p), enough=0.2, least=3).median  # type: ignore[misc]
+        sweep = Sweep(problem)
+        out = np.empty((len(sweep.rows), count))
+        one = clock(lambda s=sweep: s.run(angles[:1])).median  # type: ignore[misc]
+        many = clock(lambda s=sweep, o=out: s.run(angles, out=o)).median  # type: ignore[misc]
+        found.append((1 + 2 * k, sweep.steps, ready, one, many))
+    return found
+
+
+SCENES: tuple[tuple[str, tuple[str, ...] | None], ...] = (
+    ("positions only", ("positions",)),
+    ("one velocity", ("v_D",)),
+    ("velocities", ("velocities",)),
+    ("everything", None),
+)
+"""What scenes may ask for, the least first."""
+
+
+def by_scene(count: int = 10_000) -> list[tuple[str, int, int, float, float]]:
+    """Return (what is asked, steps, operations, seconds for one position, for ``count``)."""
+    problem = slotted()
+    angles = turn(count)
+    found = []
+    for name, asked in SCENES:
+        sweep = Sweep(problem, asked)
+        out = np.empty((len(sweep.rows), count))
+        one = clock(lambda s=sweep: s.run(angles[:1])).median  # type: ignore[misc]
+        many = clock(lambda s=sweep, o=out: s.run(angles, out=o)).median  # type: ignore[misc]
+        found.append((name, sweep.steps, sweep.operations, one, many))
+    return found

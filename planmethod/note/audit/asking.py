@@ -1,0 +1,214 @@
+"""Steps that answer the selectors of ``[published]``: they go on from the program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from planmethod.construct.steps import LayOff, NumberName, PointName, Step
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.draft import Draft
+from planmethod.plans.legend import ZERO
+from planmethod.plans.model import PlanKind
+from planmethod.problem.selector import POLE, Selector
+from planmethod.solved.solution import Solution
+
+PLANS: Mapping[str, PlanKind] = {
+    "length": PlanKind.POSITION,
+    "segment velocity": PlanKind.VELOCITY,
+    "segment acceleration": PlanKind.ACCELERATION,
+}
+"""Quantities in millimetres of a plan, and of which."""
+
+COMPONENTS: Mapping[str, PlanKind] = {
+    "x": PlanKind.POSITION,
+    "y": PlanKind.POSITION,
+    "vx": PlanKind.VELOCITY,
+    "vy": PlanKind.VELOCITY,
+    "ax": PlanKind.ACCELERATION,
+    "ay": PlanKind.ACCELERATION,
+}
+
+MAGNITUDES: Mapping[str, PlanKind] = {
+    "v": PlanKind.VELOCITY,
+    "vs": PlanKind.VELOCITY,
+    "a": PlanKind.ACCELERATION,
+}
+
+
+class Why(Enum):
+    """Why a quantity has no value."""
+
+    NO_WHAT = "no what"  # the file does not say which quantity it is
+    NO_POSITION = "no position"  # the driver is never there
+    NO_SCALE = "no scale"  # millimetres of a plan whose scale the source does not tell
+    NO_POINT = "no point"  # a name that the plans do not have
+    NO_LINK = "no link"  # turning of a point about one that no link joins it to
+    NO_ARM = "no arm"  # a force in the axis of the crank cannot balance it
+    NO_SLIDING = "no sliding"  # the points are not a prismatic pair's
+    ZERO_DIVISOR = "zero divisor"
+    NO_FORCES = "no forces"  # the file has neither masses nor loads
+    NO_JOINT = "no joint"  # the links do not touch each other
+    NO_DIRECTION = "no direction"  # a force that is nothing has no angle and no arm
+    STANDS = "stands"  # the lever of a driving link that does not move
+
+
+class UnansweredError(Exception):
+    """A selector asks for what the solution does not have."""
+
+    def __init__(self, why: Why) -> None:
+        super().__init__(why.value)
+        self.why = why
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """Number that answers a selector, or a quotient of two.
+
+    Attributes
+    ----------
+    name : NumberName
+    plan : PlanKind or None
+        Plan in whose millimetres it is a length; None of a quantity.
+    signed : bool
+        The sign belongs to it.
+    """
+
+    name: NumberName
+    plan: PlanKind | None = None
+    signed: bool = False
+
+
+class Asking:
+    """Steps that a selector needs beyond those of the program (что спрашивается).
+
+    Parameters
+    ----------
+    solution : Solution
+    draft : Draft
+        Is gone on with.
+    """
+
+    def __init__(self, solution: Solution, draft: Draft) -> None:
+        self.solution, self.draft, self.kin = solution, draft, solution.construction.kinematics
+        self.b = draft.b
+        self._done = len(self.b.steps)
+        self._segments = {
+            motion.kind: motion.segments.on(draft.b)
+            for motion in (self.kin.velocity, self.kin.acceleration)
+        }
+
+    @property
+    def steps(self) -> list[Step]:
+        """The further steps."""
+        return self.b.steps[self._done :]
+
+    def compute(self, *powers: tuple[NumberName, int]) -> NumberName:
+        """Return a further product of powers."""
+        return self.b.compute(f"asked{len(self.b.steps)}", *powers)
+
+    def answer(self, selector: Selector) -> Answer:
+        """Return the number that a selector of the motion asks for.
+
+        Raises
+        ------
+        UnansweredError
+            When the solution has no such quantity.
+        """
+        kind, names = selector.kind, selector.names
+        if kind in COMPONENTS:
+            return self._component(COMPONENTS[kind], names[0], kind[-1])
+        if kind in MAGNITUDES:
+            plan = MAGNITUDES[kind]
+            about = names[1] if len(names) > 1 else POLE
+            return Answer(self._value(plan, about, names[0]))
+        if kind in PLANS:
+            return self._length(PLANS[kind], *names)
+        if kind in ("an", "at"):
+            link, arm = self.arm(*names)
+            rates, power = (self.kin.omega, 2) if kind == "an" else (self.kin.epsilon, 1)
+            return Answer(self.compute((rates[link], power), *arm) if link in rates else self.zero)
+        if kind in ("ak", "ar"):
+            return Answer(self._relative(kind, *names))
+        (link,) = names
+        if link not in self.solution.links:
+            raise UnansweredError(Why.NO_LINK)
+        rates = self.kin.omega if kind == "omega" else self.kin.epsilon
+        return Answer(rates.get(link, self.zero), signed=True)
+
+    @property
+    def zero(self) -> NumberName:
+        """The number zero."""
+        return self.draft.known(ZERO, 0.0)
+
+    def _component(self, plan: PlanKind, name: str, axis: str) -> Answer:
+        pole, head = self.point(plan, POLE), self.point(plan, name)
+        angle = self.draft.known(f"angle_{axis}", 0.0 if axis == "x" else 90.0)
+        line = self.b.at_angle(pole, None, angle)
+        length = self.b.measure_along(f"asked{len(self.b.steps)}", pole, head, line)
+        return Answer(self.compute((self._scale(plan), 1), (length, 1)), signed=True)
+
+    def _scale(self, plan: PlanKind) -> NumberName:
+        return self.draft.mu_l if plan is PlanKind.POSITION else self._segments[plan].scale
+
+    def _value(self, plan: PlanKind, tail: str, head: str) -> NumberName:
+        one, two = self.point(plan, tail), self.point(plan, head)
+        if one == two:
+            return self.zero
+        return self._segments[plan].value(one, two, f"asked{len(self.b.steps)}")
+
+    def _length(self, plan: PlanKind, tail: str, head: str) -> Answer:
+        one, two = self.point(plan, tail), self.point(plan, head)
+        if one == two:
+            return Answer(self.zero, plan)
+        if plan is not PlanKind.POSITION:
+            return Answer(self._segments[plan].length(one, two), plan)
+        return Answer(self.drawn(one, two), plan)
+
+    def drawn(self, one: PointName, two: PointName) -> NumberName:
+        """Return a distance on the position plan as it was laid off, or is read; mm."""
+        for step in self.b.steps:
+            if isinstance(step, LayOff) and (step.origin, step.out) == (one, two):
+                return step.length
+        return self.draft.measured(one, two)
+
+    def arm(self, point: str, about: str) -> tuple[str, tuple[tuple[NumberName, int], ...]]:
+        """Return the link that joins two points, and the factors of their distance, m.
+
+        As on paper: a given length is taken as given, another one is read off the drawing.
+        """
+        heads, tails = self._places(point), self._places(about)
+        link = next((k for k in heads if k in tails and k != FRAME), None)
+        if link is None:
+            raise UnansweredError(Why.NO_LINK)
+        head, tail = heads[link], tails[link]
+        if {head, tail} <= set(self.solution.problem.bodies[link].points):
+            return link, ((self.draft.length(link, head, tail), 1),)
+        drawn = self.drawn(PointName(tail), PointName(head))
+        return link, ((drawn, 1), (self.draft.mu_l, 1))
+
+    def point(self, plan: PlanKind, name: str) -> PointName:
+        """Return the plan point of a point's name; the pole of the position plan is the origin."""
+        motion = self.kin.acceleration if plan is PlanKind.ACCELERATION else self.kin.velocity
+        if name == POLE:
+            return motion.pole  # the velocity plan's lies at 0 on the paper, as the origin does
+        if name not in self.kin.velocity.named:
+            raise UnansweredError(Why.NO_POINT)
+        link, place = self.kin.velocity.named[name]
+        return PointName(place) if plan is PlanKind.POSITION else motion.point[link, place]
+
+    def _places(self, name: str) -> dict[str, str]:
+        """Return where a name is on each link that has it: link to place of the drawing."""
+        motion = self.kin.velocity
+        return {link: place for link, place in motion.point if motion.label(link, place) == name}
+
+    def _relative(self, letter: str, one: str, other: str) -> NumberName:
+        label = self.kin.velocity.label
+        for relative in self.kin.relatives.values():
+            place = relative.point
+            if {one, other} == {label(relative.of, place), label(relative.to, place)}:
+                size = self.solution.legend[relative.label(letter)].size
+                assert size is not None
+                return size
+        raise UnansweredError(Why.NO_SLIDING)

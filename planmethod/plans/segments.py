@@ -1,0 +1,111 @@
+"""Segments of a plan: how long each is, what it stands for, which step tells (отрезки плана).
+
+A segment has one length, whoever needs it: what it was laid off to, else what the ruler gives. So
+nothing that was laid off is read, and nothing is read twice.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from planmethod.construct.program import Builder
+from planmethod.construct.steps import LineName, NumberName, PointName
+
+Ends: TypeAlias = tuple[PointName, PointName]
+
+
+@dataclass(slots=True)
+class Segments:
+    """Segments of one plan, or of plans with one scale.
+
+    Attributes
+    ----------
+    b : Builder
+    scale : NumberName
+        What a millimetre stands for.
+    prefix : str
+        What the names of its values begin with.
+    lengths : dict of (PointName, PointName) to NumberName
+        Length of a segment, mm.
+    values : dict of (PointName, PointName) to NumberName
+        What a segment stands for, in the unit of the plan: computed before it was laid off, or from
+        its length. Lengths and values are signed where a segment lies on a line along which the
+        sign is wanted.
+    """
+
+    b: Builder
+    scale: NumberName
+    prefix: str = ""
+    lengths: dict[Ends, NumberName] = field(default_factory=dict)
+    values: dict[Ends, NumberName] = field(default_factory=dict)
+    _measured: set[NumberName] = field(default_factory=set)
+
+    def on(self, b: Builder) -> Segments:
+        """Return the same segments for a construction that goes on from here."""
+        return replace(
+            self,
+            b=b,
+            lengths=dict(self.lengths),
+            values=dict(self.values),
+            _measured=set(self._measured),
+        )
+
+    def compute(
+        self, name: str, *powers: tuple[NumberName, int], factor: float = 1.0, size: bool = False
+    ) -> NumberName:
+        """Compute a number under a name that no value has yet."""
+        name = self.prefix + name
+        while name in self.values.values():
+            name += "*"
+        return self.b.compute(name, *powers, factor=factor, size=size)
+
+    def length(self, tail: PointName, head: PointName) -> NumberName:
+        """Return the length of a segment, mm; it is measured when nothing before tells it."""
+        if (tail, head) in self.lengths or (head, tail) in self.lengths:
+            return self.drawn((tail, head))
+        name = self.b.measure(f"|{tail}–{head}|", tail, head)
+        self.lengths[tail, head] = name
+        self._measured.add(name)
+        return name
+
+    def value(self, tail: PointName, head: PointName, name: str) -> NumberName:
+        """Return what a segment stands for; ``name`` is what it is called if it is new."""
+        if (tail, head) in self.values or (head, tail) in self.values:
+            return self.known((tail, head))
+        length = self.length(tail, head)
+        self.values[tail, head] = self.compute(name, (self.scale, 1), (length, 1))
+        return self.values[tail, head]
+
+    def read(self, ends: Ends) -> NumberName | None:
+        """Return the length that the ruler gives of a segment, mm; None of what was laid off."""
+        length = self.length(*ends)
+        return length if length in self._measured else None
+
+    def drawn(self, ends: Ends) -> NumberName:
+        """Return the length of a segment that has been drawn and read, mm."""
+        return self.lengths[ends] if ends in self.lengths else self.lengths[ends[::-1]]
+
+    def known(self, ends: Ends) -> NumberName:
+        """Return what a segment stands for that has been drawn and read."""
+        return self.values[ends] if ends in self.values else self.values[ends[::-1]]
+
+    def read_along(self, tail: PointName, head: PointName, line: LineName, name: str) -> NumberName:
+        """Read a segment along its line, with a sign, and return what it stands for."""
+        length = self.b.measure_along(f"|{tail}–{head}|{line}", tail, head, line)
+        value = self.compute(name, (self.scale, 1), (length, 1))
+        self.lengths[tail, head], self.values[tail, head] = length, value
+        self._measured.add(length)
+        return value
+
+    def lay_off(self, out: str, start: PointName, along: LineName, value: NumberName) -> PointName:
+        """Lay off a vector of a computed size along a line."""
+        length = self.b.compute(f"|{out}|", (value, 1), (self.scale, -1))
+        end = self.b.lay_off(out, start, along, length)
+        self.lengths[start, end], self.values[start, end] = length, value
+        return end
+
+    def same(self, tail: PointName, head: PointName, of: Ends) -> None:
+        """Note that a segment is another one, carried to its place."""
+        self.lengths[tail, head] = self.drawn(of)
+        self.values[tail, head] = self.known(of)

@@ -1,0 +1,34 @@
+"""Pictures with their letters put around them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planmethod.render.ink.drawing import Item
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.labels import Label, place_labels
+from planmethod.render.layout.block import Picture
+
+ROOMS = (26.0, 60.0)
+"""Room around a picture for its letters, mm: more where they find no free place in less."""
+
+
+def lettered(
+    items: Sequence[Item], labels: Sequence[Label], *, clear: Sequence[Item] = ()
+) -> Picture:
+    """Return a picture of items with their labels in free places around them.
+
+    ``clear`` is what the labels keep clear of though it is not drawn, as long as there is room.
+    """
+    left, low, right, high = ink_bounds(items)
+    for hidden in (clear, ()) if clear else ((),):
+        for room in ROOMS:
+            bounds = (left - room, low - room, right + room, high + room)
+            placed = place_labels(labels, [*items, *hidden], bounds)
+            if all(label.free for label in placed):
+                break
+        else:
+            continue
+        break
+    whole = [*items, *(item for label in placed for item in label.items())]
+    return Picture(tuple(whole), ink_bounds(whole))

@@ -1,0 +1,79 @@
+"""The order of imports that the contracts of import-linter do not see."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from graphlib import TopologicalSorter
+
+from worked import ROOT
+
+FILES = {
+    ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
+    for path in sorted((ROOT / "planmethod").rglob("*.py"))
+}
+
+OPEN = {module for module in FILES if module.startswith("planmethod.solved.")}
+"""Modules that still go round in a circle."""
+
+LATE_IN = ("planmethod.commands.", "planmethod.options", "planmethod.render.backends")
+"""Where imports stand in functions: a command or a format imports what it uses when it is used."""
+
+LATE_OF = {
+    # Only problems with loads have forces, only some ask for the drafting errors.
+    "planmethod.note.audit.forces": "forces",
+    "planmethod.note.narrate.forces": "forces",
+    "planmethod.note.records.forcecolumns": "forces",
+    "planmethod.note.tables.causes": "drafting errors",
+    "planmethod.note.tables.forces": "forces",
+    "planmethod.problem.dynamics": "forces",
+    "planmethod.solved": "forces, drafting errors, the trust in float64",
+    "planmethod.construct.drafting": "the hand",
+    "planmethod.note.wording": "words of drafting errors",
+    "planmethod.render.ink.lettering.skeleton": "strokes of letters that a format asks for",
+    # Third parties that take long to import; a mistake in a file is rare.
+    "difflib": "hints",
+    "importlib.resources": "templates",
+    "mpmath": "the referee",
+    "shapely": "areas",
+    "tomllib": "descriptions of compositions",
+}
+"""What may be imported in a function elsewhere, and who needs it: not every run does."""
+
+
+def imports(body: ast.AST) -> Iterator[tuple[str, int]]:
+    """Yield what is imported anywhere below a node, names of a package as modules of it."""
+    for node in ast.walk(body):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, node.lineno) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.module is not None and not node.level, "imports are absolute"
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in FILES else node.module, node.lineno
+
+
+def parsed(module: str) -> ast.Module:
+    return ast.parse(FILES[module].read_text("utf-8"))
+
+
+def test_an_import_in_a_function_is_of_what_few_runs_need() -> None:
+    late = [
+        f"{FILES[module].relative_to(ROOT)}:{line} imports {name}"
+        for module in FILES
+        if not module.startswith(LATE_IN)
+        for function in ast.walk(parsed(module))
+        if isinstance(function, ast.FunctionDef)
+        for name, line in imports(function)
+        if not any(f"{name}.".startswith(f"{known}.") for known in LATE_OF)
+    ]
+    assert not late, "put these at the head of the file, or say in LATE_OF who alone needs them"
+
+
+def test_no_module_imports_itself_through_others() -> None:
+    # Import-linter looks at siblings; a package and its own modules are seen here.
+    graph = {
+        module: {name for name, _ in imports(parsed(module)) if name in FILES and name not in OPEN}
+        for module in FILES.keys() - OPEN
+    }
+    TopologicalSorter(graph).prepare()  # raises CycleError, with the circle
