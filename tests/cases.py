@@ -31,7 +31,7 @@ def thinned(cases: Sequence[T], step: int) -> Sequence[T]:
 
 
 def each(names: str, cases: Iterable[Any]) -> Callable[[Test], Test]:
-    """Run a test over many cases as one; a failure names its case.
+    """Run a test over many cases as one; the first failure is raised and names all that fail.
 
     Like ``pytest.mark.parametrize``, for cases that are quicker than what pytest spends on a case.
     The cases share the fixtures of the test. One that skips itself is left out; if all do, so does
@@ -51,15 +51,18 @@ def each(names: str, cases: Iterable[Any]) -> Callable[[Test], Test]:
     def join(test: Test) -> Test:
         @functools.wraps(test)
         def run(*args: Any, **given: Any) -> None:
-            skipped = []
+            skipped, faults = [], []
             for row in rows:
                 try:
                     test(*args, **row, **given)
                 except pytest.skip.Exception as reason:
                     skipped.append(reason)
-                except BaseException as fault:
-                    fault.add_note(", ".join(f"{key} = {value!r}" for key, value in row.items()))
-                    raise
+                except (Exception, pytest.fail.Exception) as fault:
+                    faults.append(fault)
+                    case = ", ".join(f"{key} = {value!r}" for key, value in row.items())
+                    faults[0].add_note(case)
+            if faults:
+                raise faults[0]
             if len(skipped) == len(rows):
                 raise skipped[0]
 

@@ -108,7 +108,7 @@ def spoiled(draw: st.DrawFn) -> dict[str, Any]:
     return table
 
 
-@settings(FEW, max_examples=some(500, few=150))
+@settings(FEW, max_examples=some(1000, few=500))
 @given(spoiled())
 def test_spoiled_files(table: dict[str, Any]) -> None:
     try_read(table)
