@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import Compute, NumberName, PointName, Similar
-from planmethod.note.narrate.letters import segment
+from planmethod.note.narrate.letters import mark, segment
 from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
-from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
-from planmethod.plans.motion.board import PREFIX, mark
+from planmethod.plans.model import Known, PlanKind, Relation, Vector, VectorEquation, VectorKind
+from planmethod.plans.motion.board import PREFIX
 from planmethod.plans.motion.leads import Relative, Turning
 from planmethod.problem.model import Convention
 from planmethod.solved.solution import Solution
@@ -132,7 +132,7 @@ class Calculation:
         made = self.solution.construction.step(self.segments.drawn((vector.tail, vector.head)))
         if not isinstance(made, Compute):
             return None
-        if vector.note.startswith("∥"):
+        if vector.direction is not None and vector.direction.relation is Relation.ALONG:
             return ""
         return self._about(vector)
 
@@ -144,7 +144,7 @@ class Calculation:
 
     def _components(self, vector: Vector) -> tuple[Vector, ...] | None:
         """Return the components of an absolute vector when all are known beforehand."""
-        if vector.kind is not VectorKind.ABSOLUTE or vector.note:
+        if vector.kind is not VectorKind.ABSOLUTE or vector.direction:
             return None
         ends = (vector.tail, vector.head)
         for equation in self.plan.equations:
@@ -155,14 +155,9 @@ class Calculation:
     def _about(self, vector: Vector) -> str | None:
         """Return the formula of a component of turning about a point: omega·l, omega²·l, eps·l."""
         bodies = self.solution.problem.bodies
-        note = vector.note.replace("_{", "").replace("}", "")
-        arrow = note.partition("→")
-        ends = (arrow[0].strip(), arrow[2].strip())
-        if vector.kind is not VectorKind.NORMAL:
-            letters = note.partition(" ")[2]
-            cuts = [(letters[:k], letters[k:]) for k in range(1, len(letters))]
-            shared = [c for c in cuts if any(set(c) <= set(b.points) for b in bodies.values())]
-            ends = shared[0] if shared else ends
+        if vector.direction is None or len(vector.direction.points) != 2:
+            return None
+        ends = vector.direction.points
         for link, body in bodies.items():
             if set(ends) <= set(body.points) and ends[0] != ends[1]:
                 return self._formula(vector, link, ends)
@@ -171,8 +166,9 @@ class Calculation:
                 return self._formula(vector, link, ends)
         return None
 
-    def _formula(self, vector: Vector, link: str, ends: tuple[str, str]) -> str:
-        arm, metres = self._length(*ends), _given(round(self._distance(*ends), 9))
+    def _formula(self, vector: Vector, link: str, ends: tuple[str, ...]) -> str:
+        p, q = ends
+        arm, metres = self._length(p, q), _given(round(self._distance(p, q), 9))
         velocity = self.kind is PlanKind.VELOCITY
         normal = vector.kind is VectorKind.NORMAL
         letter = "ω" if velocity or normal else "ε"

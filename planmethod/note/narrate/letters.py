@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import PointName
-from planmethod.plans.model import Plan, PlanKind
+from planmethod.plans.model import Direction, Plan, PlanKind, Relation
 from planmethod.problem.model import Convention, Problem
+
+SIGN = {Relation.ALONG: "∥", Relation.ACROSS: "⊥"}
 
 
 def _is_primed(problem: Problem, kind: PlanKind) -> bool:
@@ -40,3 +42,24 @@ def segment(problem: Problem, plan: Plan, tail: PointName, head: PointName) -> s
     """Return a segment by its ends' first letters: ``(bc)``."""
     letters = shown_letters(problem, plan)
     return f"({letters[tail][0]}{letters[head][0]})"
+
+
+def mark(*points: str) -> str:
+    """Return names of mechanism points in rich text: ``mark("O3", "A")`` gives ``O_{3}A``."""
+    return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)
+
+
+def direction_text(direction: Direction | None) -> str:
+    """Return a direction as it stands under a term, in rich text: ``⊥ BC``, ``C → B``, ``= 0``."""
+    if direction is None:
+        return ""
+    base = direction.guide or mark(*direction.points)
+    match direction.relation:
+        case Relation.STILL:
+            return "= 0"
+        case Relation.TOWARDS:
+            return " → ".join(mark(point) for point in direction.points)
+        case Relation.ANGLED:
+            return f"∠ {direction.angle:.4g}° {base}"
+        case Relation.ALONG | Relation.ACROSS:
+            return f"{SIGN[direction.relation]} {base}"

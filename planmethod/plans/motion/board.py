@@ -12,7 +12,15 @@ from dataclasses import dataclass, field
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
-from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
+from planmethod.plans.model import (
+    STILL,
+    Direction,
+    Known,
+    PlanKind,
+    Vector,
+    VectorEquation,
+    VectorKind,
+)
 from planmethod.plans.segments import Segments
 
 PREFIX = {PlanKind.VELOCITY: "v:", PlanKind.ACCELERATION: "a:"}
@@ -33,11 +41,6 @@ def letter(point: str) -> str:
     if head in "pπ" and not tail:
         return f"{head}_{{{point}}}"
     return f"{head}_{{{tail}}}" if tail else head
-
-
-def mark(*points: str) -> str:
-    """Return names of mechanism points in rich text: ``mark("O3", "A")`` gives ``O_{3}A``."""
-    return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)
 
 
 def _number(vector: Vector) -> str:
@@ -151,9 +154,9 @@ class Motion:
 
     def absolute(self, name: str, at: PointName, known: Known = Known.BOTH) -> Vector:
         """Return the vector of a point from the pole."""
-        note = "= 0" if at == self.pole else ""
+        direction = STILL if at == self.pole else None
         symbol = f"{SYMBOL[self.kind]}_{{{name}}}"
-        return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, note))
+        return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, direction))
 
 
 def plain_letter(motion: Motion, point: PointName) -> str:
@@ -180,7 +183,7 @@ class Ray:
         That line.
     terms : tuple of Vector
         Terms of the equation laid off before the line.
-    unknown : (symbol, VectorKind, note)
+    unknown : (symbol, VectorKind, Direction)
         What is found along the line.
     name : str
         What the number is called that is read off the line, signed along it.
@@ -189,10 +192,10 @@ class Ray:
     start: PointName
     line: LineName
     terms: tuple[Vector, ...]
-    unknown: tuple[str, VectorKind, str]
+    unknown: tuple[str, VectorKind, Direction]
     name: str
 
     def close(self, motion: Motion, head: PointName) -> Vector:
         """Return the unknown component, its end being found."""
-        symbol, kind, note = self.unknown
-        return motion.add(Vector(symbol, kind, self.start, head, Known.ONE, note))
+        symbol, kind, direction = self.unknown
+        return motion.add(Vector(symbol, kind, self.start, head, Known.ONE, direction))

@@ -14,7 +14,7 @@ from planmethod.plans.motion.leads import (
     read_sliding,
     read_turning,
     revolute_ray,
-    track_note,
+    track_direction,
     turn_about,
 )
 from planmethod.plans.motion.position import (
@@ -48,8 +48,8 @@ def drive_motion(kin: Kinematics, motion: Motion) -> None:
         along = b.parallel(motion.pole, kin.draft.direction(slide))
         head = motion.segments.lay_off(out, motion.pole, along, rate)
         symbol = f"{SYMBOL[motion.kind]}_{{{slide.pin}}}"
-        note = track_note(slide, kin.draft.problem)
-        motion.add(Vector(symbol, VectorKind.ABSOLUTE, motion.pole, head, Known.BOTH, note))
+        direction = track_direction(slide, kin.draft.problem)
+        motion.add(Vector(symbol, VectorKind.ABSOLUTE, motion.pole, head, Known.BOTH, direction))
         motion.put(drive.link, slide.pin, head)
     carry_rest(kin, motion, (drive.link,))
 

@@ -19,6 +19,7 @@ from planmethod.note.narrate.forces.guides import place_lines
 from planmethod.note.narrate.forces.lever_lines import lever_lines
 from planmethod.note.narrate.forces.moment_lines import moment_lines
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+from planmethod.note.narrate.letters import direction_text
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import wording
 from planmethod.plans.forces.polygons import ForcePlan, Share
@@ -198,7 +199,7 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     balances: list[Block] = []
     for balance in plan.balances:
         terms = [
-            (edge.symbol, edge.known, edge.note)
+            (edge.symbol, edge.known, direction_text(edge.direction))
             for edge in balance.edges
             if edge.known is not Known.BOTH or not reading.is_none(edge)
         ]
