@@ -1,10 +1,15 @@
-# make demo: everything from nothing to the drawn sheets; make test: the whole suite; make lint: what CI demands;
-# make bench: speed and errors measured anew (minutes, on a quiet machine).
+# make demo: everything from nothing to the drawn sheets; make test: the whole suite; make test-thorough: with all random
+# mechanisms and many more examples; make lint: what CI demands; make bench: speed and errors measured anew (minutes, on a
+# quiet machine).
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint format tables gallery bench clean
+# A file of tests is run by one worker, which solves and draws what they share once. Bytecode is kept, and out of the
+# tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
+TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
+
+.PHONY: demo test test-thorough lint format tables gallery bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -16,7 +21,10 @@ demo: $(VENV)/.ready
 	$(BIN)/planmethod sheet --format svg,pdf -o out problems/linkages/*.toml problems/levers/*.toml problems/press/*.toml
 
 test: $(VENV)/.ready
-	$(BIN)/python -m pytest -n 2
+	$(TESTS)
+
+test-thorough: $(VENV)/.ready
+	$(TESTS) --thorough
 
 lint: $(VENV)/.ready
 	$(BIN)/ruff check .

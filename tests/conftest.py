@@ -1,14 +1,30 @@
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from pathlib import Path
 
+import cases
 import pytest
 from hypothesis import settings
 
 # A slow machine is no failure, and a run is like the one before it.
-settings.register_profile("planmethod", deadline=None, derandomize=True)
-settings.load_profile("planmethod")
+settings.register_profile("planmethod", deadline=None, derandomize=True, max_examples=40)
+settings.register_profile("thorough", deadline=None, derandomize=True, max_examples=200)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--thorough", action="store_true", help="all random mechanisms, many more examples"
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    thorough = bool(config.getoption("--thorough"))
+    settings.load_profile("thorough" if thorough else "planmethod")
+    cases.take(everything=thorough)
+    # As in the commands: what the tests share is large, and looking for cycles in it a twentieth.
+    gc.set_threshold(100_000)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cases import each, some
 from newton import NotClosedError, differentiate, residual, solve
 
 from benchmarks.generator import random_problem
@@ -13,7 +14,7 @@ from planmethod.mechanism.structure import analyse
 from planmethod.problem import loads
 from planmethod.problem.model import Problem, Where
 
-SEEDS = range(200)
+SEEDS = range(some(200, few=100))
 
 Pose = dict[str, tuple[float, float, float]]
 
@@ -24,7 +25,7 @@ def made(seed: int) -> tuple[Problem, Pose]:
     return loads(text, name=f"random-{seed}"), pose
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_the_file_closes_at_the_drawn_pose(seed: int) -> None:
     problem, pose = made(seed)
     (position,) = problem.drive.positions
@@ -35,7 +36,7 @@ def test_the_file_closes_at_the_drawn_pose(seed: int) -> None:
         assert found.pose[link] == pytest.approx(wanted, abs=1e-10)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_the_referee_agrees_with_differences_of_its_positions(seed: int) -> None:
     problem, pose = made(seed)
     (position,) = problem.drive.positions
@@ -53,7 +54,7 @@ def test_the_same_seed_gives_the_same_mechanism() -> None:
     assert random_problem(5) != random_problem(6)
 
 
-def test_everything_occurs_at_least_ten_times() -> None:
+def test_everything_occurs_several_times() -> None:
     seen: Counter[str] = Counter()
     for seed in SEEDS:
         problem, _ = made(seed)
@@ -88,7 +89,7 @@ def test_everything_occurs_at_least_ten_times() -> None:
     wanted += ["outer, the known link slides", "outer, the group's link slides"]
     wanted += ["guide on a moving link", "guide on the frame", *(where.value for where in Where)]
     wanted.remove(Where.PARALLEL.value)  # no random dyad happens to be one
-    assert {name: seen[name] for name in wanted if seen[name] < 10} == {}
+    assert {name: seen[name] for name in wanted if seen[name] < some(10, few=4)} == {}
 
 
 def test_a_turning_guide_has_the_transport_acceleration_of_its_coincident_point() -> None:

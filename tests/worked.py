@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
-from functools import cache
+from collections.abc import Sequence
+from functools import cache, lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from planmethod.problem import load
 from planmethod.problem.model import Problem
+
+if TYPE_CHECKING:
+    from planmethod.render.ink.drawing import Drawing
 
 ROOT = Path(__file__).resolve().parent.parent
 PROBLEMS = ROOT / "problems"
@@ -29,8 +33,32 @@ def path_of(name: str) -> Path:
 
 
 @cache
-def problem_of(name: str) -> Problem:
-    return load(path_of(name))
+def problem_of(name: str, variant: str | None = None) -> Problem:
+    return load(path_of(name), variant=variant)
+
+
+def drawn_sheets(
+    name: str,
+    positions: Sequence[float] | None = None,
+    *,
+    variant: str | None = None,
+    **asked: Any,
+) -> list[Drawing]:
+    """Return the kinematic sheets of a file, drawn once: nothing may be added to them."""
+    at = None if positions is None else tuple(positions)
+    return _drawn(name, variant, at, tuple(sorted(asked.items())))
+
+
+@lru_cache(maxsize=64)
+def _drawn(
+    name: str,
+    variant: str | None,
+    positions: tuple[float, ...] | None,
+    asked: tuple[tuple[str, Any], ...],
+) -> list[Drawing]:
+    from planmethod.render.sheets.kinematics import kinematics_sheets
+
+    return kinematics_sheets(problem_of(name, variant), positions=positions, **dict(asked))
 
 
 @cache

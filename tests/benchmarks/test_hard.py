@@ -7,6 +7,7 @@ import re
 from dataclasses import replace
 
 import pytest
+from cases import thinned
 
 from benchmarks import hard_problems as texts
 from benchmarks.hard import HardCase, HardRow, Outcome, run
@@ -68,9 +69,12 @@ def is_dead(row: HardRow) -> bool:
 
 @pytest.mark.parametrize("name", CASES)
 def test_every_row_is_good_or_told(name: str) -> None:
+    """By default of every third row and of those that are dead exactly."""
     case = CASES[name]
-    labels = [row.label for row in case.rows if (name, row.label) not in FAULTS]
-    for row in examined(case, *labels):
+    labels = [row.label for row in case.rows]
+    taken = {*thinned(labels, 3), *(label for label in labels if "exactly" in label)}
+    known = {label for case, label in FAULTS if case == name}
+    for row in examined(case, *(taken - known)):
         hold(row)
 
 

@@ -204,7 +204,7 @@ def numbers(page: str) -> tuple[str, ...]:
 
 
 def test_several_sheets_are_pages_of_one_pdf() -> None:
-    done = run("sheet", EX2, "--phi", "0:360:15", "--format", "svg,pdf,dxf")
+    done = run("sheet", EX2, "--phi", "0:360:27", "--format", "svg,pdf,dxf")
     assert done.exit_code == 0
     names = sorted(path.name for path in Path("out").iterdir())
     assert names == ["ex2-2.dxf", "ex2-2.svg", "ex2.dxf", "ex2.pdf", "ex2.svg"]

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cases import each
 from worked import every_file
 
 from benchmarks.generator import random_problem
@@ -187,7 +188,7 @@ def both(
     return line, out
 
 
-@pytest.mark.parametrize("seed", range(60))
+@each("seed", range(60))
 def test_a_tape_is_what_it_was_made_of(seed: int) -> None:
     rng, tape = random.Random(seed), Tape()
     made = drawn(rng, tape, 40)

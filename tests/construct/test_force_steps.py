@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cases import each
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -232,9 +233,9 @@ def test_nothing_is_nothing_on_every_sheet() -> None:
 STEP = 1e-6
 
 
-@pytest.mark.parametrize("name", EVERY)
-@pytest.mark.parametrize("cause", [*LETTERS, "k"])
-@pytest.mark.parametrize("end", [DATA["Q"], DATA["P"]], ids=["vector", "nothing"])
+@each("name", EVERY)
+@each("cause", [*LETTERS, "k"])
+@each("end", [DATA["Q"], DATA["P"]])
 def test_slopes_are_finite_differences(name: str, cause: str, end: complex) -> None:
     """Also where the vector is nothing: what moves its end gives a moment all the same."""
     program = EVERY[name]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
+from cases import each, some
 from loaded import loaded_problem
 from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
@@ -27,7 +28,7 @@ from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
-SEEDS = range(30)
+SEEDS = range(some(30, few=15))
 """Random loaded mechanisms: enough for every dyad and for a driving slider."""
 
 SENTENCES = {
@@ -137,8 +138,8 @@ def test_worked_mechanisms_are_readable(name: str, lang: str) -> None:
     assert_readable(protocol(worked(name), lang=lang))
 
 
-@pytest.mark.parametrize("lang", LANGUAGES)
-@pytest.mark.parametrize("seed", SEEDS)
+@each("lang", LANGUAGES)
+@each("seed", SEEDS)
 def test_any_loaded_mechanism_is_readable(seed: int, lang: str) -> None:
     text = protocol(random_loaded(seed), lang=lang)
     assert_readable(text)
@@ -177,7 +178,7 @@ def test_every_formula_gives_what_stands_after_it() -> None:
             value, size = computed(found["sum"])
             assert number(found["value"]) == pytest.approx(value, abs=1.2e-3 * abs(size)), found[0]
             count += 1
-    assert count > 900
+    assert count > some(900, few=450)
 
 
 EXACTLY = re.compile(
@@ -201,7 +202,7 @@ def test_with_a_fine_ruler_all_forces_are_exact() -> None:
             step = 0.06 * statics_of(solution).scale.per_mm
             assert abs(value - exact) <= 2e-3 * abs(exact) + (step if exact < peak else 0.0)
             count += 1
-    assert count > 400
+    assert count > some(400, few=200)
 
 
 @pytest.mark.parametrize("name", LOADED)
@@ -252,7 +253,7 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
             if "с концом у" not in flat(part):
                 assert order == [plain_text(edge.symbol) for edge in asked]
             count += len(laid)
-    assert count > 300
+    assert count > some(300, few=150)
 
 
 def test_every_reaction_is_told_from_end_to_end() -> None:
@@ -288,7 +289,7 @@ def test_a_tangential_reaction_turns_its_link_as_told() -> None:
                 sense = "против часовой стрелки" if turn > 0 else "по часовой стрелке"
                 assert senses[plain_text(edge.symbol), str(equation.about)] == sense
                 count += 1
-    assert count > 30
+    assert count > some(30, few=15)
 
 
 ACTS = re.compile(
@@ -314,7 +315,7 @@ def test_the_force_of_a_guide_acts_where_it_is_told() -> None:
             assert number(told_of[0]["distance"]) == pytest.approx(abs(away), rel=1e-2)
             assert (away * AHEAD[told_of[0]["side"]].conjugate()).real >= 0.7 * abs(away)
             count += 1
-    assert count > 10
+    assert count > some(10, few=5)
 
 
 # The sheet ----------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ from functools import cache
 from math import atan2, degrees, hypot, pi, sqrt
 
 import pytest
+from cases import each
 from loaded import with_resultant
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
@@ -104,7 +105,7 @@ EXACT = {
 }
 
 
-@pytest.mark.parametrize(("what", "value"), EXACT.items())
+@each("what, value", EXACT.items())
 def test_exact_values_of_forces(what: str, value: float) -> None:
     assert kulisa().exact(parse_selector(what)) == pytest.approx(value, rel=1e-12, abs=1e-11)
 

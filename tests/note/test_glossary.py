@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
+from cases import each
 
 ROOT = Path(__file__).parents[2]
 GLOSSARY = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8").casefold()
@@ -28,7 +28,7 @@ def classes() -> Iterator[tuple[str, str]]:
                             yield f"{module.stem}.{node.name}", term.strip()
 
 
-@pytest.mark.parametrize(("name", "term"), sorted(set(classes())))
+@each("name, term", sorted(set(classes())))
 def test_every_russian_term_of_a_class_is_in_the_glossary(name: str, term: str) -> None:
     assert term.casefold() in GLOSSARY, f"{name}: add '{term}' to docs/glossary.md"
 

@@ -6,6 +6,7 @@ from functools import cache
 from math import sqrt
 
 import pytest
+from cases import each
 from slotted import R, problem_of
 
 from planmethod.note.audit.asking import UnansweredError, Why
@@ -58,7 +59,7 @@ EXACT = {
 }
 
 
-@pytest.mark.parametrize(("what", "value"), EXACT.items())
+@each("what, value", EXACT.items())
 def test_exact_values_of_selectors(what: str, value: float) -> None:
     assert kulisa().exact(parse_selector(what)) == pytest.approx(value, rel=1e-12, abs=1e-12)
 

@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cases import each, some
 from told import LANGUAGES, assert_readable, drawn, flat, worked
 from worked import SIX, problem_of
 
@@ -72,7 +73,7 @@ def test_an_error_has_one_or_two_digits(sigma: float, text: str) -> None:
     assert sigma_text(sigma) == text
 
 
-@pytest.mark.parametrize("sigma", list(np.geomspace(1e-5, 9e5, 200)))
+@each("sigma", list(np.geomspace(1e-5, 9e5, 200)))
 def test_an_error_is_written_to_a_sixth_of_itself(sigma: float) -> None:
     shown = float(sigma_text(sigma))
     assert shown == pytest.approx(sigma, rel=0.17)
@@ -105,8 +106,8 @@ def test_tables_fit_the_terminal(name: str, lang: str) -> None:
     assert_readable(result_tables(worked(name), lang, sigma=True))
 
 
-@pytest.mark.parametrize("lang", LANGUAGES)
-@pytest.mark.parametrize("seed", range(40))
+@each("lang", LANGUAGES)
+@each("seed", range(some(40, few=15)))
 def test_tables_of_any_mechanism_fit_the_terminal(seed: int, lang: str) -> None:
     assert_readable(result_tables(drawn(seed), lang, sigma=True))
 
@@ -276,8 +277,8 @@ def test_the_largest_causes_of_the_worst_result(name: str, lang: str) -> None:
     ]
 
 
-@pytest.mark.parametrize("lang", LANGUAGES)
-@pytest.mark.parametrize("name", [*SIX, *range(25)])
+@each("lang", LANGUAGES)
+@each("name", [*SIX, *range(some(25, few=10))])
 def test_every_stroke_can_be_told(name: str | int, lang: str) -> None:
     """Every cause of every quantity has a name that a reader knows."""
     solution = drawn(name) if isinstance(name, int) else worked(name)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pytest
+from cases import each, some
 from told import LANGUAGES, assert_readable, drawn, worked
 from worked import SIX
 
@@ -21,7 +22,7 @@ def test_is_readable(name: str, lang: str) -> None:
     assert_readable(text_of(name, lang))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@each("seed", range(some(40, few=15)))
 def test_any_mechanism_is_readable(seed: int) -> None:
     solution = drawn(seed)
     text = structure_text(solution.problem.mechanism, solution.structure)

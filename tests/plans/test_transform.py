@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 import pytest
+from cases import each, some
 from moved import Move
 from worked import SIX, problem_of
 
@@ -87,7 +88,7 @@ MOVES = {
 }
 
 
-@pytest.mark.parametrize("move", MOVES.values(), ids=MOVES.keys())
+@each("move", MOVES.values())
 @pytest.mark.parametrize("name", SIX)
 def test_results_go_with_the_mechanism(name: str, move: Move) -> None:
     before = solved(name)
@@ -175,7 +176,7 @@ def test_a_driver_at_rest_moves_nothing(name: str) -> None:
         close(turning.epsilon, going.links[link].omega, 10.0, link)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@each("seed", range(some(60, few=30)))
 def test_random_mechanisms_go_with_a_random_motion(seed: int) -> None:
     rng = random.Random(f"motion {seed}")
     problem = loads(random_problem(seed)[0], name=f"random-{seed}")

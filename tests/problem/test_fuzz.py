@@ -7,6 +7,7 @@ import datetime
 import tomllib
 from typing import Any
 
+from cases import some
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mechanisms import CRANK, LOADED
@@ -43,7 +44,9 @@ values = st.recursive(
     max_leaves=12,
 )
 tables = st.dictionaries(keys, values, max_size=6)
-FEW = settings(deadline=None, max_examples=150, suppress_health_check=list(HealthCheck))
+FEW = settings(
+    deadline=None, max_examples=some(150, few=60), suppress_health_check=list(HealthCheck)
+)
 
 
 def try_read(table: dict[str, Any], variant: str | None = None) -> None:
@@ -105,7 +108,7 @@ def spoiled(draw: st.DrawFn) -> dict[str, Any]:
     return table
 
 
-@settings(FEW, max_examples=500)
+@settings(FEW, max_examples=some(1000, few=500))
 @given(spoiled())
 def test_spoiled_files(table: dict[str, Any]) -> None:
     try_read(table)
@@ -120,7 +123,7 @@ def test_random_variants(overrides: dict[str, Any], family: str) -> None:
     try_read(table, "v")
 
 
-@settings(FEW, max_examples=300)
+@settings(FEW, max_examples=some(300, few=80))
 @given(st.data())
 def test_spoiled_text(data: st.DataObject) -> None:
     text = data.draw(st.sampled_from(GOOD))

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from cases import each
 
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
 from planmethod.problem.model import Convention
@@ -170,12 +171,12 @@ SCHEMA_TABLES = {
 }
 
 
-@pytest.mark.parametrize("kind", keys.KNOWN)
+@each("kind", keys.KNOWN)
 def test_the_schema_has_exactly_the_keys_the_reader_knows(kind: str) -> None:
     assert set(SCHEMA_TABLES[kind]) == set(keys.KNOWN[kind])
 
 
-@pytest.mark.parametrize("kind", keys.KNOWN)
+@each("kind", keys.KNOWN)
 def test_every_key_is_documented(kind: str) -> None:
     rows = re.findall(r"^\| (`[^|]*`) \|", DOCS, re.MULTILINE)
     documented = {name.split(".")[-1] for row in rows for name in re.findall(r"`([^`]+)`", row)}
@@ -185,7 +186,7 @@ def test_every_key_is_documented(kind: str) -> None:
         assert set(keys.KNOWN[kind]) <= documented
 
 
-@pytest.mark.parametrize("kind", [*QUANTITIES, *FORCES])
+@each("kind", [*QUANTITIES, *FORCES])
 def test_every_quantity_is_documented(kind: str) -> None:
     assert re.search(rf"`{kind}[ `]", DOCS)
 

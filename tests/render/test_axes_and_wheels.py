@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import isclose, pi, tau
 
 import pytest
+from cases import each
 from shapely import LineString, Point, Polygon
 
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
@@ -50,7 +51,7 @@ def inked(items: list[Item], place: complex, room: float = 0.9) -> bool:
     )
 
 
-@pytest.mark.parametrize("halves", range(18, 160))
+@each("halves", range(18, 160))
 def test_centre_lines_cross_in_strokes(halves: int) -> None:
     radius, centre = halves / 2, 3 + 4j
     items = centre_lines(centre, radius)
@@ -92,8 +93,8 @@ def test_an_axis_is_crossed_in_a_stroke(place: float) -> None:
     assert inked(items, place + 0j) or len(met) == 2
 
 
-@pytest.mark.parametrize("radius", [6.0, 9.0, 14.5, 22.0, 61.0])
-@pytest.mark.parametrize("angle", [0.0, 1.0, pi, -2.0])
+@each("radius", [6.0, 9.0, 14.5, 22.0, 61.0])
+@each("angle", [0.0, 1.0, pi, -2.0])
 def test_a_pitch_circle_is_touched_in_a_stroke(radius: float, angle: float) -> None:
     (circle,) = pitch_circle(1j, radius, touch=1j + cmath.rect(radius, angle))
     assert isinstance(circle, Arc)

@@ -8,9 +8,10 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
+from cases import some
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from worked import ROOT, SIX, path_of, problem_of
+from worked import ROOT, SIX, drawn_sheets, path_of, problem_of
 
 from planmethod.errors import CompositionError, ExitCode, LayoutError
 from planmethod.note.wording import LANGUAGES, language
@@ -38,7 +39,7 @@ SHEETS = ROOT / "planmethod/render/sheets"
 
 
 def positions_of(name: str, layout: str) -> list[float] | None:
-    if layout not in ("many-positions", "coursework-12"):
+    if layout != "coursework-12":
         return None
     return [150.0 + 10.0 * k for k in range(12)] if name == "levers/six-link" else TURN
 
@@ -84,12 +85,11 @@ def test_the_shipped_are_the_files_that_lie_there() -> None:
 KINEMATIC = tuple(name for name in SHIPPED if not name.startswith("forces"))
 
 
-@pytest.mark.parametrize("layout", KINEMATIC)
+@pytest.mark.parametrize("layout", [name for name in KINEMATIC if name != "many-positions"])
 @pytest.mark.parametrize("name", SIX)
 def test_every_shipped_composition_draws_every_problem(name: str, layout: str) -> None:
-    sheets = kinematics_sheets(
-        problem_of(name), layout=layout, positions=positions_of(name, layout)
-    )
+    """The one of many positions is looked at with its sheets in ``test_sheets``."""
+    sheets = drawn_sheets(name, positions_of(name, layout), layout=layout)
     assert sheets
     for sheet in sheets:
         assert marks(sheet) == []
@@ -115,7 +115,7 @@ def test_what_is_taken_when_nothing_is_asked() -> None:
 
 def test_the_order_of_the_textbook() -> None:
     """The scheme upper left, Дано under it; the velocity plan right of it, the next one below."""
-    (sheet,) = kinematics_sheets(problem_of("levers/task12"), layout="homework")
+    (sheet,) = drawn_sheets("levers/task12", layout="homework")
     scheme, velocity, acceleration = (
         view(sheet, kind).box for kind in ("position", "velocity", "acceleration")
     )
@@ -130,7 +130,7 @@ def test_the_order_of_the_textbook() -> None:
 
 def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
     """The scheme left, velocity plans in two rows of six, accelerations below, then the table."""
-    (sheet,) = kinematics_sheets(problem_of("press/press"), layout="coursework-12", positions=TURN)
+    (sheet,) = drawn_sheets("press/press", TURN, layout="coursework-12")
     scheme, velocity, acceleration = (
         view(sheet, kind).box for kind in ("position", "velocity", "acceleration")
     )
@@ -152,7 +152,7 @@ def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
 @pytest.mark.parametrize("name", SIX)
 def test_a_plan_stands_with_its_equations_and_its_calculation(name: str) -> None:
     """Nothing else is in the hull of a plan, its equations and its calculation."""
-    (sheet,) = kinematics_sheets(problem_of(name))
+    (sheet,) = drawn_sheets(name)
     own = {}
     for kind, genitive in (("velocity", "скоростей"), ("acceleration", "ускорений")):
         box = view(sheet, kind).box
@@ -453,7 +453,7 @@ KEYS = st.sampled_from(
 )
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=some(400, few=200))
 @given(
     st.dictionaries(KEYS, VALUES, max_size=4),
     st.lists(st.tuples(st.sampled_from(list(BLOCKS)), st.dictionaries(KEYS, VALUES, max_size=4))),

@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cases import each, some
 from click.testing import CliRunner
 from loaded import loaded_problem
 from worked import path_of, problem_of
@@ -229,7 +230,7 @@ def test_chords_are_told() -> None:
     assert RU.sheets.chords in texts and errors(sheet) == []
 
 
-@pytest.mark.parametrize("seed", range(8))
+@each("seed", range(some(8, few=3)))
 def test_random_mechanisms(seed: int) -> None:
     """All dyads and driving sliders, every link loaded: a sheet without errors."""
     problem, _ = loaded_problem(seed)

@@ -15,15 +15,15 @@ from typing import Any
 
 import ezdxf
 import pytest
+from cases import each, thinned
 from click.testing import CliRunner, Result
 from reading import Path as Painted
 from reading import Run, read_dxf
-from worked import PROBLEMS, ROOT, SIX, every_file, path_of, problem_of
+from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.mechanism.structure import analyse
 from planmethod.plans.model import PlanKind, VectorKind
-from planmethod.problem import load
 from planmethod.render.backends import Options, render
 from planmethod.render.backends.dxf import LINE_TYPES
 from planmethod.render.backends.layers import LAYERS, layer_of
@@ -71,10 +71,12 @@ def program(*args: object) -> Result:
 # Whole sheets -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("options", [Options(), STROKES], ids=["text", "strokes"])
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [*((name, Options()) for name in FILES), *((name, STROKES) for name in thinned([*FILES], 4))],
+)
 def test_the_audit_of_every_sheet_has_nothing_to_say(name: str, options: Options) -> None:
-    for drawing in kinematics_sheets(load(FILES[name])):
+    for drawing in drawn_sheets(name):
         document = read(render(drawing, "dxf", options=options))
         found = document.audit()
         assert (found.errors, found.fixes) == ([], [])
@@ -87,7 +89,7 @@ def test_the_audit_of_every_sheet_has_nothing_to_say(name: str, options: Options
 
 def test_the_audit_of_sheets_with_a_dozen_positions_has_nothing_to_say() -> None:
     asked = [30.0 * k for k in range(12)]
-    for drawing in kinematics_sheets(problem_of("linkages/ex1"), positions=asked):
+    for drawing in drawn_sheets("linkages/ex1", asked):
         found = read(render(drawing, "dxf")).audit()
         assert (found.errors, found.fixes) == ([], [])
 
@@ -104,7 +106,7 @@ def test_the_structure_sheet_and_error_ellipses_are_drawn() -> None:
 
 @pytest.mark.parametrize("name", SIX)
 def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None:
-    (drawing,) = kinematics_sheets(problem_of(name))
+    (drawing,) = drawn_sheets(name)
     page = read_dxf(render(drawing, "dxf"))
     assert (page.width, page.height) == (drawing.width, drawing.height)
     runs = [item for item in page.items if isinstance(item, Run)]
@@ -135,7 +137,7 @@ def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None
 
 @pytest.mark.parametrize("name", SIX)
 def test_circles_and_arcs_of_a_sheet_are_where_they_were_put(name: str) -> None:
-    (drawing,) = kinematics_sheets(problem_of(name))
+    (drawing,) = drawn_sheets(name)
     found = []
     for entity in read(render(drawing, "dxf")).modelspace():
         parts = entity.virtual_entities() if entity.dxftype() == "INSERT" else [entity]
@@ -217,7 +219,7 @@ def test_a_force_of_a_plan_is_one_line_as_long_as_the_force_over_its_scale(
 
 
 def test_pb_of_the_third_example_is_64_mm() -> None:
-    (drawing,) = kinematics_sheets(problem_of("linkages/ex3"))
+    (drawing,) = drawn_sheets("linkages/ex3")
     space = read(render(drawing, "dxf")).modelspace()
     line = space.query('LINE[layer=="PLAN_VECTORS"]')[0]
     assert abs(point(line.dxf.end) - point(line.dxf.start)) == pytest.approx(64.0, abs=1e-9)
@@ -259,8 +261,8 @@ def test_layers_have_the_pens_and_line_types_the_dashes() -> None:
         assert (pattern[2:3] == (dashes.dot,)) == bool(dashes.dot)
 
 
-@pytest.mark.parametrize("pen", Pen)
-@pytest.mark.parametrize("tag", ["", "table", "stamp", "link 3", "guide", "similar"])
+@each("pen", Pen)
+@each("tag", ["", "table", "stamp", "link 3", "guide", "similar"])
 def test_a_line_looks_as_its_pen_on_every_layer(pen: Pen, tag: str) -> None:
     data = render(Drawing(50.0, 50.0, items=[Stroke((1 + 1j, 40 + 30j), pen, tag=tag)]), "dxf")
     document = read(data)
@@ -344,7 +346,7 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
 
 
 def test_the_words_of_a_sheet_are_found() -> None:
-    (drawing,) = kinematics_sheets(problem_of("linkages/ex3"))
+    (drawing,) = drawn_sheets("linkages/ex3")
     space = read(render(drawing, "dxf")).modelspace()
     words = {entity.plain_text() for entity in space.query("TEXT")}
     assert {"План скоростей", "План ускорений", "Кафедра ТММ", "Разраб."} <= words
@@ -371,7 +373,7 @@ def test_strokes_are_lines_with_the_extents_and_the_weight_of_the_letters() -> N
 
 @pytest.mark.parametrize("options", [Options(), STROKES], ids=["text", "strokes"])
 def test_the_same_bytes_twice(options: Options) -> None:
-    (drawing,) = kinematics_sheets(problem_of("linkages/ex3"))
+    (drawing,) = drawn_sheets("linkages/ex3")
     assert render(drawing, "dxf", options=options) == render(drawing, "dxf", options=options)
 
 

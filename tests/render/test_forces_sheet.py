@@ -13,7 +13,7 @@ from math import degrees
 
 import pytest
 from click.testing import CliRunner
-from worked import path_of, problem_of
+from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
 from planmethod.cli import cli
@@ -81,7 +81,7 @@ def loaded_template(name: str, centre: str, link: str, at: str, **changes: str) 
 
 @cache
 def sheet_of(name: str) -> Drawing:
-    (sheet,) = kinematics_sheets(problem_of(name), layout="forces")
+    (sheet,) = drawn_sheets(name, layout="forces")
     return sheet
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import pytest
+from cases import each
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from worked import ROOT
@@ -187,8 +188,8 @@ FULL = Furniture(graph_26=True, graphs_27_30=True, side_columns=True)
 ALL_FIELDS = {**FIELDS, "first_use": "ТММ.КП.12.00.00.000", "inventory": "1234", "reference": "5"}
 
 
-@pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("name", FORMATS)
+@each("form", FORMS)
+@each("name", FORMATS)
 def test_frame_is_20_mm_from_the_left_and_5_from_the_other_edges(name: str, form: str) -> None:
     fmt = FORMATS[name]
     for sheet in (1, 2):
@@ -206,7 +207,7 @@ def test_frame_is_20_mm_from_the_left_and_5_from_the_other_edges(name: str, form
         assert (ink[0], ink[1]) == pytest.approx((0, 0), abs=0.5)
 
 
-@pytest.mark.parametrize("name", FORMATS)
+@each("name", FORMATS)
 def test_notes_under_the_frame(name: str) -> None:
     fmt = FORMATS[name]
     below = [run for run in texts(sheet_frame(name).items) if run.tag == MARGIN_NOTE]

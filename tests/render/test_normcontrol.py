@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from functools import cache
+from pathlib import Path
 
 import pytest
-from worked import ROOT, every_file, problem_of
+from worked import ROOT, drawn_sheets, every_file, problem_of
 
 from planmethod.mechanism.structure import analyse
 from planmethod.note.wording import LANGUAGES, UnknownLanguageError, language
-from planmethod.problem import load, variant_names
-from planmethod.problem.model import Problem
+from planmethod.problem import variant_names
 from planmethod.render.control.remarks import REMARKS, Severity, unit_text
 from planmethod.render.control.sheet import inspect, unused_paper
 from planmethod.render.control.texts import Finding
@@ -37,7 +38,11 @@ from planmethod.render.ink.style import PENS
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import CUT
 from planmethod.render.sheets.control_report import control_text
-from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
+from planmethod.render.sheets.controlled import (
+    Controlled,
+    controlled_kinematics,
+    controlled_structure,
+)
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
 
@@ -275,27 +280,27 @@ def test_a_vector_that_is_nearly_zero_is_called_so() -> None:
     assert told["velocity"].facts["advice"] == "scale"
 
 
-def unscaled(name: str) -> Problem:
-    """Return a problem whose scale of forces is left to the program."""
+@cache
+def forces_at(name: str, mu_F: float | None) -> Controlled:
+    """Return the sheet of forces at a scale, N/mm; ``None`` leaves it to the program."""
     problem = problem_of(name)
-    return replace(problem, scales=replace(problem.scales, mu_F=None))
+    scaled = replace(problem, scales=replace(problem.scales, mu_F=mu_F))
+    (whole,) = controlled_kinematics(scaled, layout="forces")
+    return whole
 
 
 @pytest.mark.parametrize("name", ["press/press", "press/press-stone"])
 def test_force_plans_are_told_the_scale_that_mends_them(name: str) -> None:
-    problem = unscaled(name)
-    (whole,) = controlled_kinematics(problem, layout="forces")
-    (finding,) = whole.findings
+    (finding,) = forces_at(name, None).findings
     assert (finding.code, finding.view) == ("PM-D08", "forces")
     assert finding.action("en").startswith("Write mu_F = 4 into [scales]: ")
     assert "поместится на А1" in finding.action("ru")
-    mended = replace(problem, scales=replace(problem.scales, mu_F=4.0))
-    (other,) = controlled_kinematics(mended, layout="forces")
+    other = forces_at(name, 4.0)
     assert other.findings == () and other.paper == "A1"
 
 
 def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
-    (whole,) = controlled_kinematics(unscaled("press/press"), layout="forces")
+    whole = forces_at("press/press", None)
     (finding,) = whole.findings
     assert 4.995 < finding.value < 5.0
     assert finding.what("en").startswith("segments shorter than 5 mm: F₃₀ 4.996 mm;")
@@ -304,21 +309,15 @@ def test_a_length_just_below_its_limit_does_not_look_like_it() -> None:
 
 def test_one_scale_is_told_for_all_force_plans() -> None:
     """At 50 N/mm one plan needs 40 N/mm and another 4: both are told 4, which mends both."""
-    problem = problem_of("press/press")
-    coarse = replace(problem, scales=replace(problem.scales, mu_F=50.0))
-    (whole,) = controlled_kinematics(coarse, layout="forces")
+    whole = forces_at("press/press", 50.0)
     values = [round(finding.value, 2) for finding in whole.findings]
     assert values == [4.15, 0.5]
     assert all("mu_F = 4 into [scales]" in finding.action("en") for finding in whole.findings)
-    mended = replace(problem, scales=replace(problem.scales, mu_F=4.0))
-    assert controlled_kinematics(mended, layout="forces")[0].findings == ()
+    assert forces_at("press/press", 4.0).findings == ()
 
 
 def test_a_scale_of_forces_is_told_in_the_convention_of_the_file() -> None:
-    problem = problem_of("levers/six-link")
-    coarse = replace(problem, scales=replace(problem.scales, mu_F=250.0))  # N/mm
-    (whole,) = controlled_kinematics(coarse, layout="forces")
-    (finding,) = whole.findings
+    (finding,) = forces_at("levers/six-link", 250.0).findings
     assert finding.value < 5.0
     assert "mu_F = 0.01 into [scales]" in finding.action("en")  # mm/N
     assert finding.value * 250.0 * 0.01 >= 5.0 > finding.value * 250.0 * 0.005
@@ -433,10 +432,11 @@ def test_the_length_that_would_show_dashes() -> None:
 
 
 @pytest.mark.parametrize("path", every_file(), ids=lambda path: path.stem)
-def test_shipped_sheets_have_no_errors(path: object) -> None:
-    for variant in [None, *variant_names(path)]:  # type: ignore[arg-type]
-        problem = load(path, variant=variant)  # type: ignore[arg-type]
-        sheets = kinematics_sheets(problem)
+def test_shipped_sheets_have_no_errors(path: Path) -> None:
+    name = f"{path.parent.name}/{path.stem}"
+    for variant in [None, *variant_names(path)]:
+        problem = problem_of(name, variant)
+        sheets = drawn_sheets(name, variant=variant)
         told = [finding for drawing in sheets for finding in inspect(drawing)]
         # The long scheme of this variant has only the room to the right of graph 26.
         allowed = {"PM-D08", "PM-D10"} if variant == "Д" else {"PM-D08"}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from loaded import with_resultant
 from test_forces_sheet import arrows, computed, couples, shown, views, within
-from worked import problem_of
+from worked import drawn_sheets, problem_of
 
 from planmethod.note.audit.quantities import Quantities
 from planmethod.note.narrate.forces.formulas import load_lines
@@ -65,7 +65,7 @@ def shift_and_force(name: str) -> tuple[float, complex]:
 
 @pytest.mark.parametrize("name", [*SHIFTED, "levers/task12", "press/press-stone"])
 def test_norm_control_finds_no_errors(name: str) -> None:
-    (sheet,) = kinematics_sheets(with_resultant(problem_of(name)), layout="forces")
+    sheet = sheet_of(name)
     assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
 
 
@@ -155,9 +155,9 @@ def test_texts_tell_the_shift_and_what_stays() -> None:
     text = shown(sheet_of("levers/six-link"))
     assert "приложена в точке" in text
     assert "у звена 1 нет силы инерции" in text
-    (task,) = kinematics_sheets(with_resultant(problem_of("levers/task12")), layout="forces")
+    task = sheet_of("levers/task12")
     assert "больше наибольшего размера механизма" in shown(task)
-    (plain,) = kinematics_sheets(problem_of("levers/task12"), layout="forces")
+    (plain,) = drawn_sheets("levers/task12", layout="forces")
     assert "больше наибольшего размера механизма" not in shown(plain)
 
 

@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import pi, tau
 
 import pytest
+from cases import each
 
 from planmethod.render.ink.drawing import Arc, Pen, Stroke
 from planmethod.render.ink.style import (
@@ -39,8 +40,8 @@ def test_every_pen_has_a_style_and_thin_lines_are_a_third_to_a_half() -> None:
     assert list(HEIGHTS) == sorted(HEIGHTS)
 
 
-@pytest.mark.parametrize("dashes", DASHED)
-@pytest.mark.parametrize("total", LENGTHS)
+@each("dashes", DASHED)
+@each("total", LENGTHS)
 def test_open_line_starts_and_ends_with_a_stroke(dashes: Dashes, total: float) -> None:
     spans = dash_spans(total, dashes)
     assert spans[0][0] == 0.0

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from itertools import combinations, pairwise
 
 import pytest
+from cases import each
 from shapely import LineString, union_all
 from shapely.geometry.base import BaseGeometry
 from worked import SIX, problem_of
@@ -71,8 +72,8 @@ def test_a_line_that_passes_below_turns_the_support() -> None:
     assert support.direction == UP
 
 
-@pytest.mark.parametrize("apart", [5.0, 7.0, 9.0, 12.0, 15.0, 18.0, 25.0])
-@pytest.mark.parametrize("step", [0.0, 3.0, 5.5, 8.0, 12.0])
+@each("apart", [5.0, 7.0, 9.0, 12.0, 15.0, 18.0, 25.0])
+@each("step", [0.0, 3.0, 5.5, 8.0, 12.0])
 def test_supports_of_near_pivots_do_not_run_into_each_other(apart: float, step: float) -> None:
     pivots = [0j, complex(apart, step)]
     found = stand(pivots, [])
@@ -125,7 +126,7 @@ def test_a_guide_leaves_out_the_plate_that_a_link_crosses() -> None:
 
 
 @pytest.mark.parametrize("name", SIX)
-@pytest.mark.parametrize("turn", [None, 40.0, 75.0, 160.0, 200.0, 305.0])
+@each("turn", [None, 40.0, 75.0, 160.0, 200.0, 305.0])
 def test_no_hatching_runs_over_links_or_neighbours(name: str, turn: float | None) -> None:
     solution = Solution(problem_of(name), positions=None if turn is None else [turn])
     try:

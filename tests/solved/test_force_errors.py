@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from math import exp
 
 import numpy as np
@@ -13,7 +13,7 @@ from worked import path_of, problem_of
 from planmethod import loads
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.dual import Dual, angle
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
 from planmethod.solved.errors.drawing import ItemKind
 from planmethod.solved.errors.forces import (
@@ -28,6 +28,7 @@ from planmethod.solved.errors.forces import (
 )
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
@@ -44,14 +45,18 @@ def statics_with(
     return statics_of(Solution(problem, positions=positions, profile=PROFILES[profile]))
 
 
-@cache
-def sheets_of(name: str | int, profile: str) -> Trace:
-    """Draw the force plans of the first position many times, with nothing of the errors' own."""
+@lru_cache(maxsize=1)  # tens of megabytes
+def sheets_of(name: str | int, profile: str) -> dict[PointName, Complexes]:
+    """Draw the force plans of the first position many times, with nothing of the errors' own.
+
+    Return where their vertices came to be.
+    """
     statics = statics_with(name, profile)
     plans = statics.solution.construction.plans
     free = frozenset([*(str(plan.pole) for plan in plans), *map(str, statics.board.starts)])
     pencil = Sampled(statics.solution.profile, free, DRAWS, 7)
-    return evaluate(statics.program, statics.data(statics.per_mm, np.array([0])), pencil)
+    trace = evaluate(statics.program, statics.data(statics.per_mm, np.array([0])), pencil)
+    return {end: np.broadcast_to(trace.value[end], (DRAWS,)) for end in ends_of(statics)}
 
 
 def ends_of(statics: Statics) -> list[PointName]:
@@ -69,7 +74,7 @@ def test_covariance_of_a_vertex_is_that_of_random_sheets(name: str | int) -> Non
     compared = 0
     for end in ends_of(statics):
         matrix = drawn_forces(statics).ellipse(end, 0)
-        drawn = np.broadcast_to(sheets_of(name, "cad").value[end], (DRAWS,))
+        drawn = sheets_of(name, "cad")[end]
         if drawn_forces(statics).strained(end)[0]:
             continue
         found = np.cov(np.array([drawn.real, drawn.imag]))
@@ -91,7 +96,7 @@ def test_of_random_sheets_so_many_fall_into_two_sigmas(name: str, profile: str) 
         if drawn_forces(statics).strained(end)[0] or np.linalg.det(matrix) == 0:
             continue
         exact = complex(statics.paper.point(end)[0])
-        off = sheets_of(name, profile).value[end] - exact
+        off = sheets_of(name, profile)[end] - exact
         rows = np.array([off.real, off.imag])
         inside = np.einsum("in,ij,jn->n", rows, np.linalg.inv(matrix), rows) <= 4.0
         assert inside.mean() == pytest.approx(1 - exp(-2), abs=0.02), end

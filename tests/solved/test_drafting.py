@@ -20,8 +20,10 @@ from planmethod.construct.program import Builder, Program
 from planmethod.plans.model import PlanKind
 from planmethod.problem import load, loads
 from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.errors.motion import Drafting, drafting_of
 from planmethod.solved.errors.spread import DRAWS, SHORT, STRAINED, UnknownItemError
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 ROOT = Path(__file__).parents[2]
@@ -302,7 +304,7 @@ def test_the_documented_strokes_err_by_what_they_do() -> None:
 def test_sigma_exists_wherever_the_exact_value_does() -> None:
     """S3 stands at its own pivot: a line through both has no direction, and nothing needs it."""
     solution = Solution(load(CASES / "point-at-pivot.toml"))
-    for errors in (solution.drafting, solution.statics.drawn):
+    for errors in (drafting_of(solution), drawn_forces(statics_of(solution))):
         for label, spread in errors.spreads.items():
             assert np.isfinite(spread.sigma).all(), label
             if not label.endswith(("S3", "CS3")) and "s3" not in label:
@@ -310,5 +312,6 @@ def test_sigma_exists_wherever_the_exact_value_does() -> None:
     text = (CASES / "point-at-pivot.toml").read_text("utf-8")
     text = text.replace('S3 = { from = "C", at = 0 }\n', "").replace('["C", "S3"]', '["C"]')
     pivot = Solution(loads(text.replace('centre = "S3"', 'centre = "C"'), name="pivot"))
-    for label, spread in pivot.statics.drawn.spreads.items():
-        assert spread.sigma == pytest.approx(solution.statics.drawn.spreads[label].sigma), label
+    whole = drawn_forces(statics_of(solution)).spreads
+    for label, spread in drawn_forces(statics_of(pivot)).spreads.items():
+        assert spread.sigma == pytest.approx(whole[label].sigma), label

@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cases import each, some
 from full_system import cross, loads_of, pose_of, slide_between, solve_all
 from loaded import loaded_text
 from newton import solve as newton
@@ -20,7 +21,7 @@ from planmethod.solved.forces.contact import across, distance, edge_forces
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.solution import Solution
 
-SEEDS = range(120)
+SEEDS = range(some(120, few=40))
 LIMIT = 1e-9
 TIGHT = 1e-12
 HERE = np.zeros(1, dtype=bool)
@@ -60,7 +61,7 @@ def test_a_moment_without_a_force_acts_nowhere() -> None:
     assert found[2] == 0.5
 
 
-@pytest.mark.parametrize("seed", range(50))
+@each("seed", range(50))
 def test_forces_at_the_edges_have_the_sums_of_the_reaction(seed: int) -> None:
     rng = random.Random(seed)
     normal, moment = rng.uniform(-1e3, 1e3), rng.uniform(-50.0, 50.0)
@@ -95,7 +96,7 @@ def guided_problem(seed: int) -> tuple[Problem, Pose]:
     return loads(re.sub(r"(slides = \{[^}\n]*?) \}", longer, text), name=f"guided-{seed}"), pose
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each("seed", SEEDS)
 def test_reactions_act_where_all_links_at_once_have_them(seed: int) -> None:
     problem, pose = guided_problem(seed)
     statics = Statics(Solution(problem))
@@ -148,9 +149,8 @@ def test_both_cases_and_all_pairs_occur() -> None:
             within += not contact.edges(0)
             blocks += problem.is_block(contact.slide)
             offsets += contact.slide.offset != 0
-    assert min(edges, within) >= 20
-    assert offsets >= 5
-    assert blocks >= 5
+    assert min(edges, within) >= some(20, few=10)
+    assert min(offsets, blocks) >= some(5, few=2)
 
 
 # Worked problems ---------------------------------------------------------------------------------
