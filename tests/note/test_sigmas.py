@@ -292,12 +292,17 @@ def test_every_stroke_can_be_told(name: str | int, lang: str) -> None:
 
 
 def test_causes_are_told_in_plain_words() -> None:
-    causes = Causes(Names(worked("linkages/ex3"), wording("ru")))
+    solution = worked("linkages/ex3")
+    causes, velocity = (
+        Causes(Names(solution, wording("ru"))),
+        solution.construction.kinematics.velocity,
+    )
     assert causes.tell("A") == "нанесение точки A (план положений)"
     assert causes.tell("line1") == "откладывание угла φ₁ (план положений)"
     assert causes.tell("B") == "откладывание отрезка от точки A до точки B (план положений)"
     assert causes.tell("v:B3") == "отметка точки b₃ в пересечении прямых (план скоростей)"
-    assert causes.tell("|v:0–v:B3|line19") == "снятие отрезка pb₃ (план скоростей)"
+    read = velocity.segments.drawn((velocity.pole, velocity.point["3", "B"]))
+    assert causes.tell(read) == "снятие отрезка pb₃ (план скоростей)"
     assert causes.tell("a:D") == "построение точки d по подобию (план ускорений)"
     english = Causes(Names(worked("linkages/ex2"), wording("en")))
     assert english.tell("B") == "fixing point B with an arc (position plan)"

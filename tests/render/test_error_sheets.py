@@ -130,9 +130,7 @@ def test_rows_of_a_single_position(name: str) -> None:
         assert exact == plain[f"{symbol}_{{{what}}}"][0]
         spread = solution.drafting.spreads[f"{word}_{what}"]
         sigma = float(spread.sigma[0])
-        hand = solution.by_hand_results
-        values = (hand.points if symbol in "va" else hand.links)[what]
-        value = abs(float(values[symbol in "aε"][0]))
+        value = abs(float(solution.read_off(f"{word}_{what}")[0]))
         assert error.text.endswith("*") == bool(spread.drawn[0])
         if sigma == 0.0:
             assert error.text == "0"
