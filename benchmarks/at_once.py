@@ -13,7 +13,7 @@ from planmethod.bench.forces import error_of
 from planmethod.bench.speed import Reading, places
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.model import Problem
-from planmethod.solved.forces.statics import Statics
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import Solution
 
 Array = npt.NDArray[Any]
@@ -23,7 +23,7 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
     """Time the linear system; it begins with a motion that is known."""
     found = []
     for count in counts:
-        statics = Solution(problem, positions=places(problem, count).tolist()).statics
+        statics = statics_of(Solution(problem, positions=places(problem, count).tolist()))
 
         def at_once(s: Statics = statics) -> list[Array]:
             return all_at_once(s)

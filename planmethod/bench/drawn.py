@@ -10,6 +10,7 @@ import numpy as np
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.problem.model import Problem
 from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 from planmethod.solved.solution import Solution
 
@@ -44,7 +45,7 @@ class Compared:
 def compare(problem: Problem, profile: Profile, *, draws: int = DRAWS) -> Compared:
     """Compare both ways of finding the drafting errors in every position of a problem."""
     solution = Solution(problem, profile=profile)
-    drafting = solution.drafting
+    drafting = drafting_of(solution)
     ratios: list[float] = []
     given_up = short = 0
     for i in range(len(solution.positions)):

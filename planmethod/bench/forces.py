@@ -17,8 +17,8 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Problem
-from planmethod.solved.errors.forces import size_label
-from planmethod.solved.forces.statics import Statics
+from planmethod.solved.errors.forces import drawn_forces, size_label
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 Array = npt.NDArray[Any]
@@ -73,7 +73,7 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
     found: list[Reading] = []
     for count in counts:
         solution = Solution(problem, positions=places(problem, count).tolist())
-        statics = solution.statics
+        statics = statics_of(solution)
 
         def read(s: Statics = statics) -> Any:
             return s.read(Float64(), SI)
@@ -96,7 +96,7 @@ def _of_one(problem: Problem) -> list[Reading]:
     """Time what is read in one position: planning, referee, hand."""
     position = problem.drive.positions[0]
     solution = Solution(problem, positions=[position])
-    statics, name = solution.statics, problem.name
+    statics, name = statics_of(solution), problem.name
 
     def precisely() -> list[Number]:
         return _judged(statics, 50)
@@ -112,7 +112,7 @@ def _of_one(problem: Problem) -> list[Reading]:
         ),
     ]  # fmt: skip
     for ruler in (0.1, 0.5, 1.0):
-        drawn = Solution(problem, positions=[position], ruler=ruler).statics
+        drawn = statics_of(Solution(problem, positions=[position], ruler=ruler))
         reading = clock(lambda s=drawn: s.read(s.solution.hand, s.per_mm))  # type: ignore[misc]
         found.append(
             Reading(f"the hand, ruler {ruler:g} mm", name, 1, reading.median, _hand_error(drawn))
@@ -129,7 +129,7 @@ def _precise_error(statics: Statics, found: Sequence[Number]) -> float:
 def _hand_error(statics: Statics) -> float:
     """Return the largest error of a reaction's size as the hand has it, of the largest one."""
     sizes = [abs(joint.force[0]) for joint in statics.reactions]
-    read = [statics.drawn.read(size_label(joint))[0] for joint in statics.reactions]
+    read = [drawn_forces(statics).read(size_label(joint))[0] for joint in statics.reactions]
     gaps = [abs(one - size) for one, size in zip(read, sizes, strict=True)]
     return float(max(gaps) / max(sizes))
 
@@ -160,13 +160,13 @@ def discrepancy(problem: Problem) -> Discrepancy:
     In twelve positions of a turn; in those of the file where the driver cannot turn all round.
     """
     around = places(problem, 12).tolist() if turns_round(problem) else None
-    statics = Solution(problem, positions=around).statics
+    statics = statics_of(Solution(problem, positions=around))
     positions = statics.solution.positions
-    sigma = statics.drawn.discrepancy_sigma
+    sigma = drawn_forces(statics).discrepancy_sigma
     assert sigma is not None
     ratios = []
     for i in range(len(positions)):
-        sheets = statics.drawn.sample(i, draws=DRAWS, seed=SEED)["difference"]
+        sheets = drawn_forces(statics).sample(i, draws=DRAWS, seed=SEED)["difference"]
         low, high = np.quantile(sheets, (0.16, 0.84))
         ratios.append(float(sigma[i]) / float((high - low) / 2))
     largest = float(np.abs(statics.balance).max())

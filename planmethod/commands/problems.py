@@ -12,6 +12,7 @@ import click
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
+from planmethod.solved.forces.statics import statics_of
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -137,7 +138,7 @@ def solution_of(
     try:
         verify(solution)
         if forces and problem.dynamics is not None:
-            _ = solution.statics.si
+            _ = statics_of(solution).si
     except AssemblyError as error:
         if len(solution.positions) < 2:
             raise

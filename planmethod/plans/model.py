@@ -8,8 +8,53 @@ from enum import Enum
 
 from planmethod.construct.steps import PointName
 
-FORCE_PREFIX = "f:"
-"""What the names of the points and numbers of the force plans begin with."""
+
+class PlanKind(Enum):
+    """Which plan (вид плана)."""
+
+    POSITION = "position"
+    VELOCITY = "velocity"
+    ACCELERATION = "acceleration"
+    FORCE = "force"
+    LEVER = "lever"
+
+
+@dataclass(frozen=True, slots=True)
+class PlanFacts:
+    """What goes with a kind of plan (масштаб, полюс и единица плана).
+
+    Attributes
+    ----------
+    pole : str
+        Letter of the pole; empty where a plan has none.
+    letter : str
+        Of the vectors: ``v``; the length of a link on the position plan.
+    scale : str
+        Name of the scale: ``mu_v``, in letters ``μ_{v}``.
+    unit : str
+        What a segment stands for.
+    prefix : str
+        What the names of the plan's points begin with in a program.
+    """
+
+    pole: str
+    letter: str
+    scale: str
+    unit: str
+    prefix: str = ""
+
+
+FACTS: dict[PlanKind, PlanFacts] = {
+    PlanKind.POSITION: PlanFacts("", "l", "mu_l", "m"),
+    PlanKind.VELOCITY: PlanFacts("p", "v", "mu_v", "m/s", "v:"),
+    PlanKind.ACCELERATION: PlanFacts("π", "a", "mu_a", "m/s²", "a:"),
+    PlanKind.FORCE: PlanFacts("", "F", "mu_F", "N", "f:"),
+    PlanKind.LEVER: PlanFacts("p", "v", "mu_v", "m/s", "f:"),
+}
+"""The one table of the kinds of plans."""
+
+MOTION = (PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION)
+"""Plans that every problem has, in the order in which they are drawn."""
 
 
 class VectorKind(Enum):
@@ -31,6 +76,50 @@ class Known(Enum):
     BOTH = 2  # magnitude and direction: two lines
 
 
+class Relation(Enum):
+    """How a vector lies to a line that is on the drawing already."""
+
+    ALONG = "along"  # ∥ (параллельно)
+    ACROSS = "across"  # ⊥ (перпендикулярно)
+    ANGLED = "angled"  # at an angle to it
+    TOWARDS = "towards"  # along it, from the first point to the second
+    STILL = "still"  # no vector at all: = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Direction:
+    """Direction of a vector as it is known before the plan is drawn (направление вектора).
+
+    Attributes
+    ----------
+    relation : Relation
+    points : tuple of str
+        Two points of the mechanism on the line; none where it is a guide.
+    guide : str
+        Name of the guide, or letters of a line of a link.
+    angle : float
+        From the line, degrees; zero but for ``ANGLED``.
+    """
+
+    relation: Relation
+    points: tuple[str, ...] = ()
+    guide: str = ""
+    angle: float = 0.0
+
+
+STILL = Direction(Relation.STILL)
+
+
+def across(p: str, q: str) -> Direction:
+    """Return the direction across the line of two points: ``⊥ BC``."""
+    return Direction(Relation.ACROSS, (p, q))
+
+
+def towards(p: str, q: str) -> Direction:
+    """Return the direction from a point to another: ``C → B``."""
+    return Direction(Relation.TOWARDS, (p, q))
+
+
 @dataclass(frozen=True, slots=True)
 class Vector:
     """One term of a vector equation and the segment of the plan that shows it.
@@ -41,8 +130,8 @@ class Vector:
         Letter and indices in the markup of rich text: ``v_{CB}``, ``a^{n}_{CB}``.
     tail, head : PointName
         Plan points of the segment (equal letters where the vector is zero by nature).
-    note : str
-        Direction written under the term: ``⊥ BC``, ``∥ x-x``, ``C → B``, ``= 0``.
+    direction : Direction or None
+        What is known of it before the plan is drawn, written under the term.
     """
 
     symbol: str
@@ -50,7 +139,7 @@ class Vector:
     tail: PointName
     head: PointName
     known: Known
-    note: str = ""
+    direction: Direction | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,14 +148,6 @@ class VectorEquation:
 
     left: Vector
     right: tuple[Vector, ...]
-
-
-class PlanKind(Enum):
-    """Which plan (вид плана)."""
-
-    POSITION = "position"
-    VELOCITY = "velocity"
-    ACCELERATION = "acceleration"
 
 
 @dataclass(frozen=True, slots=True)

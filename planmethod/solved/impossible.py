@@ -25,7 +25,7 @@ from planmethod.construct.steps import (
     Touch,
     operands,
 )
-from planmethod.plans.model import FORCE_PREFIX
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
 
 
@@ -109,7 +109,7 @@ def _without_length(
 
 
 def _sentence(step: Step, where: str, unit: str, real: Any, point: Any) -> str:
-    if step.out.startswith(FORCE_PREFIX):
+    if step.out.startswith(FACTS[PlanKind.FORCE].prefix):
         return (
             f"Cannot close the force plan at {where}: the mechanism stands in a dead position, "
             "where no forces balance the loads. Ask another position."

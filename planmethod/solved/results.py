@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,10 +16,6 @@ from planmethod.errors import PlanMethodError
 from planmethod.plans.build import Construction
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import Quantity, QuantityKind
-
-if TYPE_CHECKING:
-    from planmethod.solved.solution import Solution
-
 
 BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
 """Kinds of what is given only when it is asked for by name."""
@@ -122,37 +118,3 @@ def results_of(construction: Construction) -> Results:
     """Return every result of a construction."""
     draft = construction.draft.copy()
     return Results(draft.b.program(), draft.numbers, construction.legend, draft)
-
-
-def results_for(
-    solution: Solution, asked: Iterable[str] | None, *, forces: bool = False
-) -> Results:
-    """Return the results among which the asked ones are: forces are planned only where needed.
-
-    Parameters
-    ----------
-    asked : iterable of str, optional
-        Labels; everything of the motion when absent.
-    forces : bool
-        Where nothing is asked by name: everything of the forces, too.
-
-    Raises
-    ------
-    UnknownResultError
-        A force is asked of a problem without masses and loads.
-    """
-    results = results_of(solution.construction)
-    other = () if asked is None else [label for label in asked if not results.find(label)]
-    if not (other or (forces and asked is None)):
-        return results
-    if solution.problem.dynamics is not None:
-        from planmethod.solved.forces.results import with_forces
-
-        return with_forces(solution, results)
-    for label in other:
-        if label == "forces" or label.startswith(("F_", "M_")):
-            raise UnknownResultError(
-                f"no result {label!r}: the problem has no loads. Give the masses in [dynamics] and "
-                "the loads in [[loads]]."
-            )
-    return results

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.paper import FORMATS
-from planmethod.plans.model import PlanKind
-from planmethod.problem.model import Convention, Problem
-
-if TYPE_CHECKING:
-    from planmethod.solved.solution import Solution
+from planmethod.plans.build import Construction
+from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.problem.model import Convention, Problem, Scales
+from planmethod.solved.reading import Reading, Reals
 
 Box = tuple[float, float]
 
@@ -92,85 +89,85 @@ OUTLIER = 5.0
 dead position and is drawn at a scale of its own."""
 
 
-def _spread(
-    solution: Solution, names: list[PointName]
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+def _spread(si: Reading, names: list[PointName]) -> tuple[Reals, Reals]:
     """Return the width and height of points in every position, in their unit, shape (n,)."""
-    points = np.stack([solution.complexes(solution.si, name) for name in names])
+    points = np.stack([si.point(name) for name in names])
     return np.ptp(points.real, axis=0), np.ptp(points.imag, axis=0)
 
 
-def _plan_ends(solution: Solution, kind: PlanKind) -> list[PointName]:
-    plan = solution.construction.plan(kind)
+def _plan_ends(construction: Construction, kind: PlanKind) -> list[PointName]:
+    plan = construction.plan(kind)
     return sorted({end for vector in plan.vectors for end in (vector.tail, vector.head)})
 
 
-def plan_extent(solution: Solution, kind: PlanKind, index: int) -> Box:
+def plan_extent(construction: Construction, si: Reading, kind: PlanKind, index: int) -> Box:
     """Return the size of a velocity or acceleration plan in one position, in its own unit."""
-    ends = _plan_ends(solution, kind)
+    ends = _plan_ends(construction, kind)
     if not ends:
         return 0.0, 0.0
-    width, height = _spread(solution, ends)
+    width, height = _spread(si, ends)
     return float(width[index]), float(height[index])
 
 
-def extent(solution: Solution, kind: PlanKind) -> Box:
+def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
     """Return the size that sets a plan's scale, in its own unit (m, m/s, m/s²).
 
     The mechanism in all positions laid over each other; the largest of the velocity or
     acceleration plans that are not outliers.
     """
     if kind is PlanKind.POSITION:
-        draft = solution.construction.draft
+        draft = construction.draft
         names = [PointName(point) for point in draft.points()]
         names += [
             PointName(f"{slide.label}:0")
-            for slide in solution.problem.slides.values()
+            for slide in draft.problem.slides.values()
             if slide.host == FRAME and slide.through is None
         ]
-        points = np.stack([solution.complexes(solution.si, name) for name in sorted(names)])
+        points = np.stack([si.point(name) for name in sorted(names)])
         return float(np.ptp(points.real)), float(np.ptp(points.imag))
-    ends = _plan_ends(solution, kind)
+    ends = _plan_ends(construction, kind)
     if not ends:
         return 0.0, 0.0
-    width, height = _spread(solution, ends)
+    width, height = _spread(si, ends)
     size = np.maximum(width, height)
     usual = size <= OUTLIER * np.median(size)
     return float(np.max(width[usual])), float(np.max(height[usual]))
 
 
-def choose_scales(solution: Solution) -> dict[PlanKind, Scale]:
-    """Return the scale of each plan: as the file gives it, else to fill its view."""
-    asked = solution.problem.scales
+def choose_scales(construction: Construction, si: Reading, views: Views) -> dict[PlanKind, Scale]:
+    """Return the scale of each plan: as the file gives it, else to fill its view.
+
+    Parameters
+    ----------
+    si : Reading
+        Exact, at unit scales.
+    """
+    asked = construction.draft.problem.scales
     result: dict[PlanKind, Scale] = {}
-    for kind, given, symbol, unit in (
-        (PlanKind.POSITION, asked.mu_l, "mu_l", "m"),
-        (PlanKind.VELOCITY, asked.mu_v, "mu_v", "m/s"),
-        (PlanKind.ACCELERATION, asked.mu_a, "mu_a", "m/s²"),
-    ):
-        per_mm = given
+    for kind in MOTION:
+        symbol = FACTS[kind].scale
+        per_mm = getattr(asked, symbol)
         if per_mm is None:
-            per_mm = _fitting(solution, kind, extent(solution, kind))
-        result[kind] = Scale(symbol, per_mm, unit)
+            per_mm = _fitting(asked, views.box(kind), extent(construction, si, kind))
+        result[kind] = Scale(symbol, per_mm, FACTS[kind].unit)
     return result
 
 
-def _fitting(solution: Solution, kind: PlanKind, size: Box) -> float:
-    inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
-    return choose_scale(size, solution.views.box(kind), mm_per_unit=inverse)
+def _fitting(asked: Scales, box: Box, size: Box) -> float:
+    return choose_scale(size, box, mm_per_unit=asked.convention is Convention.MM_PER_UNIT)
 
 
-def own_scale(solution: Solution, kind: PlanKind, index: int) -> Scale:
+def own_scale(
+    construction: Construction, si: Reading, views: Views, common: Scale, kind: PlanKind, index: int
+) -> Scale:
     """Return the scale at which a plan is drawn in one position.
 
     It is the common one, but for a plan that would leave its view by far (near a dead position).
     """
-    common = solution.scales[kind]
-    size, box = plan_extent(solution, kind, index), solution.views.box(kind)
+    size, box = plan_extent(construction, si, kind, index), views.box(kind)
     over = max(size[0] / box[0], size[1] / box[1]) / common.per_mm
-    given = (
-        solution.problem.scales.mu_v if kind is PlanKind.VELOCITY else solution.problem.scales.mu_a
-    )
-    if over <= OUTLIER / 2 or (given is not None and len(solution.positions) == 1):
+    asked = construction.draft.problem.scales
+    given = getattr(asked, common.symbol)
+    if over <= OUTLIER / 2 or (given is not None and si.count == 1):
         return common
-    return Scale(common.symbol, _fitting(solution, kind, size), common.unit)
+    return Scale(common.symbol, _fitting(asked, box, size), common.unit)

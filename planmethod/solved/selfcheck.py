@@ -7,7 +7,9 @@ import numpy as np
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, PlanMethodError
 from planmethod.mechanism.model import FRAME
-from planmethod.solved.solution import Complexes, Reals, Solution
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import Solution
+from planmethod.solved.trust.conditioning import error_bound
 
 DOUBTFUL = 1e-6
 """Bound of the relative error of the results from which a warning is given."""
@@ -34,7 +36,7 @@ def warnings(solution: Solution) -> list[str]:
 
     Of many positions the worst few are named and the rest counted.
     """
-    estimate = solution.doubt
+    estimate = error_bound(solution)
     doubtful = np.flatnonzero(estimate > DOUBTFUL)
     named = doubtful
     if len(doubtful) > MOST_NAMED:
@@ -65,7 +67,7 @@ def _nature(solution: Solution, i: int) -> str:
 
 
 def _refuse_spoilt(solution: Solution) -> None:
-    spoilt = np.flatnonzero(~(solution.doubt <= SPOILT))
+    spoilt = np.flatnonzero(~(error_bound(solution) <= SPOILT))
     if not spoilt.size:
         return
     i = int(spoilt[0])
@@ -125,7 +127,7 @@ def _between(solution: Solution, p: str, q: str) -> Complexes:
 
 def _difference(solution: Solution, p: PointName, q: PointName) -> Complexes:
     si = solution.si
-    return np.asarray(solution.complexes(si, q) - solution.complexes(si, p), dtype=complex)
+    return np.asarray(si.point(q) - si.point(p), dtype=complex)
 
 
 def _largest(solution: Solution, field: str) -> Reals:

@@ -6,17 +6,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.drafting import PROFILES, Profile
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import Name, PointName
+from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build
@@ -26,19 +26,13 @@ from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import choose_closings, drive_data
 from planmethod.solved.impossible import explain, failing
-from planmethod.solved.scaling import Views, choose_scales
-
-if TYPE_CHECKING:
-    from planmethod.solved.errors.motion import Drafting
-    from planmethod.solved.forces.statics import Statics
+from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
+from planmethod.solved.scaling import Views, choose_scales, own_scale
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
 
 EVERY = slice(None)
-
-Complexes = npt.NDArray[np.complex128]
-Reals = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +74,7 @@ class RelativeMotion:
     acceleration: Complexes
 
 
-class Solution:
+class Solution(Remembering):
     """Solved task (решённая задача).
 
     Parameters
@@ -114,6 +108,7 @@ class Solution:
         views: Views | None = None,
         scales: Mapping[PlanKind, Scale] | None = None,
     ) -> None:
+        super().__init__()
         self.problem = problem
         asked = problem.drive.positions if positions is None else positions
         self.positions: Reals = np.asarray(asked, dtype=float)
@@ -140,12 +135,13 @@ class Solution:
             data[name] = place / scales["mu_l"]
         return data
 
-    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float] = UNIT_SCALES) -> Trace:
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float] = UNIT_SCALES) -> Reading:
         """Read the whole program in an arithmetic at given scales (unit per mm)."""
-        return evaluate(self.construction.program, self.data(scales), arithmetic)
+        trace = evaluate(self.construction.program, self.data(scales), arithmetic)
+        return Reading(trace, len(self.positions))
 
     @cached_property
-    def si(self) -> Trace:
+    def si(self) -> Reading:
         """Exact reading at unit scales: what is a millimetre of a plan is here a metre (m/s, m/s²).
 
         Raises
@@ -153,18 +149,27 @@ class Solution:
         AssemblyError
             When a step is impossible in some position.
         """
-        trace = self.read(Float64())
-        program = self.construction.program
-        if (failing(program, trace, len(self.positions)) >= 0).any():
+        reading, program = self.read(Float64()), self.construction.program
+        if (failing(program, reading.trace, len(self.positions)) >= 0).any():
             raise AssemblyError(
-                explain(self.problem, program, trace, self.positions, unit_scales=True)
+                explain(self.problem, program, reading.trace, self.positions, unit_scales=True)
             )
-        return trace
+        return reading
 
     @cached_property
     def scales(self) -> dict[PlanKind, Scale]:
         """Scales of the plans: given, the file's, or chosen from the series to fill the views."""
-        return choose_scales(self) if self._scales is None else dict(self._scales)
+        if self._scales is not None:
+            return dict(self._scales)
+        return choose_scales(self.construction, self.si, self.views)
+
+    def own_scale(self, kind: PlanKind, index: int) -> Scale:
+        """Return the scale at which a plan is drawn in one position.
+
+        It is the common one, but for a plan that would leave its view by far (near a dead
+        position).
+        """
+        return own_scale(self.construction, self.si, self.views, self.scales[kind], kind, index)
 
     @property
     def views(self) -> Views:
@@ -177,42 +182,29 @@ class Solution:
         return {scale.symbol: scale.per_mm for scale in self.scales.values()}
 
     @cached_property
-    def paper(self) -> Trace:
+    def paper(self) -> Reading:
         """Exact reading at the plans' scales: millimetres on the paper."""
         self.si  # noqa: B018 - an impossible step must be told first, in metres
         return self.read(Float64(), self.per_mm)
 
     @cached_property
-    def by_hand(self) -> Trace:
+    def by_hand(self) -> Reading:
         """Reading of a draughtsman with a ruler, along his own chain."""
         self.si  # noqa: B018
         return self.read(self.hand, self.per_mm)
 
-    def _complex_column(self, value: object) -> Complexes:
-        return np.broadcast_to(np.asarray(value, dtype=complex), self.positions.shape)
-
-    def _real_column(self, value: object) -> Reals:
-        return np.broadcast_to(np.asarray(value, dtype=float), self.positions.shape)
-
-    def complexes(self, trace: Trace, name: Name) -> Complexes:
-        """Return a point of a trace as an ndarray of shape (n,)."""
-        return self._complex_column(trace.value[name])
-
-    def reals(self, trace: Trace, name: Name) -> Reals:
-        """Return a number of a trace as an ndarray of shape (n,)."""
-        return self._real_column(trace.value[name])
-
     def place(self, name: PointName) -> Complexes:
         """Return the place of a point in the file's coordinates, m, ndarray of shape (n,)."""
-        return self.complexes(self.si, name) + self.construction.draft.origin
+        return self.si.point(name) + self.construction.draft.origin
 
     # Results ---------------------------------------------------------------------------------
 
     @cached_property
     def margin(self) -> Reals:
         """Least margin of all steps in each position: nearness to a dead position."""
-        margins = [self._real_column(m) for m in self.si.margin.values()]
-        return np.asarray(np.min([*margins, np.ones(self.positions.shape)], axis=0), dtype=float)
+        none = np.ones(self.positions.shape)
+        margins = [np.broadcast_to(m, none.shape) for m in self.si.trace.margin.values()]
+        return np.asarray(np.min([*margins, none], axis=0), dtype=float)
 
     @cached_property
     def points(self) -> dict[str, PointMotion]:
@@ -222,8 +214,8 @@ class Solution:
         for name, (link, place) in kin.velocity.named.items():
             result[name] = PointMotion(
                 self.place(PointName(place)),
-                self.complexes(self.si, kin.velocity.point[link, place]),
-                self.complexes(self.si, kin.acceleration.point[link, place]),
+                self.si.point(kin.velocity.point[link, place]),
+                self.si.point(kin.acceleration.point[link, place]),
             )
         return result
 
@@ -234,20 +226,19 @@ class Solution:
         zero = np.zeros(self.positions.shape)
         result: dict[str, LinkMotion] = {}
         for link in self.problem.mechanism.links:
-            direction = self.si.value[draft.axes[link]][1] if link in draft.axes else None
-            if direction is None:
+            if link in draft.axes:
+                direction = self.si.course(draft.axes[link])
+            else:
                 p, q = draft.reference(link)
                 points = self.problem.bodies[link].points
-                drawn = self.complexes(self.si, PointName(q)) - self.complexes(
-                    self.si, PointName(p)
-                )
+                drawn = self.si.vector(PointName(p), PointName(q))
                 direction = drawn * np.conj(points[q] - points[p])
-            angle: Reals = np.degrees(np.angle(self._complex_column(direction)))
+            angle: Reals = np.degrees(np.angle(direction))
             omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
             result[link] = LinkMotion(
                 np.where(angle <= -180.0, 180.0, angle),
-                zero if omega is None else self.reals(self.si, omega),
-                zero if epsilon is None else self.reals(self.si, epsilon),
+                zero if omega is None else self.si.number(omega),
+                zero if epsilon is None else self.si.number(epsilon),
             )
         return result
 
@@ -259,7 +250,7 @@ class Solution:
     def _relative(self, r: Relative) -> RelativeMotion:
         def vector(tail: PointName | None, head: PointName | None) -> Complexes:
             assert tail is not None and head is not None
-            return self.complexes(self.si, head) - self.complexes(self.si, tail)
+            return self.si.vector(tail, head)
 
         return RelativeMotion(
             r.point,
@@ -284,37 +275,16 @@ class Solution:
         quantity = self.legend[label]
         if quantity.size is None:
             return np.zeros(self.positions.shape)
-        value = self.reals(self.by_hand, quantity.size)
+        value = self.by_hand.number(quantity.size)
         return np.abs(value) if quantity.kind.is_size else value
-
-    @cached_property
-    def doubt(self) -> Reals:
-        """Bound of the relative error of the worst results, ndarray of shape (n,)."""
-        from planmethod.solved.trust.conditioning import doubt
-
-        return doubt(self)
-
-    @cached_property
-    def drafting(self) -> Drafting:
-        """How far the hand's drawing may be off."""
-        from planmethod.solved.errors.motion import Drafting
-
-        return Drafting(self)
-
-    @cached_property
-    def statics(self) -> Statics:
-        """Reactions and balancing moment; of a problem with ``[dynamics]``."""
-        from planmethod.solved.forces.statics import Statics
-
-        return Statics(self)
 
     def segments(self, kind: PlanKind) -> list[Segment]:
         """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
         return [
             Segment(
                 segment.name,
-                np.abs(self.reals(self.paper, segment.length)),
-                np.abs(self.reals(self.by_hand, segment.length)),
+                np.abs(self.paper.number(segment.length)),
+                np.abs(self.by_hand.number(segment.length)),
             )
             for segment in self.construction.segments
             if segment.kind is kind

@@ -8,7 +8,8 @@ from math import ceil
 
 import numpy as np
 
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
 
 TURN = 360.0
 

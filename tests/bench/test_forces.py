@@ -13,6 +13,7 @@ from benchmarks.scenes import loaded
 from planmethod.bench import forces
 from planmethod.bench.clock import Timing
 from planmethod.bench.speed import turn
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 
@@ -39,7 +40,7 @@ def test_readings_are_as_good_as_their_digits() -> None:
 
 @pytest.mark.parametrize("name", ["press/press", "press/press-stone", "levers/task12"])
 def test_all_links_at_once_agree_with_the_force_plans(name: str) -> None:
-    statics = Solution(problem_of(name), positions=(turn(12) + 5.0).tolist()).statics
+    statics = statics_of(Solution(problem_of(name), positions=(turn(12) + 5.0).tolist()))
     wanted = [*(joint.force for joint in statics.reactions), statics.balance]
     largest = max(np.abs(row).max() for row in wanted)
     for row, right in zip(at_once.all_at_once(statics), wanted, strict=True):

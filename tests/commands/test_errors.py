@@ -24,7 +24,10 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
 from planmethod.note.tables.results import result_tables
 from planmethod.problem import load, loads
+from planmethod.solved.errors.forces import drawn_forces
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import UnknownItemError
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.sweep import Sweep, SweepError
 from planmethod.solved.solution import Solution
 
@@ -48,11 +51,11 @@ def test_the_record_has_a_sigma_for_every_segment() -> None:
     (position,) = record(EX3)["positions"]
     for kind, plan in position["plans"].items():
         for name, segment in plan["segments"].items():
-            wanted = solution.drafting.spreads[f"{kind}.{name}"].sigma[0]
+            wanted = drafting_of(solution).spreads[f"{kind}.{name}"].sigma[0]
             assert segment["sigma"] == pytest.approx(wanted) and wanted > 0
     assert position["hand"]["profile"] == "board" and position["hand"]["ruler"] == 0.5
     hand = position["hand"]["links"]["3"]
-    assert hand["sigma_omega"] == pytest.approx(solution.drafting.spreads["omega_3"].sigma[0])
+    assert hand["sigma_omega"] == pytest.approx(drafting_of(solution).spreads["omega_3"].sigma[0])
     assert position["hand"]["monte_carlo"] == []
 
 
@@ -101,7 +104,7 @@ def test_the_covariance_as_a_spreadsheet(tmp_path: Path) -> None:
     sigma = np.array([float(row["sigma"]) for row in rows])
     assert np.allclose(np.sqrt(np.diag(matrix)), sigma)
     k = labels.index("omega_3")
-    wanted = Solution(problem_of("linkages/ex3")).drafting.spreads["omega_3"].sigma[0]
+    wanted = drafting_of(Solution(problem_of("linkages/ex3"))).spreads["omega_3"].sigma[0]
     assert sigma[k] == pytest.approx(wanted)
 
 
@@ -109,9 +112,9 @@ def test_the_covariance_has_the_forces_of_a_loaded_problem() -> None:
     told = run("solve", str(path_of("press/press")), "--covariance", "-")
     assert told.exit_code == 0, told.output
     rows = {row["quantity"]: row for row in csv.DictReader(io.StringIO(told.stdout))}
-    statics = Solution(problem_of("press/press")).statics
+    statics = statics_of(Solution(problem_of("press/press")))
     for label in ("F_1_0", "balance", "difference"):
-        wanted = float(statics.drawn.spreads[label].sigma[0])
+        wanted = float(drawn_forces(statics).spreads[label].sigma[0])
         assert float(rows[label]["sigma"]) == pytest.approx(wanted)
         # Forces follow from the accelerations, so that they err with them.
         assert float(rows[label]["a_S3"]) == pytest.approx(float(rows["a_S3"][label])) != 0.0
@@ -189,14 +192,14 @@ def test_a_pipe_closed_between_two_tables_is_no_finding() -> None:
 def test_a_mechanism_at_rest_has_no_drafting_errors_in_its_plans() -> None:
     text = path_of("linkages/ex3").read_text("utf-8").replace("omega = 50", "omega = 0", 1)
     solution = Solution(loads(text, name="still"))
-    for label, spread in solution.drafting.spreads.items():
+    for label, spread in drafting_of(solution).spreads.items():
         if not label.startswith(("position", "x_", "y_")):
             assert spread.sigma[0] == 0 and not spread.drawn[0], label
 
 
 def test_sigma_does_not_jump_where_a_vector_vanishes() -> None:
     problem = load(path_of("levers/task12-variants"))
-    at, beside = (Solution(problem, positions=[phi]).drafting for phi in (270.0, 270.0 + 1e-7))
+    at, beside = (drafting_of(Solution(problem, positions=[phi])) for phi in (270.0, 270.0 + 1e-7))
     for label, spread in at.spreads.items():
         other = beside.spreads[label]
         if not (spread.drawn[0] or other.drawn[0]) and spread.sigma[0] > 0:
@@ -257,7 +260,7 @@ def test_what_a_sweep_does_not_take() -> None:
 
 
 def test_what_a_drawing_does_not_have() -> None:
-    drafting = Solution(problem_of("linkages/ex3")).drafting
+    drafting = drafting_of(Solution(problem_of("linkages/ex3")))
     with pytest.raises(UnknownItemError, match="no plan has a point Q"):
         drafting.ellipse(PointName("Q"), 0)
     with pytest.raises(UnknownItemError, match="does not give Q"):

@@ -27,7 +27,8 @@ from planmethod.construct.compiled import symbolic
 from planmethod.construct.steps import MeetLines, Step
 from planmethod.problem import load
 from planmethod.solved import impossible
-from planmethod.solved.forces.statics import Statics
+from planmethod.solved.errors.forces import drawn_forces
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.many import positions as many
 from planmethod.solved.many.positions import blocks
 from planmethod.solved.solution import Solution
@@ -119,7 +120,7 @@ def exact(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
 
 def read(statics: Statics) -> Iterator[tuple[str, npt.NDArray[Any]]]:
     """Yield the columns of what the ruler gives."""
-    drawn = statics.drawn
+    drawn = drawn_forces(statics)
     for r in statics.reactions:
         yield f"F.{r.joint}.{r.on}-{r.by}.read", drawn.read(f"F_{r.on}_{r.by}")
     quantity = "moment" if statics.solution.problem.drive.is_crank else "force"
@@ -142,7 +143,7 @@ FILES = [SIX_LINK, TASK12, PRESS, "slider.toml", "random-2.toml", "random-11.tom
 @pytest.mark.parametrize("file", FILES, ids=lambda file: Path(file).stem)
 def test_the_table_has_the_forces_exact_and_read(file: str) -> None:
     table = rows(done("solve", file, "--csv"))
-    statics = Solution(load(Path(file))).statics
+    statics = statics_of(Solution(load(Path(file))))
     wanted = dict(exact(statics)) | dict(read(statics))
     assert {name for name in table[0] if is_force(name)} == set(wanted)
     for name, values in wanted.items():
@@ -154,7 +155,7 @@ def test_arrays_and_what_is_asked_are_the_table(file: str) -> None:
     table = rows(done("solve", file, "--csv"))
     found = arrays(file)
     asked = rows(done("solve", file, "--ask", "forces", "--csv"))
-    wanted = dict(exact(Solution(load(Path(file))).statics))
+    wanted = dict(exact(statics_of(Solution(load(Path(file))))))
     big = max(np.abs(values).max() for values in wanted.values())
     assert [name for name in found if is_force(name)] == list(wanted)
     assert list(asked[0])[2:] == list(wanted)
@@ -243,7 +244,7 @@ def test_a_large_table_is_the_small_ones_beside_each_other(monkeypatch: pytest.M
     """One scale of forces in all blocks: what the ruler gives does not depend on them."""
     problem = load(Path(PRESS))
     whole = Solution(problem, positions=[float(k) for k in range(0, 360, 2)])
-    wanted = dict(exact(whole.statics)) | dict(read(whole.statics))
+    wanted = dict(exact(statics_of(whole))) | dict(read(statics_of(whole)))
     monkeypatch.setattr(many, "BLOCK", 50)
     monkeypatch.setattr(blocks, "__defaults__", (50,))
     table = rows(done("solve", PRESS, "--phi", "0:360:2", "--csv"))
@@ -258,8 +259,8 @@ def test_a_large_table_is_the_small_ones_beside_each_other(monkeypatch: pytest.M
 def test_a_given_scale_of_forces_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     Path("scaled.toml").write_text(mechanisms.SLIDER + SLIDER + "[scales]\nmu_F = 0.7\n", "utf-8")
     solution = Solution(load(Path("scaled.toml")))
-    assert solution.statics.scale.per_mm == 0.7
-    wanted = dict(read(solution.statics))
+    assert statics_of(solution).scale.per_mm == 0.7
+    wanted = dict(read(statics_of(solution)))
     table = rows(done("solve", "scaled.toml", "--csv", "--partial"))
     for name, values in wanted.items():
         assert [float(row[name]) for row in table] == (values + 0.0).tolist()

@@ -20,7 +20,7 @@ from worked import DEAD, path_of
 from planmethod.cli import COMMANDS, cli
 from planmethod.commands.output import bar
 from planmethod.note.records.spreadsheet import csv_rows, large_table
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION
 from planmethod.problem import load
 from planmethod.solved.many import positions as many
 from planmethod.solved.many.positions import BLOCK, SAMPLE, Gaps, blocks, evenly, examine
@@ -394,7 +394,7 @@ def test_scales_that_are_given_are_kept() -> None:
     coarse = {kind: replace(scale, per_mm=2 * scale.per_mm) for kind, scale in scales.items()}
     other = Solution(problem, positions=[270.0], scales=coarse)
     assert other.scales == coarse
-    for kind in PlanKind:
+    for kind in MOTION:
         for one, two in zip(far.segments(kind), other.segments(kind), strict=True):
             assert two.exact == pytest.approx(one.exact / 2)
 

@@ -10,7 +10,8 @@ import pytest
 from worked import ROOT, problem_of
 
 from planmethod.mechanism.structure import analyse
-from planmethod.solved.forces.statics import JointForce, Statics
+from planmethod.solved.forces.contact import JointForce
+from planmethod.solved.forces.statics import Statics
 from planmethod.solved.solution import Solution
 
 LIMIT = 1e-9

@@ -11,6 +11,7 @@ from worked import ROOT, path_of, problem_of
 
 from planmethod.note.audit.audit import audit
 from planmethod.problem.selector import is_force, parse_selector
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 
@@ -47,7 +48,7 @@ def test_every_file_with_loads_is_checked() -> None:
 
 
 def test_forces_of_the_press_with_a_stone() -> None:
-    statics = Solution(problem_of("press/press-stone")).statics
+    statics = statics_of(Solution(problem_of("press/press-stone")))
     wanted = computed()["stone"]
     found = {}
     for joint in statics.reactions:

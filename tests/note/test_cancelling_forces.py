@@ -15,6 +15,7 @@ from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.reading import force_reading
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 CANCEL = """
@@ -52,7 +53,7 @@ def test_couples_that_cancel_on_the_crank_are_told() -> None:
     """M_Φ1 = -1·3 and M_1 = +3 N·m: the moment that balances them is nothing."""
     problem = six_link(CANCEL, epsilon="3")
     solution = Solution(problem)
-    assert solution.statics.balance[0] == pytest.approx(0.0, abs=1e-12)
+    assert statics_of(solution).balance[0] == pytest.approx(0.0, abs=1e-12)
     told = " ".join(protocol(solution).replace("\u00a0", " ").split())
     assert "ΣM_O = M₁ + M_ур − M_Φ1 = 0, M_ур = 3,000 − 3,000 = 0." in told
     assert "+ M_ур·(pa)/l_OA" in told

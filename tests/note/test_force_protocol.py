@@ -22,6 +22,7 @@ from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem import loads
 from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
@@ -192,11 +193,11 @@ def test_with_a_fine_ruler_all_forces_are_exact() -> None:
             assert number(found["value"]) == pytest.approx(number(found["exact"]), rel=2e-3)
             count += 1
     for solution in every(1e-9):
-        peak = solution.statics.largest(0)
+        peak = statics_of(solution).largest(0)
         for found in EXACTLY.finditer(forces_of(text_of(solution))):
             value, exact = number(found["value"]), number(found["exact"])
             # Of a force in whole ruler steps of 0.1 mm only so much is written.
-            step = 0.06 * solution.statics.scale.per_mm
+            step = 0.06 * statics_of(solution).scale.per_mm
             assert abs(value - exact) <= 2e-3 * abs(exact) + (step if exact < peak else 0.0)
             count += 1
     assert count > 400
@@ -207,14 +208,14 @@ def test_the_exact_values_are_those_of_the_table(name: str) -> None:
     solution = worked(name)
     text = forces_of(text_of(solution))
     exact = {m["symbol"]: m["exact"] for m in EXACTLY.finditer(text)}
-    for joint in solution.statics.reactions:
+    for joint in statics_of(solution).reactions:
         size = abs(complex(joint.force[0]))
         symbols = [reaction_symbol(joint.on, joint.by), reaction_symbol(joint.by, joint.on)]
         named = [exact[plain_text(s)] for s in symbols if plain_text(s) in exact]
         if size > 1e-9:
             assert named, symbols
             assert number(named[0]) == pytest.approx(size, rel=1e-3)
-    balance = float(solution.statics.balance[0])
+    balance = float(statics_of(solution).balance[0])
     assert number(exact["M_ур"]) == pytest.approx(abs(balance), rel=1e-3)
     sense = "против часовой стрелки" if balance > 0 else "по часовой стрелке"
     for found in re.finditer(r"M_ур = [^.;]*\(точно \S+\), направлен ([^.]*)\.", text):
@@ -302,11 +303,11 @@ def test_the_force_of_a_guide_acts_where_it_is_told() -> None:
     for solution in every(1e-9):
         text = flat(text_of(solution))
         found = {(m["force"], m["point"]): m for m in ACTS.finditer(text)}
-        for joint in solution.statics.reactions:
+        for joint in statics_of(solution).reactions:
             force, moment = complex(joint.force[0]), float(joint.moment[0])
             symbol = plain_text(reaction_symbol(joint.on, joint.by))
             told_of = [m for (name, _), m in found.items() if name == symbol]
-            if not told_of or abs(force) < 10 * solution.statics.scale.per_mm:
+            if not told_of or abs(force) < 10 * statics_of(solution).scale.per_mm:
                 continue
             away = -1j * force / abs(force) * moment / abs(force)
             assert number(told_of[0]["distance"]) == pytest.approx(abs(away), rel=1e-2)
@@ -421,9 +422,9 @@ def test_each_of_many_positions_has_its_own_forces() -> None:
     problem = worked("levers/task12").problem
     many = Solution(problem, positions=[245.0, 260.0])
     for index, phi in enumerate((245.0, 260.0)):
-        exact = abs(complex(many.statics.reactions[0].force[index]))
+        exact = abs(complex(statics_of(many).reactions[0].force[index]))
         text = forces_of(protocol(many, position=index))
-        symbol = many.statics.reactions[0]
+        symbol = statics_of(many).reactions[0]
         found = re.search(
             rf"{plain_text(reaction_symbol(symbol.on, symbol.by))} = [^;]*точно (\S+)\)", text
         )
@@ -439,8 +440,8 @@ def test_a_shifted_force_of_inertia_is_told_where_it_acts(lang: str) -> None:
     """The couple, the shift laid off on the drawing, the point of the lever; no pair on that."""
     solution = six_link(("[dynamics]", "[dynamics]\nresultant = true"))
     text = flat(protocol(solution, lang=lang))
-    (shift,) = solution.statics.board.shifts.values()
-    drawn = abs(float(solution.reals(solution.statics.by_hand, shift.length)[0]))
+    (shift,) = statics_of(solution).board.shifts.values()
+    drawn = abs(float(statics_of(solution).by_hand.number(shift.length)[0]))
     laid = "откладываем {} мм от точки S2" if lang == "ru" else "{} mm are laid off from point S2"
     length = f"{drawn:.2f}"
     assert laid.format(length.replace(".", ",") if lang == "ru" else length) in text

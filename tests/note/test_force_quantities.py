@@ -18,6 +18,8 @@ from planmethod.note.audit.table import EN, RU
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import FORCES, parse_selector
+from planmethod.solved.errors.forces import drawn_forces
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 LOADS = """
@@ -154,7 +156,7 @@ def test_arms_are_read_off_the_drawing() -> None:
 def test_the_hands_balance_is_that_of_its_plans() -> None:
     solution = Solution(loaded(), ruler=0.5)
     own = Quantities(solution)
-    balances = solution.statics.drawn.balances
+    balances = drawn_forces(statics_of(solution)).balances
     assert balances is not None
     assert own.read(parse_selector("balance")) == balances.plans[0]
     assert own.read(parse_selector("lever")) == balances.lever[0]
@@ -169,13 +171,11 @@ def test_the_shift_is_the_constructed_one() -> None:
     problem = with_resultant(worked("press/press"))
     scales = replace(problem.scales, mu_l=0.002)
     solution = Solution(replace(problem, scales=scales))
-    (shift,) = solution.statics.board.shifts.values()
+    (shift,) = statics_of(solution).board.shifts.values()
     quantities, selector = Quantities(solution), parse_selector("shift 3")
-    exact = solution.complexes(solution.statics.paper, shift.at) - solution.complexes(
-        solution.paper, shift.centre
-    )
+    exact = statics_of(solution).paper.point(shift.at) - solution.paper.point(shift.centre)
     assert quantities.exact(selector) == pytest.approx(abs(complex(exact[0])), rel=1e-9)
-    laid = solution.reals(solution.statics.by_hand, shift.length)
+    laid = statics_of(solution).by_hand.number(shift.length)
     assert quantities.read(selector) == pytest.approx(abs(float(laid[0])), rel=1e-9)
     assert abs(complex(exact[0])) == pytest.approx(83.4, abs=0.5)
 

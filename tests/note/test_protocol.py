@@ -134,9 +134,7 @@ def test_offsets_lie_on_the_side_that_is_told() -> None:
         names = Names(solution, wording("ru"))
         steps = solution.construction.program.steps
         place = {
-            names.point(PointName(step.out)): complex(
-                solution.complexes(solution.paper, step.out)[0]
-            )
+            names.point(PointName(step.out)): complex(solution.paper.point(step.out)[0])
             for step in steps
             if makes(step) is PointName and step.out not in names.letters
         }

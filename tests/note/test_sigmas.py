@@ -17,7 +17,8 @@ from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.causes import Causes
 from planmethod.note.tables.results import result_tables
 from planmethod.note.wording import wording
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION, PlanKind
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
 
 NEAR_DEAD = [230.0, 240.0, 250.0]
@@ -116,7 +117,7 @@ def test_every_reading_has_its_error_beside_it(name: str, lang: str) -> None:
     solution = worked(name)
     text = result_tables(solution, lang, sigma=True)
     rows, plain = rows_of(text), rows_of(result_tables(solution, lang))
-    spreads = solution.drafting.spreads
+    spreads = drafting_of(solution).spreads
 
     def cell(label: str) -> str:
         spread = spreads.get(label)
@@ -136,7 +137,7 @@ def test_every_reading_has_its_error_beside_it(name: str, lang: str) -> None:
         omega = [link, *row[1:4], cell(f"omega_{link}")]
         assert any(r[:5] == omega for r in found)
         assert any(r[3:4] == [cell(f"epsilon_{link}")] for r in found)
-    for kind in PlanKind:
+    for kind in MOTION:
         for segment in solution.segments(kind):
             exact = f"{float(segment.exact[0]):.2f}".replace(".", "," if lang == "ru" else ".")
             error = cell(f"{kind.value}.{segment.name}")
@@ -154,7 +155,7 @@ def test_says_how_far_off_the_readings_of_a_worked_example_are() -> None:
         "вектор отрезок точно, мм снято, мм ±σ по снятому, м/с",
     ):
         assert header.split() in rows
-    sigma = np.sqrt(solution.drafting.covariance(["v_E"], 0)[0, 0])
+    sigma = np.sqrt(drafting_of(solution).covariance(["v_E"], 0)[0, 0])
     row = ["E", "0,2471", "0", "3,916", "3,925", spoken(float(sigma), False, "ru")]
     assert any(each[:6] == row for each in rows)
     sliding = next(row for row in rows if row[:2] == ["B:", "3"])
@@ -170,7 +171,7 @@ def test_what_was_found_by_draws_is_marked_and_told(lang: str) -> None:
     starred = result_tables(near_dead(), lang, sigma=True)
     assert note in flat(starred)
     assert re.search(r"\d\*", starred)
-    spread = near_dead().drafting.spreads["v_H"]
+    spread = drafting_of(near_dead()).spreads["v_H"]
     assert spread.drawn.any()
     for i in range(3):
         mark = spoken(float(spread.sigma[i]), bool(spread.drawn[i]), lang)
@@ -216,7 +217,7 @@ def test_many_positions_have_one_more_table(name: str, lang: str) -> None:
     columns = [name for row in head for name in row[3:]]
     assert len(columns) == 2 * len(asked_points(solution)) + 2 * len(asked_links(solution))
     point = asked_points(solution)[-1]
-    spread = solution.drafting.spreads[f"a_{point}"]
+    spread = drafting_of(solution).spreads[f"a_{point}"]
     (row,) = [row for row in head if f"a_{point}" in row]
     at = row.index(f"a_{point}") - 1  # "φ₁, °" is two words
     start = rows_of(table).index(row)
@@ -250,7 +251,7 @@ def test_the_largest_causes_of_the_worst_result(name: str, lang: str) -> None:
     solution, words = worked(name), wording(lang)
     text = result_tables(solution, lang, sigma=True)
     lines = text[text.index(words.table_causes) :].split("\n\n")[0].splitlines()
-    spreads = solution.drafting.spreads
+    spreads = drafting_of(solution).spreads
     worst: dict[str, float] = {}
     for point in asked_points(solution):
         motion = solution.points[point]
@@ -270,7 +271,9 @@ def test_the_largest_causes_of_the_worst_result(name: str, lang: str) -> None:
     assert float(percent[1].replace(",", ".")) == pytest.approx(100 * parts[label], abs=0.51)
     shares = [int(line.split()[0]) for line in lines[2:]]
     assert 1 <= len(shares) <= 3
-    assert shares == [round(100 * s) for _, s in solution.drafting.causes(label, 0)[: len(shares)]]
+    assert shares == [
+        round(100 * s) for _, s in drafting_of(solution).causes(label, 0)[: len(shares)]
+    ]
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
@@ -281,8 +284,8 @@ def test_every_stroke_can_be_told(name: str | int, lang: str) -> None:
     causes = Causes(Names(solution, wording(lang)))
     strokes = {
         stroke
-        for label in solution.drafting.items
-        for stroke, _ in solution.drafting.causes(label, 0)
+        for label in drafting_of(solution).items
+        for stroke, _ in drafting_of(solution).causes(label, 0)
     }
     assert strokes
     for stroke in strokes:
@@ -311,9 +314,9 @@ def test_causes_are_told_in_plain_words() -> None:
 def test_without_a_believed_result_there_are_no_causes() -> None:
     """What is lost in its error or found by draws has no causes of first order."""
     solution = Solution(problem_of("levers/six-link"), positions=[250.0])
-    solution.drafting.spreads = {
+    drafting_of(solution).spreads = {
         label: type(spread)(spread.sigma, np.ones_like(spread.drawn))
-        for label, spread in solution.drafting.spreads.items()
+        for label, spread in drafting_of(solution).spreads.items()
     }
     assert Causes(Names(solution, wording("ru"))).lines(0) == []
     assert wording("ru").table_causes not in result_tables(solution, sigma=True)

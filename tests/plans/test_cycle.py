@@ -9,7 +9,8 @@ from worked import path_of, problem_of
 
 from planmethod import loads
 from planmethod.errors import PlanMethodError
-from planmethod.solved.forces.cycle import Cycle
+from planmethod.solved.cycle import Cycle
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.travel import Course
 
@@ -51,7 +52,7 @@ def test_curves_go_through_the_asked_positions_and_are_exact_between(name: str) 
             assert at[float(position)] == pytest.approx(complex(force), abs=1e-12 * largest)
         assert at[372.0] == pytest.approx(at[12.0], abs=1e-9 * largest)
         k = len(piece.positions) // 3
-        alone = exactly(solution, float(piece.positions[k])).statics.reactions[number]
+        alone = statics_of(exactly(solution, float(piece.positions[k]))).reactions[number]
         assert piece.values[k] == pytest.approx(complex(alone.force[0]), abs=1e-9 * largest)
 
 
@@ -66,7 +67,7 @@ def test_a_load_with_a_phase_leaves_gaps_where_it_begins_and_ends() -> None:
         assert after.positions[0] - before.positions[-1] < 1e-3
         # As far as the load does: nothing else changes in so small a step.
         with_load, without = (
-            exactly(task12(text), jump).statics.balance[0]
+            statics_of(exactly(task12(text), jump)).balance[0]
             for text in (RESISTANCE, RESISTANCE.replace("2000", "0"))
         )
         change = abs(after.values[0] - before.values[-1])
@@ -124,7 +125,10 @@ def test_a_load_known_in_its_positions_only_has_chords() -> None:
     assert not cycle.smooth
     (piece,) = cycle.balance
     assert piece.positions.tolist() == [*TURN, 360.0]
-    assert piece.values.real.tolist() == [*solution.statics.balance, solution.statics.balance[0]]
+    assert piece.values.real.tolist() == [
+        *statics_of(solution).balance,
+        statics_of(solution).balance[0],
+    ]
 
 
 def test_positions_between_that_do_not_exist_are_gaps() -> None:
@@ -134,7 +138,7 @@ def test_positions_between_that_do_not_exist_are_gaps() -> None:
     assert 300.0 <= before.positions[-1] < after.positions[0] <= 500.0
     for position in (before.positions[-1] + 2.0, after.positions[0] - 2.0):
         with pytest.raises(PlanMethodError):
-            _ = exactly(solution, float(position)).statics.balance
+            _ = statics_of(exactly(solution, float(position))).balance
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -150,7 +154,7 @@ def test_random_mechanisms(seed: int) -> None:
     asked = [float(drive.positions[0]) - k * step for k in range(4)]
     try:
         solution = Solution(problem, positions=asked)
-        balance = solution.statics.balance
+        balance = statics_of(solution).balance
     except PlanMethodError:
         pytest.skip("the mechanism does not reach so far from its pose")
     cycle = Cycle(solution)

@@ -8,7 +8,7 @@ from planmethod.errors import AssemblyError, ProblemError
 from planmethod.problem import loads
 from planmethod.solved.selfcheck import verify, warnings
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import doubt
+from planmethod.solved.trust.conditioning import error_bound
 
 PARALLELOGRAM = """
 [frame]
@@ -52,7 +52,7 @@ def test_near_the_change_point_the_estimate_covers_the_error(phi: str) -> None:
     verify(solution)
     # The rocker of a parallelogram has no angular acceleration: what is found is the error.
     error = abs(solution.links["3"].epsilon[0]) / 12**2
-    assert error <= 20 * doubt(solution)[0]
+    assert error <= 20 * error_bound(solution)[0]
 
 
 def test_a_doubtful_position_is_told_with_its_margin() -> None:

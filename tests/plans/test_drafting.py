@@ -17,7 +17,7 @@ from planmethod.construct.program import Builder, Program
 from planmethod.plans.model import PlanKind
 from planmethod.problem import load
 from planmethod.solved.errors.drawing import ItemKind
-from planmethod.solved.errors.motion import Drafting
+from planmethod.solved.errors.motion import Drafting, drafting_of
 from planmethod.solved.errors.spread import SHORT, UnknownItemError
 from planmethod.solved.solution import Solution
 
@@ -33,7 +33,7 @@ def drawn(name: str, profile: str) -> Solution:
 @pytest.mark.parametrize("name", SIX)
 def test_first_order_agrees_with_random_sheets(name: str, profile: str) -> None:
     """Wherever a result is longer than three sigmas and first order is not given up."""
-    drafting = drawn(name, profile).drafting
+    drafting = drafting_of(drawn(name, profile))
     sheets = drafting.sample(0, draws=DRAWS, seed=11)
     compared = 0
     for label, spread in drafting.spreads.items():
@@ -51,7 +51,7 @@ def test_first_order_agrees_with_random_sheets(name: str, profile: str) -> None:
 def test_twelve_positions_too() -> None:
     problem = load(PROBLEMS / "linkages/ex3.toml")
     solution = Solution(problem, positions=list(range(0, 360, 30)))
-    drafting = solution.drafting
+    drafting = drafting_of(solution)
     checked = given_up = 0
     for i in range(12):
         sheets = drafting.sample(i, draws=DRAWS, seed=5)
@@ -153,7 +153,7 @@ def test_nothing_laid_off_has_no_error() -> None:
 def test_a_hand_that_never_errs_draws_the_exact_plan() -> None:
     still = Profile("still", 0.0, 0.0, 0.0, 0.0, 1e-9)
     solution = Solution(problem_of("linkages/ex3"), profile=still)
-    sheets = solution.drafting.sample(0, draws=3)
+    sheets = drafting_of(solution).sample(0, draws=3)
     exact = {s.name: s.exact[0] for s in solution.segments(PlanKind.VELOCITY)}
     for name, value in exact.items():
         assert sheets[f"velocity.{name}"] == pytest.approx([value] * 3, abs=1e-7)
@@ -180,7 +180,7 @@ def test_a_hand_that_never_errs_draws_the_exact_plan() -> None:
 
 @pytest.mark.parametrize("name", ["linkages/ex3", "levers/six-link", "press/press"])
 def test_covariance_agrees_with_random_sheets(name: str) -> None:
-    drafting = drawn(name, "cad").drafting
+    drafting = drafting_of(drawn(name, "cad"))
     labels = [label for label in drafting.items if label.startswith(("v_", "omega_"))]
     labels = [label for label in labels if drafting.spreads[label].sigma[0] > 0][:6]
     matrix = drafting.covariance(labels)
@@ -200,12 +200,12 @@ def test_a_quantity_read_once_errs_once() -> None:
     turning = kin.turnings[PlanKind.VELOCITY, "4"]
     read = kin.velocity.segments.drawn((turning.start, turning.head))
     segment = next(each for each in solution.construction.segments if each.drawn == read)
-    assert one_error(solution.drafting, segment.label, "omega_4")
+    assert one_error(drafting_of(solution), segment.label, "omega_4")
 
 
 def test_what_follows_by_similarity_errs_with_its_side() -> None:
     """v_S3 is v_D·CS3/CD: the point s3 is laid off, and nothing is read anew."""
-    assert one_error(drawn("levers/task12", "board").drafting, "v_D", "v_S3")
+    assert one_error(drafting_of(drawn("levers/task12", "board")), "v_D", "v_S3")
 
 
 def one_error(drafting: Drafting, one: str, other: str) -> bool:
@@ -215,7 +215,7 @@ def one_error(drafting: Drafting, one: str, other: str) -> bool:
 
 
 def test_shares_of_the_causes_make_up_the_whole() -> None:
-    drafting = drawn("linkages/ex3", "board").drafting
+    drafting = drafting_of(drawn("linkages/ex3", "board"))
     causes = drafting.causes("v_E")
     assert sum(share for _, share in causes) == pytest.approx(1.0)
     assert [share for _, share in causes] == sorted((s for _, s in causes), reverse=True)
@@ -223,7 +223,9 @@ def test_shares_of_the_causes_make_up_the_whole() -> None:
 
 def test_a_better_hand_errs_less() -> None:
     for name in SIX:
-        cad, board, coarse = (drawn(name, p).drafting.spreads for p in ("cad", "board", "coarse"))
+        cad, board, coarse = (
+            drafting_of(drawn(name, p)).spreads for p in ("cad", "board", "coarse")
+        )
         for label, spread in board.items():
             if spread.sigma[0] > 0 and not (spread.drawn[0] or coarse[label].drawn[0]):
                 assert cad[label].sigma[0] < spread.sigma[0] < coarse[label].sigma[0]
@@ -231,18 +233,18 @@ def test_a_better_hand_errs_less() -> None:
 
 def test_what_a_drawing_does_not_give() -> None:
     with pytest.raises(UnknownItemError, match="does not give v_Z"):
-        drawn("linkages/ex1", "board").drafting.covariance(["v_Z"])
+        drafting_of(drawn("linkages/ex1", "board")).covariance(["v_Z"])
 
 
 def test_ellipse_of_a_point_of_a_plan() -> None:
     solution = drawn("linkages/ex3", "board")
     plan = solution.construction.plan(PlanKind.VELOCITY)
     head = solution.construction.kinematics.velocity.point["4", "E"]
-    matrix = solution.drafting.ellipse(head, 0)
+    matrix = drafting_of(solution).ellipse(head, 0)
     assert plan.pole is not None
-    at = complex(solution.complexes(solution.paper, head)[0])
+    at = complex(solution.paper.point(head)[0])
     unit = np.array([at.real, at.imag]) / abs(at)
     # Along the segment from the pole the point errs as the segment does, but for the reading.
     read = math.hypot(solution.profile.measure, solution.profile.ruler / math.sqrt(12))
-    sigma = solution.drafting.spreads["velocity.p-e"].sigma[0]
+    sigma = drafting_of(solution).spreads["velocity.p-e"].sigma[0]
     assert math.sqrt(unit @ matrix @ unit + read**2) == pytest.approx(sigma, rel=1e-9)

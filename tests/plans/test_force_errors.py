@@ -22,10 +22,12 @@ from planmethod.solved.errors.forces import (
     LEVER,
     all_errors,
     angle_label,
+    drawn_forces,
     moment_label,
     size_label,
 )
-from planmethod.solved.forces.statics import Statics
+from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
@@ -35,17 +37,17 @@ DRAWS = 20_000
 
 
 @cache
-def statics_of(
+def statics_with(
     name: str | int, profile: str = "board", positions: tuple[float, ...] | None = None
 ) -> Statics:
     problem = loaded_problem(name)[0] if isinstance(name, int) else problem_of(name)
-    return Solution(problem, positions=positions, profile=PROFILES[profile]).statics
+    return statics_of(Solution(problem, positions=positions, profile=PROFILES[profile]))
 
 
 @cache
 def sheets_of(name: str | int, profile: str) -> Trace:
     """Draw the force plans of the first position many times, with nothing of the errors' own."""
-    statics = statics_of(name, profile)
+    statics = statics_with(name, profile)
     plans = statics.solution.construction.plans
     free = frozenset([*(str(plan.pole) for plan in plans), *map(str, statics.board.starts)])
     pencil = Sampled(statics.solution.profile, free, DRAWS, 7)
@@ -63,12 +65,12 @@ def ends_of(statics: Statics) -> list[PointName]:
 @pytest.mark.parametrize("name", [*LOADED, 1, 4, 5, 8])
 def test_covariance_of_a_vertex_is_that_of_random_sheets(name: str | int) -> None:
     """With a hand so good that first order holds for all."""
-    statics = statics_of(name, "cad")
+    statics = statics_with(name, "cad")
     compared = 0
     for end in ends_of(statics):
-        matrix = statics.drawn.ellipse(end, 0)
+        matrix = drawn_forces(statics).ellipse(end, 0)
         drawn = np.broadcast_to(sheets_of(name, "cad").value[end], (DRAWS,))
-        if statics.drawn.strained(end)[0]:
+        if drawn_forces(statics).strained(end)[0]:
             continue
         found = np.cov(np.array([drawn.real, drawn.imag]))
         size = float(np.trace(matrix))
@@ -83,12 +85,12 @@ def test_covariance_of_a_vertex_is_that_of_random_sheets(name: str | int) -> Non
 )
 def test_of_random_sheets_so_many_fall_into_two_sigmas(name: str, profile: str) -> None:
     """At the vertices where first order is believed."""
-    statics, told = statics_of(name, profile), 0
+    statics, told = statics_with(name, profile), 0
     for end in ends_of(statics):
-        matrix = statics.drawn.ellipse(end, 0)
-        if statics.drawn.strained(end)[0] or np.linalg.det(matrix) == 0:
+        matrix = drawn_forces(statics).ellipse(end, 0)
+        if drawn_forces(statics).strained(end)[0] or np.linalg.det(matrix) == 0:
             continue
-        exact = complex(statics.solution.complexes(statics.paper, end)[0])
+        exact = complex(statics.paper.point(end)[0])
         off = sheets_of(name, profile).value[end] - exact
         rows = np.array([off.real, off.imag])
         inside = np.einsum("in,ij,jn->n", rows, np.linalg.inv(matrix), rows) <= 4.0
@@ -99,12 +101,12 @@ def test_of_random_sheets_so_many_fall_into_two_sigmas(name: str, profile: str) 
 
 @pytest.mark.parametrize("name", [*LOADED, 1, 4])
 def test_every_plan_begins_in_a_point_that_cannot_be_off(name: str | int) -> None:
-    statics = statics_of(name)
+    statics = statics_with(name)
     for plan in statics.board.plans:
         ends = {end for edge in plan.polygon for end in (edge.tail, edge.head)}
         (start,) = ends & {*statics.board.starts}
-        assert not statics.drawn.ellipse(start, 0).any()
-        assert any(statics.drawn.ellipse(end, 0).any() for end in ends)
+        assert not drawn_forces(statics).ellipse(start, 0).any()
+        assert any(drawn_forces(statics).ellipse(end, 0).any() for end in ends)
 
 
 # Sizes, directions, moments -----------------------------------------------------------------------
@@ -113,7 +115,7 @@ def test_every_plan_begins_in_a_point_that_cannot_be_off(name: str | int) -> Non
 @pytest.mark.parametrize("profile", PROFILES)
 @pytest.mark.parametrize("name", LOADED)
 def test_first_order_agrees_with_random_sheets(name: str, profile: str) -> None:
-    drawn = statics_of(name, profile).drawn
+    drawn = drawn_forces(statics_with(name, profile))
     sheets = drawn.sample(0, draws=DRAWS, seed=11)
     compared = set()
     for label, spread in drawn.spreads.items():
@@ -140,11 +142,11 @@ def test_first_order_agrees_with_random_sheets(name: str, profile: str) -> None:
 
 def test_a_force_along_minus_x_has_a_direction_as_good_as_any() -> None:
     """F_50 of the six-link points to 180 degrees: its draws lie on both sides of the cut."""
-    statics = statics_of("levers/six-link")
+    statics = statics_with("levers/six-link")
     joint = next(one for one in statics.reactions if (one.on, one.by) == ("5", "0"))
     assert np.degrees(np.angle(joint.force[0])) % 360.0 == pytest.approx(180.0)
-    assert float(statics.drawn.spreads[angle_label(joint)].sigma[0]) < 2.0
-    assert statics.drawn._of_sheets(0)[angle_label(joint)] < 2.0
+    assert float(drawn_forces(statics).spreads[angle_label(joint)].sigma[0]) < 2.0
+    assert drawn_forces(statics)._of_sheets(0)[angle_label(joint)] < 2.0
 
 
 def test_the_slope_of_an_angle() -> None:
@@ -160,11 +162,13 @@ def test_the_slope_of_an_angle() -> None:
 
 @pytest.mark.parametrize("name", ["levers/task12", 1, 8])
 def test_only_prismatic_pairs_have_moments_and_these_have_errors(name: str | int) -> None:
-    statics = statics_of(name)
+    statics = statics_with(name)
     for reaction in statics.board.reactions:
-        assert (moment_label(reaction) in statics.drawn.items) == (reaction.couple is not None)
-    labels = [label for label in statics.drawn.items if label.startswith("M_")]
-    assert any(float(statics.drawn.spreads[label].sigma[0]) > 0 for label in labels)
+        assert (moment_label(reaction) in drawn_forces(statics).items) == (
+            reaction.couple is not None
+        )
+    labels = [label for label in drawn_forces(statics).items if label.startswith("M_")]
+    assert any(float(drawn_forces(statics).spreads[label].sigma[0]) > 0 for label in labels)
 
 
 # Where first order is given up --------------------------------------------------------------------
@@ -172,7 +176,7 @@ def test_only_prismatic_pairs_have_moments_and_these_have_errors(name: str | int
 
 def test_a_reaction_that_is_nothing_has_the_sigma_of_the_sheets() -> None:
     """The guide of task 12 holds no force: a length near zero does not err normally."""
-    drawn = statics_of("levers/task12").drawn
+    drawn = drawn_forces(statics_with("levers/task12"))
     spread = drawn.spreads["F_5_0"]
     assert spread.drawn[0]
     low, high = np.quantile(drawn.sample(0)["F_5_0"], [0.158655, 0.841345])
@@ -182,7 +186,7 @@ def test_a_reaction_that_is_nothing_has_the_sigma_of_the_sheets() -> None:
 
 def test_a_size_is_not_believed_where_its_direction_is_not() -> None:
     """F_23 of the six-link is 16 mm long, off by a millimetre along it but by ten across it."""
-    drawn = statics_of("levers/six-link").drawn
+    drawn = drawn_forces(statics_with("levers/six-link"))
     along = float(np.sqrt(drawn.covariance(["F_2_3"])[0, 0]))
     spread = drawn.spreads["F_2_3"]
     assert spread.drawn[0] and spread.sigma[0] > 3 * along
@@ -191,19 +195,19 @@ def test_a_size_is_not_believed_where_its_direction_is_not() -> None:
 
 
 def test_what_follows_from_a_strained_step_is_not_believed() -> None:
-    statics = statics_of("levers/six-link", "board", NEAR_DEAD)
-    kinematic = statics.solution.drafting.spreads["x_H"].drawn
+    statics = statics_with("levers/six-link", "board", NEAR_DEAD)
+    kinematic = drafting_of(statics.solution).spreads["x_H"].drawn
     assert kinematic.any()
     for label in (BALANCE, LEVER, DIFFERENCE, "F_1_0"):
-        assert statics.drawn.spreads[label].drawn[kinematic].all(), label
+        assert drawn_forces(statics).spreads[label].drawn[kinematic].all(), label
 
 
 def test_plans_without_forces_have_no_errors() -> None:
     """Nothing loads the links: nobody draws their force plans."""
     text = path_of("linkages/ex3").read_text("utf-8")
     solution = Solution(loads(text + "\n[dynamics]\ngravity = false\n", name="free"))
-    for joint in solution.statics.reactions:
-        spread = solution.statics.drawn.spreads[size_label(joint)]
+    for joint in statics_of(solution).reactions:
+        spread = drawn_forces(statics_of(solution)).spreads[size_label(joint)]
         assert spread.sigma[0] == 0 and not spread.drawn[0], joint
 
 
@@ -211,11 +215,11 @@ def test_plans_without_forces_have_no_errors() -> None:
 
 
 def test_forces_err_together_with_the_kinematics_they_follow_from() -> None:
-    solution = statics_of("levers/task12", "cad").solution
-    errors = all_errors(solution.statics)
-    kinematic = list(solution.drafting.items)
+    solution = statics_with("levers/task12", "cad").solution
+    errors = all_errors(statics_of(solution))
+    kinematic = list(drafting_of(solution).items)
     assert np.allclose(
-        errors.covariance(kinematic), solution.drafting.covariance(kinematic), rtol=1e-9, atol=0
+        errors.covariance(kinematic), drafting_of(solution).covariance(kinematic), rtol=1e-9, atol=0
     )
     labels = ["a_D", "omega_3", "F_3_0", "F_1_0", "angle_F_1_0", "M_5_0", BALANCE, LEVER]
     matrix = errors.covariance(labels)
@@ -230,17 +234,19 @@ def test_forces_err_together_with_the_kinematics_they_follow_from() -> None:
 
 def test_positions_in_blocks_err_as_each_by_itself() -> None:
     positions = tuple(5.0 + 9.0 * k for k in range(40))
-    statics = statics_of("levers/task12", "board", positions)
+    statics = statics_with("levers/task12", "board", positions)
     for index in (0, 31, 32, 39):
-        alone = statics_of("levers/task12", "board", (positions[index],))
+        alone = statics_with("levers/task12", "board", (positions[index],))
         # The scales of the plans are those of all positions.
         share = statics.scale.per_mm / alone.scale.per_mm
         if share == 1.0 and statics.solution.per_mm == alone.solution.per_mm:
             for label in ("F_3_0", BALANCE):
-                together = statics.drawn.spreads[label].sigma[index]
-                assert together == pytest.approx(alone.drawn.spreads[label].sigma[0], rel=1e-9)
-        matrix = statics.drawn.covariance(["F_3_0"], index)
-        if not statics.drawn.spreads["F_3_0"].drawn[index]:
+                together = drawn_forces(statics).spreads[label].sigma[index]
+                assert together == pytest.approx(
+                    drawn_forces(alone).spreads[label].sigma[0], rel=1e-9
+                )
+        matrix = drawn_forces(statics).covariance(["F_3_0"], index)
+        if not drawn_forces(statics).spreads["F_3_0"].drawn[index]:
             assert np.sqrt(matrix[0, 0]) == pytest.approx(
-                statics.drawn.spreads["F_3_0"].sigma[index], rel=1e-12
+                drawn_forces(statics).spreads["F_3_0"].sigma[index], rel=1e-12
             )

@@ -11,7 +11,7 @@ from worked import path_of, problem_of
 from planmethod.note.records.solution import record
 from planmethod.problem import loads
 from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.forces.statics import PLAN_BOX
+from planmethod.solved.forces.statics import PLAN_BOX, statics_of
 from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
@@ -22,7 +22,7 @@ def test_the_largest_plan_fills_its_box(name: str) -> None:
     problem = problem_of(name)
     free = replace(problem, scales=replace(problem.scales, mu_F=None))
     solution = Solution(free)
-    reading, scale = ForceReading(solution, 0), solution.statics.scale
+    reading, scale = ForceReading(solution, 0), statics_of(solution).scale
     assert reading.scale == scale
     assert record(solution)["positions"][0]["forces"]["mu"] == scale.per_mm
     sizes = []
@@ -37,15 +37,15 @@ def test_all_positions_have_one_scale() -> None:
     free = replace(problem, scales=replace(problem.scales, mu_F=None))
     solution = Solution(free, positions=[30.0 * k for k in range(12)])
     scales = {ForceReading(solution, k).scale for k in range(12)}
-    assert scales == {solution.statics.scale}
-    single = Solution(free).statics.scale
-    assert solution.statics.scale.per_mm >= single.per_mm
+    assert scales == {statics_of(solution).scale}
+    single = statics_of(Solution(free)).scale
+    assert statics_of(solution).scale.per_mm >= single.per_mm
 
 
 def test_the_scale_of_the_file() -> None:
     problem = problem_of("press/press")
     asked = replace(problem, scales=replace(problem.scales, mu_F=7.5))
-    assert Solution(asked).statics.scale.per_mm == 7.5
+    assert statics_of(Solution(asked)).scale.per_mm == 7.5
 
 
 def test_the_scale_is_read_in_the_convention_of_the_file() -> None:

@@ -15,7 +15,7 @@ from worked import SIX, exact_values, problem_of
 
 from benchmarks.generator import random_problem
 from planmethod.construct.steps import Compute, Name, NumberName, PointName
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION, PlanKind
 from planmethod.problem import loads
 from planmethod.solved.solution import Solution
 
@@ -306,7 +306,7 @@ def test_signs_of_the_hand_are_those_of_the_exact_plan(name: str) -> None:
 
 def test_a_ruler_does_not_change_the_exact_plan() -> None:
     fine, coarse = drawn("linkages/ex3", 0.1), drawn("linkages/ex3", 5.0)
-    for kind in PlanKind:
+    for kind in MOTION:
         for one, two in zip(fine.segments(kind), coarse.segments(kind), strict=True):
             assert (one.name, *one.exact) == (two.name, *two.exact)
 
@@ -317,7 +317,7 @@ def test_several_positions_are_read_one_by_one() -> None:
     batch = Solution(problem, positions=positions)
     for i, phi in enumerate(positions):
         one = Solution(problem, positions=[phi])
-        for kind in PlanKind:
+        for kind in MOTION:
             for many, single in zip(batch.segments(kind), one.segments(kind), strict=True):
                 assert (many.exact[i], many.read[i]) == (single.exact[0], single.read[0])
         for label in (f"{rate}_{link}" for rate in ("omega", "epsilon") for link in batch.links):

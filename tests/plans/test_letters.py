@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from worked import path_of
 
+from planmethod.note.narrate.letters import mark
 from planmethod.note.records.solution import record
-from planmethod.plans.motion.board import letter, mark
+from planmethod.plans.motion.board import letter
 from planmethod.problem import loads
 from planmethod.solved.solution import Solution
 

@@ -7,8 +7,8 @@ import pytest
 from worked import problem_of
 
 from planmethod.construct.drafting import PROFILES
-from planmethod.solved.errors.forces import size_label
-from planmethod.solved.forces.statics import Statics
+from planmethod.solved.errors.forces import drawn_forces, size_label
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import Solution
 
 TWELVE = {
@@ -18,20 +18,20 @@ TWELVE = {
 DRAWS = 4000
 
 
-def statics_of(name: str, profile: str = "board") -> Statics:
+def statics_with(name: str, profile: str = "board") -> Statics:
     solution = Solution(problem_of(name), positions=TWELVE[name], profile=PROFILES[profile])
-    return solution.statics
+    return statics_of(solution)
 
 
 @pytest.mark.parametrize("name", TWELVE)
 def test_the_predicted_sigma_is_that_of_random_sheets(name: str) -> None:
     """Half of the middle 68 % of 4000 sheets over the prediction: 0.98 to 1.04 in 24 positions."""
-    statics = statics_of(name)
-    sigma = statics.drawn.discrepancy_sigma
+    statics = statics_with(name)
+    sigma = drawn_forces(statics).discrepancy_sigma
     assert sigma is not None
     for index, predicted in enumerate(sigma):
         low, high = np.percentile(
-            statics.drawn.sample(index, draws=DRAWS)["difference"], [15.865, 84.135]
+            drawn_forces(statics).sample(index, draws=DRAWS)["difference"], [15.865, 84.135]
         )
         assert (high - low) / 2 == pytest.approx(predicted, rel=0.06), index
 
@@ -39,8 +39,8 @@ def test_the_predicted_sigma_is_that_of_random_sheets(name: str) -> None:
 @pytest.mark.parametrize("name", TWELVE)
 def test_the_size_expected_is_no_flat_share(name: str) -> None:
     """Five per cent are too little in one position and too much in another."""
-    statics = statics_of(name)
-    sigma = statics.drawn.discrepancy_sigma
+    statics = statics_with(name)
+    sigma = drawn_forces(statics).discrepancy_sigma
     assert sigma is not None
     share = sigma / np.abs(statics.balance)
     assert share.min() < 0.05 < share.max()
@@ -49,8 +49,8 @@ def test_the_size_expected_is_no_flat_share(name: str) -> None:
 @pytest.mark.parametrize("name", TWELVE)
 def test_the_ruler_stays_within_what_the_drawing_lets_expect(name: str) -> None:
     """The ruler alone errs less than the whole hand."""
-    statics = statics_of(name)
-    sigma, hand = statics.drawn.discrepancy_sigma, statics.drawn.balances
+    statics = statics_with(name)
+    sigma, hand = drawn_forces(statics).discrepancy_sigma, drawn_forces(statics).balances
     assert sigma is not None
     assert hand is not None
     plans, lever = hand.plans, hand.lever
@@ -59,7 +59,9 @@ def test_the_ruler_stays_within_what_the_drawing_lets_expect(name: str) -> None:
 
 
 def test_a_better_hand_has_smaller_errors_in_proportion() -> None:
-    sigmas = [statics_of("press/press", profile).drawn.discrepancy_sigma for profile in PROFILES]
+    sigmas = [
+        drawn_forces(statics_with("press/press", profile)).discrepancy_sigma for profile in PROFILES
+    ]
     cad, board, coarse = (sigma for sigma in sigmas if sigma is not None)
     assert (cad < 0.1 * board).all()
     assert (board < coarse).all()
@@ -68,12 +70,12 @@ def test_a_better_hand_has_smaller_errors_in_proportion() -> None:
 @pytest.mark.parametrize("name", TWELVE)
 def test_sigmas_of_reactions_are_those_of_random_sheets(name: str) -> None:
     """Where first order is believed: near zero no length errs normally."""
-    statics = statics_of(name)
+    statics = statics_with(name)
     told = 0
     for index in (0, 4, 7):
-        sampled = statics.drawn.sample(index, draws=DRAWS)
+        sampled = drawn_forces(statics).sample(index, draws=DRAWS)
         for joint in statics.reactions:
-            spread = statics.drawn.spreads[size_label(joint)]
+            spread = drawn_forces(statics).spreads[size_label(joint)]
             sigma = float(spread.sigma[index])
             if spread.drawn[index] or sigma == 0.0:
                 continue

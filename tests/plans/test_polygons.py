@@ -10,9 +10,10 @@ import pytest
 from worked import problem_of
 
 from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
-from planmethod.plans.model import Known, PlanKind
+from planmethod.plans.model import Direction, Known, PlanKind, Relation
 from planmethod.solved.forces.statics import Statics
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press")
 TURN = {"levers/six-link": (140, 150, 160), "levers/task12": tuple(range(5, 365, 45))}
@@ -23,7 +24,7 @@ def statics_of(name: str) -> Statics:
 
 
 def drawn(statics: Statics, edge: Edge) -> Reals:
-    ends = (statics.solution.complexes(statics.si, end) for end in (edge.tail, edge.head))
+    ends = (statics.si.point(end) for end in (edge.tail, edge.head))
     tail, head = ends
     return np.asarray(head - tail)
 
@@ -75,16 +76,15 @@ def test_edges_are_the_loads_and_the_reactions(name: str) -> None:
 @pytest.mark.parametrize("name", LOADED)
 def test_moments_give_what_they_say(name: str) -> None:
     statics = statics_of(name)
-    read = statics.solution.complexes
     for plan in statics.board.plans:
         for equation in plan.moments:
-            about = read(statics.si, equation.about)
+            about = statics.si.point(equation.about)
             whole = sum(
-                ((read(statics.si, e.at) - about).conj() * drawn(statics, e)).imag
+                ((statics.si.point(e.at) - about).conj() * drawn(statics, e)).imag
                 for e in (*equation.edges, *([equation.force] if equation.force else []))
             )
             couples = [*equation.couples, *([equation.couple] if equation.couple else [])]
-            values = [statics.solution.reals(statics.si, couple.moment) for couple in couples]
+            values = [statics.si.number(couple.moment) for couple in couples]
             assert whole + sum(values) == pytest.approx(0.0, abs=1e-7)
 
 
@@ -97,7 +97,7 @@ def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
 
     def drawn_by_hand(edge: Edge) -> Any:
         hand = statics.by_hand
-        return solution.complexes(hand, edge.head) - solution.complexes(hand, edge.tail)
+        return hand.point(edge.head) - hand.point(edge.tail)
 
     def ruled(length: Any) -> Any:
         return np.sign(length) * np.floor(np.abs(length) / step + 0.5) * step
@@ -105,18 +105,18 @@ def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
     for plan in statics.board.plans:
         for equation in plan.moments:
             total: Any = 0.0
-            about = solution.complexes(solution.by_hand, equation.about)
+            about = solution.by_hand.point(equation.about)
             for edge in equation.edges:
-                vector, at = drawn_by_hand(edge), solution.complexes(solution.by_hand, edge.at)
+                vector, at = drawn_by_hand(edge), solution.by_hand.point(edge.at)
                 length = np.abs(vector)
                 size = length if edge.symbol in loaded else ruled(length)
                 across = ((at - about).conj() * vector).imag / np.where(length == 0, 1.0, length)
                 total = total + ruled(across) * size
             whole = total * statics.scale.per_mm * solution.scales[PlanKind.POSITION].per_mm
             for couple in equation.couples:
-                whole = whole + solution.reals(statics.by_hand, couple.moment)
+                whole = whole + statics.by_hand.number(couple.moment)
             if equation.couple is not None:
-                found = solution.reals(statics.by_hand, equation.couple.moment)
+                found = statics.by_hand.number(equation.couple.moment)
                 assert found == pytest.approx(-whole, rel=1e-9, abs=1e-9)
 
 
@@ -124,9 +124,9 @@ def test_letters_of_the_components() -> None:
     assert reaction_symbol("2", "1", Share.NORMAL) == "F^{n}_{21}"
     assert reaction_symbol("10", "2") == "F_{10,2}"
     plan = statics_of("levers/six-link").board.plans[1]
-    assert [(edge.symbol, edge.known, edge.note) for edge in plan.polygon[:2]] == [
-        ("F^{n}_{21}", Known.ONE, "∥ BC"),
-        ("F^{τ}_{21}", Known.BOTH, ""),
+    assert [(edge.symbol, edge.known, edge.direction) for edge in plan.polygon[:2]] == [
+        ("F^{n}_{21}", Known.ONE, Direction(Relation.ALONG, ("B", "C"))),
+        ("F^{τ}_{21}", Known.BOTH, None),
     ]
     assert [edge.symbol for edge in plan.reactions] == [
         "F^{n}_{21}", "F^{n}_{30}", "F_{21}", "F_{30}", "F_{23}",

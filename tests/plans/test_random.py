@@ -71,8 +71,8 @@ def test_all_points_agree_with_newtons_method(seed: int) -> None:
         compared.add((link, place))
         accelerated = kin.acceleration.point[link, place]
         assert abs(solution.place(PointName(place))[0] - where) <= 1e-9
-        v = solution.complexes(solution.si, at)[0] - ref.velocity[link, place]
-        a = solution.complexes(solution.si, accelerated)[0] - ref.acceleration[link, place]
+        v = solution.si.point(at)[0] - ref.velocity[link, place]
+        a = solution.si.point(accelerated)[0] - ref.acceleration[link, place]
         assert abs(v) <= 1e-9 * v_size, (link, place)
         assert abs(a) <= 1e-9 * a_size, (link, place)
     bodies = solution.problem.bodies
@@ -201,8 +201,8 @@ def test_scales_and_segments_of_a_position_do_not_depend_on_the_arithmetic(seed:
         plan, per_mm = solution.construction.plan(kind), solution.scales[kind].per_mm
         size = largest(seed)[0 if kind is PlanKind.VELOCITY else 1]
         for vector, segment in zip(plan.vectors, solution.segments(kind), strict=True):
-            tail = solution.complexes(solution.si, vector.tail)
-            head = solution.complexes(solution.si, vector.head)
+            tail = solution.si.point(vector.tail)
+            head = solution.si.point(vector.head)
             assert abs(abs(head - tail)[0] - segment.exact[0] * per_mm) <= 1e-12 * size
 
 
@@ -212,7 +212,7 @@ def test_scales_and_segments_of_a_position_do_not_depend_on_the_arithmetic(seed:
 def distance(solution: Solution, point: PointName, line: tuple[object, object]) -> float:
     """Largest distance of a point of the paper from a line, mm."""
     p, u = (np.asarray(end, dtype=complex) for end in line)
-    gap = solution.complexes(solution.paper, point) - p
+    gap = solution.paper.point(point) - p
     return float(np.max(np.abs((gap * np.conj(u)).imag / np.abs(u))))
 
 
@@ -230,7 +230,7 @@ def test_vector_equations_close(seed: int) -> None:
     solution = solved(seed)
 
     def at(point: PointName) -> complex:
-        return complex(solution.complexes(solution.paper, point)[0])
+        return complex(solution.paper.point(point)[0])
 
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
         plan = solution.construction.plan(kind)
@@ -252,7 +252,7 @@ def test_components_have_their_directions(seed: int) -> None:
 
     def vector(tail: PointName, head: PointName) -> complex:
         si = solution.si
-        return complex(solution.complexes(si, head)[0] - solution.complexes(si, tail)[0])
+        return complex(si.point(head)[0] - si.point(tail)[0])
 
     for (kind, link), turning in kin.turnings.items():
         arm = vector(PointName(turning.joint), PointName(turning.place))
@@ -288,17 +288,14 @@ def test_a_closing_keeps_its_side_all_round(seed: int) -> None:
     assert around.construction.program == solved(seed).construction.program
     for step in around.construction.program.steps:
         if isinstance(step, MeetCircles):
-            c1, c2 = around.complexes(trace, step.centre1), around.complexes(trace, step.centre2)
-            side = ((c2 - c1).conj() * (around.complexes(trace, step.out) - c1)).imag
+            c1, c2 = trace.point(step.centre1), trace.point(step.centre2)
+            side = ((c2 - c1).conj() * (trace.point(step.out) - c1)).imag
         elif isinstance(step, Touch):
-            c1, c2 = around.complexes(trace, step.centre), around.complexes(trace, step.source)
-            side = ((c2 - c1).conj() * (around.complexes(trace, step.out) - c1)).imag
+            c1, c2 = trace.point(step.centre), trace.point(step.source)
+            side = ((c2 - c1).conj() * (trace.point(step.out) - c1)).imag
         elif isinstance(step, MeetLineCircle):
             _, u = trace.value[step.line]
-            side = (
-                np.conj(u)
-                * (around.complexes(trace, step.out) - around.complexes(trace, step.centre))
-            ).real
+            side = (np.conj(u) * (trace.point(step.out) - trace.point(step.centre))).real
         else:
             continue
         chosen = step.way.value if isinstance(step, MeetLineCircle) else step.side.value

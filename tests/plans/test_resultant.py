@@ -18,10 +18,11 @@ from planmethod.plans.forces.board import Given
 from planmethod.plans.forces.loads import LoadKind, Shift
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
-from planmethod.solved.errors.forces import size_label
+from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.resultants import Why
 from planmethod.solved.forces.statics import Statics
-from planmethod.solved.solution import Complexes, Reals, Solution
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import Solution
 
 SEEDS = range(200)
 LIMIT = 1e-9
@@ -48,11 +49,11 @@ def both(which: int | str) -> tuple[Statics, Statics]:
 
 
 def place(statics: Statics, point: PointName) -> Complexes:
-    return statics.solution.complexes(statics.si, point)
+    return statics.si.point(point)
 
 
 def number(statics: Statics, name: NumberName) -> Reals:
-    return statics.solution.reals(statics.si, name)
+    return statics.si.number(name)
 
 
 def of_kind(statics: Statics, kind: LoadKind) -> dict[str, Given]:
@@ -148,10 +149,10 @@ def test_the_hand_lays_off_what_it_computed_and_reads_other_numbers(name: str) -
     acceleration = solution.read_off(f"a_{mass.centre}")
     epsilon = solution.read_off(f"epsilon_{shift.link}")
     metres = mass.inertia * np.abs(epsilon) / (mass.mass * acceleration)
-    laid = np.abs(solution.reals(shifted.by_hand, shift.length))
+    laid = np.abs(shifted.by_hand.number(shift.length))
     per_mm = solution.scales[PlanKind.POSITION].per_mm
     assert laid * per_mm == pytest.approx(metres, rel=1e-12)
-    one, other = couples.drawn, shifted.drawn
+    one, other = drawn_forces(couples), drawn_forces(shifted)
     assert one.balances is not None and other.balances is not None
     apart = np.abs(one.balances.lever - other.balances.lever)
     assert np.any(apart > 0)
@@ -162,21 +163,22 @@ def test_the_hand_lays_off_what_it_computed_and_reads_other_numbers(name: str) -
 @pytest.mark.parametrize("which", [*SHIPPED, *range(0, 200, 20)])
 def test_sigmas_are_finite_and_of_the_same_order(which: int | str) -> None:
     couples, shifted = both(which)
-    one, other = couples.drawn.discrepancy_sigma, shifted.drawn.discrepancy_sigma
+    one, other = drawn_forces(couples).discrepancy_sigma, drawn_forces(shifted).discrepancy_sigma
     assert one is not None and other is not None
     assert np.all(np.isfinite(other))
     assert np.all(other < 5.0 * one)
     for joint in shifted.reactions:
-        assert np.all(np.isfinite(shifted.drawn.spreads[size_label(joint)].sigma))
+        assert np.all(np.isfinite(drawn_forces(shifted).spreads[size_label(joint)].sigma))
 
 
 def test_the_predicted_sigma_is_that_of_random_sheets() -> None:
     statics = both("press/press")[1]
-    assert statics.drawn.discrepancy_sigma is not None
+    told = drawn_forces(statics).discrepancy_sigma
+    assert told is not None
     for index in (0, 4, 7):
-        drawn = statics.drawn.sample(index, draws=4000)["difference"]
+        drawn = drawn_forces(statics).sample(index, draws=4000)["difference"]
         low, high = np.percentile(drawn, [15.87, 84.13])
-        sigma = float(statics.drawn.discrepancy_sigma[index])
+        sigma = float(told[index])
         assert (high - low) / 2 == pytest.approx(sigma, rel=0.08)
 
 
@@ -225,8 +227,9 @@ def test_an_acceleration_that_the_ruler_does_not_see_is_no_divisor() -> None:
     assert list(fine.board.shifts) == ["2"]
     coarse = single(ROD.format("S2") + scales.format("100"), CRANK)
     assert reasons(coarse) == {"2": Why.FAINT}
-    assert coarse.drawn.balances is not None
-    assert np.all(np.isfinite(coarse.drawn.balances.plans))
+    balances = drawn_forces(coarse).balances
+    assert balances is not None
+    assert np.all(np.isfinite(balances.plans))
 
 
 def test_one_position_takes_the_shift_from_all() -> None:

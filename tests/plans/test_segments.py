@@ -23,6 +23,7 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.problem import load
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 FILES = [path.relative_to(PROBLEMS).as_posix() for path in every_file()]
@@ -43,7 +44,7 @@ def program(solution: Solution) -> Program:
     """Return the program of all plans, of forces too where there are any."""
     if solution.problem.dynamics is None:
         return solution.construction.program
-    return solution.statics.board.draft.b.program()
+    return statics_of(solution).board.draft.b.program()
 
 
 def used(steps: tuple[Step, ...]) -> set[str]:
@@ -103,7 +104,7 @@ def test_every_result_is_a_computed_number(what: str | int) -> None:
     assert {type(construction.step(name)) for name in sizes} <= {Compute, Known}
     if solution.problem.dynamics is None:
         return
-    statics = solution.statics
+    statics = statics_of(solution)
     forces = [statics.board.segments.known(r.force.ends) for r in statics.board.reactions]
     forces += [r.couple for r in statics.board.reactions if r.couple is not None]
     forces.append(statics.driving.balance)

@@ -13,7 +13,7 @@ from moved import Move
 from worked import SIX, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION
 from planmethod.problem import loads
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.solved.selfcheck import verify
@@ -118,7 +118,7 @@ def test_the_drawing_of_a_scaled_mechanism_is_the_same(name: str, size: float) -
     """The scales chosen for a plan, or given with it, go with its size: the paper is the same."""
     before = Solution(problem_of(name))
     after = Solution(Move(size=size).problem(before.problem))
-    for kind in PlanKind:
+    for kind in MOTION:
         assert after.scales[kind].per_mm == pytest.approx(before.scales[kind].per_mm * size)
         pairs = zip(before.segments(kind), after.segments(kind), strict=True)
         for was, now in pairs:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from worked import ROOT, SIX, path_of, problem_of
 
 from planmethod.errors import CompositionError, ExitCode, LayoutError
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION
 from planmethod.problem import loads
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.frame import FORMATS
@@ -173,7 +173,7 @@ def test_scales_of_the_default_are_those_that_solve_prints(name: str) -> None:
     problem = loads(text, name="free")
     solution = Solution(problem)
     (sheet,) = kinematics_sheets(problem)
-    for kind in PlanKind:
+    for kind in MOTION:
         assert view(sheet, kind.value).per_mm == solution.scales[kind].per_mm
 
 

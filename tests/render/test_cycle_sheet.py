@@ -22,7 +22,9 @@ from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text
 from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.sheets.cycle import CHORDS
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.forces.cycle import Cycle
+from planmethod.solved.cycle import Cycle
+from planmethod.solved.errors.forces import drawn_forces
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 TURN = tuple(30.0 * k for k in range(12))
@@ -92,14 +94,14 @@ def test_the_sheet_passes_the_norm_control(name: str, positions: tuple[float, ..
     sheet = drawn(name, positions)
     assert errors(sheet) == []
     kinds = [view.kind for view in sheet.views]
-    plans = len(Solution(problem_of(name), positions=positions).statics.board.plans)
+    plans = len(statics_of(Solution(problem_of(name), positions=positions)).board.plans)
     assert kinds == ["position", "balance", *["reactions"] * plans, "hodograph"]
 
 
 @pytest.mark.parametrize(("name", "positions"), SHEETS)
 def test_the_diagrams_are_to_scale(name: str, positions: tuple[float, ...]) -> None:
     sheet, solution = drawn(name, positions), Solution(problem_of(name), positions=positions)
-    statics = solution.statics
+    statics = statics_of(solution)
     for number, view in enumerate(v for v in sheet.views if v.kind in ("balance", "reactions")):
         zero, lines = origin(sheet, view), curves(sheet, view)
         scale, turn = view.per_mm, per_mm(sheet, view, "φ")
@@ -136,7 +138,7 @@ def test_the_marks_are_what_both_methods_give_on_paper(
     name: str, positions: tuple[float, ...]
 ) -> None:
     sheet, solution = drawn(name, positions), Solution(problem_of(name), positions=positions)
-    balances = solution.statics.drawn.balances
+    balances = drawn_forces(statics_of(solution)).balances
     assert balances is not None
     (view,) = (v for v in sheet.views if v.kind == "balance")
     zero = origin(sheet, view)
@@ -192,7 +194,7 @@ def test_equal_and_opposite_reactions_share_a_diagram() -> None:
 def test_the_table_has_every_position() -> None:
     sheet = drawn("levers/task12", TURN)
     texts = [i.text for i in sheet.items if isinstance(i, Text)]
-    statics = Solution(problem_of("levers/task12"), positions=TURN).statics
+    statics = statics_of(Solution(problem_of("levers/task12"), positions=TURN))
     for value in np.abs(statics.balance):
         assert f"{value:.1f}".replace(".", ",") in texts
     assert "планы сил" in texts and "рычаг" in texts
@@ -234,7 +236,7 @@ def test_random_mechanisms(seed: int) -> None:
     step = 2.0 if drive.is_crank else 0.01 * size
     asked = [float(drive.positions[0]) + k * step for k in range(4)]
     try:
-        _ = Solution(problem, positions=asked).statics.balance
+        _ = statics_of(Solution(problem, positions=asked)).balance
     except PlanMethodError:
         pytest.skip("the mechanism does not reach so far from its pose")
     sheet = draw(problem, asked)

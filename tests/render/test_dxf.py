@@ -36,7 +36,6 @@ from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.render.symbols import arrowhead, revolute, turn_arrow, vector_arrow
 from planmethod.solved.forces.reading import force_reading
-from planmethod.solved.scaling import own_scale
 from planmethod.solved.solution import Solution
 
 NEAR = 0.01  # mm
@@ -190,7 +189,7 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
         for line in read(render(drawing, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
     ]
     exact = [
-        segment.exact[0] * solution.scales[kind].per_mm / own_scale(solution, kind, 0).per_mm
+        segment.exact[0] * solution.scales[kind].per_mm / solution.own_scale(kind, 0).per_mm
         for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
         for segment in solution.segments(kind)
     ]

@@ -14,7 +14,7 @@ from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION, PlanKind
 from planmethod.render.ink.drawing import Pen, Stroke, Text
 from planmethod.render.ink.typeset import text_corners
 from planmethod.render.pictures.ellipses import (
@@ -27,7 +27,7 @@ from planmethod.render.pictures.ellipses import (
 )
 from planmethod.render.pictures.planview import plan_picture
 from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.solved.scaling import own_scale
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
 
 FINITE = st.floats(-20.0, 20.0, allow_nan=False)
@@ -40,7 +40,7 @@ def solved(name: str, profile: str = "board", *, many: bool = False) -> Solution
 
 
 def place(solution: Solution, point: str, index: int) -> complex:
-    return complex(solution.complexes(solution.paper, PointName(point))[index])
+    return complex(solution.paper.point(PointName(point))[index])
 
 
 def middle(stroke: Stroke) -> complex:
@@ -92,19 +92,19 @@ def test_every_point_of_an_ellipse_is_as_many_sigmas_off(a: float, b: float, c: 
 def test_every_ellipse_is_that_of_a_point(name: str, many: bool) -> None:
     """An ellipse stands around a letter point and is the covariance there, scaled as the plan."""
     solution = solved(name, many=many)
-    for kind in PlanKind:
+    for kind in MOTION:
         for index in range(len(solution.positions)):
             view = error_ellipses(solution, kind, index)
             if kind is PlanKind.POSITION:
                 share, points = 1.0, set(solution.points)
             else:
-                own = own_scale(solution, kind, index).per_mm
+                own = solution.own_scale(kind, index).per_mm
                 share = solution.scales[kind].per_mm / own
                 points = set(solution.construction.plan(kind).letters)
             assert view.enlarged == 1 or kind is PlanKind.POSITION
             for stroke in view.strokes:
                 near = [
-                    solution.drafting.ellipse(PointName(p), index)
+                    drafting_of(solution).ellipse(PointName(p), index)
                     for p in points
                     if p in solution.paper.value
                     and abs(place(solution, p, index) * share - middle(stroke)) < 1e-6
@@ -123,7 +123,7 @@ def test_every_letter_point_has_its_ellipse(name: str) -> None:
         assert not view.too_large
         assert not view.undefined
         for point in plan.letters:
-            covariance = solution.drafting.ellipse(point, 0)
+            covariance = drafting_of(solution).ellipse(point, 0)
             if point != plan.pole and covariance.any():
                 at = place(solution, point, 0)
                 assert any(abs(middle(stroke) - at) < 0.05 for stroke in view.strokes)
@@ -131,7 +131,7 @@ def test_every_letter_point_has_its_ellipse(name: str) -> None:
 
 def test_of_random_drawings_so_many_fall_into_an_ellipse() -> None:
     solution = solved("linkages/ex3")
-    drawn = solution.drafting.sample(0, draws=20_000)
+    drawn = drafting_of(solution).sample(0, draws=20_000)
     mu = solution.scales[PlanKind.POSITION].per_mm
     view = error_ellipses(solution, PlanKind.POSITION, 0)
     for point in "BDE":
@@ -147,15 +147,15 @@ def test_of_random_drawings_so_many_fall_into_an_ellipse() -> None:
 def test_a_plan_at_its_own_scale_has_smaller_ellipses() -> None:
     solution, kind = solved("levers/six-link", many=True), PlanKind.VELOCITY
     index = next(
-        i for i in range(12) if own_scale(solution, kind, i).per_mm > solution.scales[kind].per_mm
+        i for i in range(12) if solution.own_scale(kind, i).per_mm > solution.scales[kind].per_mm
     )
-    share = solution.scales[kind].per_mm / own_scale(solution, kind, index).per_mm
+    share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
     at = place(solution, "v:H", index) * share
     (stroke,) = (
         s for s in error_ellipses(solution, kind, index).strokes if abs(middle(s) - at) < 1e-6
     )
     length = max(abs(point - at) for point in stroke.points)
-    own = SIGMAS * half_axes(solution.drafting.ellipse(PointName("v:H"), index))[0]
+    own = SIGMAS * half_axes(drafting_of(solution).ellipse(PointName("v:H"), index))[0]
     assert length == pytest.approx(share * own, rel=1e-2)
 
 
@@ -184,7 +184,7 @@ def test_dashed_are_the_points_where_first_order_does_not_hold() -> None:
         view = error_ellipses(solution, PlanKind.POSITION, index)
         at = place(solution, "H", index)
         pens = {stroke.pen for stroke in view.strokes if abs(middle(stroke) - at) < 1e-6}
-        drawn = any(solution.drafting.spreads[f"{axis}_H"].drawn[index] for axis in "xy")
+        drawn = any(drafting_of(solution).spreads[f"{axis}_H"].drawn[index] for axis in "xy")
         assert pens == {Pen.HIDDEN if drawn else Pen.THIN}
         told = "штриховые: первый порядок неверен"
         assert (told in ellipse_inscription(solution, PlanKind.POSITION, [index])) == drawn
@@ -193,7 +193,7 @@ def test_dashed_are_the_points_where_first_order_does_not_hold() -> None:
 def test_a_short_segment_alone_does_not_make_its_end_dashed() -> None:
     """The crank's slotted link of ex3 stops at 270°: b b3 is nothing, b3 is known as well."""
     solution = solved("linkages/ex3", many=True)
-    assert solution.drafting.spreads["velocity.b-b3"].drawn[9]
+    assert drafting_of(solution).spreads["velocity.b-b3"].drawn[9]
     assert not error_ellipses(solution, PlanKind.VELOCITY, 9).strained
 
 

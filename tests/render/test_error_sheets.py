@@ -18,6 +18,7 @@ from planmethod.render.ink.drawing import Drawing, Stroke
 from planmethod.render.pictures.ellipses import TAG
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.results import result_columns
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 
@@ -128,7 +129,7 @@ def test_rows_of_a_single_position(name: str) -> None:
     for symbol, word, what in labels:
         exact, read, error = columns[f"{symbol}_{{{what}}}"]
         assert exact == plain[f"{symbol}_{{{what}}}"][0]
-        spread = solution.drafting.spreads[f"{word}_{what}"]
+        spread = drafting_of(solution).spreads[f"{word}_{what}"]
         sigma = float(spread.sigma[0])
         value = abs(float(solution.read_off(f"{word}_{what}")[0]))
         assert error.text.endswith("*") == bool(spread.drawn[0])
@@ -149,7 +150,7 @@ def test_values_of_many_positions_have_their_errors_beside_them() -> None:
     columns = {c.head: c.cells for c in result_columns(solution, indices, sigma=True)}
     plain = {c.head: c.cells for c in result_columns(solution, indices)}
     assert list(columns) == list(plain)
-    drafting = solution.drafting
+    drafting = drafting_of(solution)
     for i in indices:
         value, _, error = columns["a_{E}"][i].text.partition(" ± ")
         spread = drafting.spreads["a_E"]

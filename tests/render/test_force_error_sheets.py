@@ -37,9 +37,17 @@ from planmethod.render.sheets.reactionerrors import (
     size_columns,
 )
 from planmethod.render.sheets.reactions import _balances, reactions_block
-from planmethod.solved.errors.forces import DrawnForces, angle_label, moment_label, size_label
+from planmethod.solved.errors.forces import (
+    DrawnForces,
+    angle_label,
+    drawn_forces,
+    moment_label,
+    size_label,
+)
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
@@ -150,7 +158,7 @@ def test_every_ellipse_is_that_of_a_vertex(name: str) -> None:
         assert drawn.enlarged == 1
         for stroke in drawn.strokes:
             near = [
-                reading.statics.drawn.ellipse(end, 0)
+                drawn_forces(reading.statics).ellipse(end, 0)
                 for edge, shift in zip(edges, shifts, strict=True)
                 for end in (edge.tail, edge.head)
                 if abs(reading.end(end) + shift - middle(stroke)) < 1e-6
@@ -166,7 +174,7 @@ def test_every_vertex_but_the_first_has_its_ellipse(name: str) -> None:
         edges = drawn_edges(reading, k)
         drawn = vertex_ellipses(reading, k)
         ends = {end for edge in edges for end in (edge.tail, edge.head)}
-        free = {end for end in ends if not reading.statics.drawn.ellipse(end, 0).any()}
+        free = {end for end in ends if not drawn_forces(reading.statics).ellipse(end, 0).any()}
         assert {reading.end(end) for end in free} <= {
             reading.end(end) for end in reading.statics.board.starts
         }
@@ -206,7 +214,7 @@ def test_dashed_are_vertices_where_first_order_does_not_hold() -> None:
     pens = set()
     for index in range(len(NEAR_DEAD)):
         reading = reading_of("levers/six-link", "board", NEAR_DEAD, index)
-        strained = reading.solution.drafting.spreads["x_H"].drawn[index]
+        strained = drafting_of(reading.solution).spreads["x_H"].drawn[index]
         for k in range(len(reading.plans)):
             drawn = vertex_ellipses(reading, k)
             assert drawn.strained == any(s.pen is Pen.HIDDEN for s in drawn.strokes)
@@ -229,7 +237,7 @@ def test_what_is_larger_than_half_the_plan_is_told() -> None:
 @pytest.mark.parametrize("name", LOADED)
 def test_columns_of_the_reactions(name: str) -> None:
     reading = reading_of(name)
-    drawn, found = reading.statics.drawn, reading.statics.reactions
+    drawn, found = drawn_forces(reading.statics), reading.statics.reactions
     read, error = size_columns(reading)
     turn = angle_column(reading, [False] * len(found))
     moment = moment_column(reading)
@@ -259,7 +267,7 @@ def test_columns_of_the_reactions(name: str) -> None:
 def test_the_discrepancy_and_its_error_are_of_one_unit() -> None:
     reading = reading_of("levers/task12")
     _, exact, plans, lever, share = balance_columns(reading, _balances(reading))
-    drawn = reading.statics.drawn
+    drawn = drawn_forces(reading.statics)
     assert exact.cells[1].text == "—"
     for column, label in ((plans, "balance"), (lever, "lever")):
         sigma = float(drawn.spreads[label].sigma[0])
@@ -288,13 +296,13 @@ def test_the_table_is_no_wider_than_it_may_be(seed: int, height: float) -> None:
 @pytest.mark.parametrize("name", LOADED)
 def test_table_and_record_tell_the_same_errors(name: str) -> None:
     solution = Solution(problem_of(name))
-    drawn = solution.statics.drawn
+    drawn = drawn_forces(statics_of(solution))
     entry = record(solution)["positions"][0]["forces"]
     text = result_tables(solution, "en", sigma=True)
     assert max(map(len, text.splitlines())) <= 100
     rows = [line.split() for line in text[text.index("Reactions") :].splitlines()]
     marks = False
-    for joint, told in zip(solution.statics.reactions, entry["reactions"], strict=True):
+    for joint, told in zip(statics_of(solution).reactions, entry["reactions"], strict=True):
         sigma = drawn.spreads[size_label(joint)]
         assert told["sigma"] == pytest.approx(float(sigma.sigma[0]))
         still = told["angle_deg"] is None

@@ -24,6 +24,7 @@ from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 SHIFTED = {"levers/six-link": "2", "press/press": "3"}
@@ -127,7 +128,7 @@ def test_the_arm_is_that_of_force_and_couple(name: str) -> None:
     link, mu_l = SHIFTED[name], reading_of(name).solution.scales
     pivot = {"2": "C", "3": "O3"}[link]
     plain = Solution(problem_of(name), scales=mu_l)
-    given = {g.applied.name: g.applied for g in plain.statics.board.given}
+    given = {g.applied.name: g.applied for g in statics_of(plain).board.given}
     force = given[f"Φ_{{{link}}}"]
     assert force.point is not None
     arm = plain.points[force.point].place - plain.points[pivot].place

@@ -10,7 +10,7 @@ from enum import Enum
 
 from planmethod.note.audit.asking import PLANS, UnansweredError, Why
 from planmethod.note.audit.quantities import Quantities, is_angle
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Published, Scales
 from planmethod.problem.selector import FORCES, Selector, parse_selector
 from planmethod.solved.selfcheck import verify
@@ -22,11 +22,7 @@ DRAFTING_MM = 1.0
 RULER_MM = 0.5
 """Ruler step when none is asked for, mm."""
 
-SYMBOLS = {
-    PlanKind.POSITION: "mu_l",
-    PlanKind.VELOCITY: "mu_v",
-    PlanKind.ACCELERATION: "mu_a",
-}
+SYMBOLS = {kind: FACTS[kind].scale for kind in MOTION}
 
 UNITS = {
     "м": "mu_l",

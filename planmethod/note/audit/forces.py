@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import Trace, go_on
+from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.note.audit.asking import Asking, UnansweredError, Why
 from planmethod.plans.forces.board import SCALE, Force, Given
@@ -21,7 +21,8 @@ from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
 from planmethod.problem.selector import Selector
 from planmethod.solved.forces.contact import NOTHING
-from planmethod.solved.forces.statics import Statics
+from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.reading import Reading
 from planmethod.solved.solution import Solution
 
 LOADS = {
@@ -59,15 +60,15 @@ class ForceQuantities:
         if solution.problem.dynamics is None:
             raise UnansweredError(Why.NO_FORCES)
         self.solution, self.position = solution, position
-        self.statics: Statics = solution.statics
+        self.statics: Statics = statics_of(solution)
         self.mu_f = self.statics.scale.per_mm if mu_f is None else mu_f
 
     @cached_property
-    def _exact(self) -> Trace:
+    def _exact(self) -> Reading:
         return _both(self.solution.si, self.statics.si)
 
     @cached_property
-    def _drawn(self) -> Trace:
+    def _drawn(self) -> Reading:
         """Plans of the hand, those of the forces at the source's scale."""
         drawn = self.statics.by_hand
         if self.mu_f != self.statics.scale.per_mm:
@@ -100,9 +101,9 @@ class ForceQuantities:
                 asked = self._shift(asking, names[0])
             case _:
                 asked = self._load(self._given(kind, names[0]))
-        trace, hand = (self._drawn, self.solution.hand) if by_hand else (self._exact, Float64())
-        found = go_on(trace, asking.steps, asking.draft.numbers, hand)
-        value = float(self.solution.reals(found, asked)[self.position])
+        reading, hand = (self._drawn, self.solution.hand) if by_hand else (self._exact, Float64())
+        found = reading.go_on(asking.steps, asking.draft.numbers, hand)
+        value = float(found.number(asked)[self.position])
         if first in ("arm", "shift") and not by_hand:
             value /= self.solution.scales[PlanKind.POSITION].per_mm
         return value if first in ("balance", "lever") and not names else abs(value)
@@ -115,7 +116,7 @@ class ForceQuantities:
     # Sizes -----------------------------------------------------------------------------------
 
     def _at(self, name: Name) -> complex:
-        return complex(self.solution.complexes(self._exact, name)[self.position])
+        return complex(self._exact.point(name)[self.position])
 
     def _vector(self, force: Force | Edge) -> complex:
         """Return a force, N."""
@@ -253,6 +254,7 @@ class ForceQuantities:
         return None if shift is None else Given(shift.moment, None, shift.couple)
 
 
-def _both(motion: Trace, forces: Trace) -> Trace:
-    """Return a trace that has the plans of the motion and those of the forces."""
-    return Trace({**motion.value, **forces.value}, {**motion.margin, **forces.margin})
+def _both(motion: Reading, forces: Reading) -> Reading:
+    """Return a reading that has the plans of the motion and those of the forces."""
+    margins = {**motion.trace.margin, **forces.trace.margin}
+    return Reading(Trace({**motion.value, **forces.value}, margins), motion.count)

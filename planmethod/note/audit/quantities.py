@@ -10,7 +10,6 @@ import math
 from functools import cached_property
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import go_on
 from planmethod.construct.steps import PointName
 from planmethod.note.audit.asking import Asking, UnansweredError, Why
 from planmethod.note.audit.forces import ForceQuantities
@@ -89,11 +88,11 @@ class Quantities:
             return float(solution.links[selector.names[0]].phi_deg[self.position])
         asking = Asking(solution, solution.construction.draft.copy())
         answer = asking.answer(selector)
-        trace, hand = solution.si, Float64()
+        reading, hand = solution.si, Float64()
         if by_hand:
-            trace, hand = solution.by_hand, solution.hand
-        found = go_on(trace, asking.steps, asking.draft.numbers, hand)
-        value = float(solution.reals(found, answer.name)[self.position])
+            reading, hand = solution.by_hand, solution.hand
+        found = reading.go_on(asking.steps, asking.draft.numbers, hand)
+        value = float(found.number(answer.name)[self.position])
         if answer.plan is not None and not by_hand:
             value /= solution.scales[answer.plan].per_mm
         return value if answer.signed else abs(value)
@@ -119,7 +118,7 @@ class Quantities:
         return None
 
     def _place(self, point: str) -> complex:
-        at = self.solution.complexes(self.solution.si, PointName(point))
+        at = self.solution.si.point(PointName(point))
         return complex(at[self.position])
 
     def _reach(self, link: str) -> float:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import Compute, NumberName, PointName, Similar
-from planmethod.note.narrate.letters import segment
+from planmethod.note.narrate.letters import mark, segment
 from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
-from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
-from planmethod.plans.motion.board import PREFIX, mark
+from planmethod.plans.model import (
+    FACTS,
+    Known,
+    PlanKind,
+    Relation,
+    Vector,
+    VectorEquation,
+    VectorKind,
+)
 from planmethod.plans.motion.leads import Relative, Turning
 from planmethod.problem.model import Convention
 from planmethod.solved.solution import Solution
 
-UNIT = {PlanKind.VELOCITY: "m/s", PlanKind.ACCELERATION: "m/s²"}
-LETTER = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
 TURNING = {PlanKind.VELOCITY: ("ω", "1/s"), PlanKind.ACCELERATION: ("ε", "1/s²")}
 
 
@@ -39,7 +44,7 @@ class Calculation:
         motion = self.kin.velocity if kind is PlanKind.VELOCITY else self.kin.acceleration
         self.segments = motion.segments
         self.mu = solution.scales[kind].per_mm
-        self.unit = UNITS_RU[UNIT[kind]]
+        self.unit = UNITS_RU[FACTS[kind].unit]
 
     def lines(self) -> list[str]:
         """Return one formula a line, in the order in which each becomes known."""
@@ -51,7 +56,7 @@ class Calculation:
         similar = {
             step.out: step
             for step in self.solution.construction.program.steps
-            if isinstance(step, Similar) and step.out.startswith(PREFIX[self.kind])
+            if isinstance(step, Similar) and step.out.startswith(FACTS[self.kind].prefix)
         }
         result: list[str] = []
         for vector in self.plan.vectors:
@@ -71,7 +76,7 @@ class Calculation:
         return abs(self._number(self.segments.drawn((tail, head))))
 
     def _number(self, name: NumberName) -> float:
-        return float(self.solution.reals(self.solution.by_hand, name)[self.index])
+        return float(self.solution.by_hand.number(name)[self.index])
 
     def _distance(self, p: str, q: str) -> float:
         """Return the distance of two places of the mechanism as the hand knows it, m."""
@@ -108,7 +113,7 @@ class Calculation:
         if source is not None:
             value = f"{_found(self.mu * mm)} {self.unit}"
             return f"{vector.symbol} = {source}{value};  {letters} = {_mm(mm)} мм"
-        scale = f"μ_{{{LETTER[self.kind]}}}"
+        scale = f"μ_{{{FACTS[self.kind].letter}}}"
         value = f"{_found(self.mu * mm)} {self.unit}"
         if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
             quotient = f"{_mm(mm)}/{_given(1.0 / self.mu)}"
@@ -132,7 +137,7 @@ class Calculation:
         made = self.solution.construction.step(self.segments.drawn((vector.tail, vector.head)))
         if not isinstance(made, Compute):
             return None
-        if vector.note.startswith("∥"):
+        if vector.direction is not None and vector.direction.relation is Relation.ALONG:
             return ""
         return self._about(vector)
 
@@ -144,7 +149,7 @@ class Calculation:
 
     def _components(self, vector: Vector) -> tuple[Vector, ...] | None:
         """Return the components of an absolute vector when all are known beforehand."""
-        if vector.kind is not VectorKind.ABSOLUTE or vector.note:
+        if vector.kind is not VectorKind.ABSOLUTE or vector.direction:
             return None
         ends = (vector.tail, vector.head)
         for equation in self.plan.equations:
@@ -155,14 +160,9 @@ class Calculation:
     def _about(self, vector: Vector) -> str | None:
         """Return the formula of a component of turning about a point: omega·l, omega²·l, eps·l."""
         bodies = self.solution.problem.bodies
-        note = vector.note.replace("_{", "").replace("}", "")
-        arrow = note.partition("→")
-        ends = (arrow[0].strip(), arrow[2].strip())
-        if vector.kind is not VectorKind.NORMAL:
-            letters = note.partition(" ")[2]
-            cuts = [(letters[:k], letters[k:]) for k in range(1, len(letters))]
-            shared = [c for c in cuts if any(set(c) <= set(b.points) for b in bodies.values())]
-            ends = shared[0] if shared else ends
+        if vector.direction is None or len(vector.direction.points) != 2:
+            return None
+        ends = vector.direction.points
         for link, body in bodies.items():
             if set(ends) <= set(body.points) and ends[0] != ends[1]:
                 return self._formula(vector, link, ends)
@@ -171,8 +171,9 @@ class Calculation:
                 return self._formula(vector, link, ends)
         return None
 
-    def _formula(self, vector: Vector, link: str, ends: tuple[str, str]) -> str:
-        arm, metres = self._length(*ends), _given(round(self._distance(*ends), 9))
+    def _formula(self, vector: Vector, link: str, ends: tuple[str, ...]) -> str:
+        p, q = ends
+        arm, metres = self._length(p, q), _given(round(self._distance(p, q), 9))
         velocity = self.kind is PlanKind.VELOCITY
         normal = vector.kind is VectorKind.NORMAL
         letter = "ω" if velocity or normal else "ε"
@@ -187,7 +188,7 @@ class Calculation:
     def _similar(self, step: Similar) -> str:
         """Return how a point is found by the similarity theorem."""
         s, b, c = step.link_s, step.link_b, step.link_c
-        drawn = [self.solution.complexes(self.solution.by_hand, p)[self.index] for p in (s, b, c)]
+        drawn = [self.solution.by_hand.point(p)[self.index] for p in (s, b, c)]
         arm, span = drawn[0] - drawn[1], drawn[2] - drawn[1]
         if abs((arm * span.conjugate()).imag) > 1e-9 * abs(arm) * abs(span):
             letters = [self._letters(step.plan_b, p)[1:-1] for p in (step.plan_c, step.out)]

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
+from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import given, pad, plain_text, width
 from planmethod.plans.forces.polygons import Edge
-from planmethod.plans.model import Known, Vector, VectorEquation
+from planmethod.plans.model import Direction, Known, Relation, Vector, VectorEquation
 
-_MARKUP = re.compile(r"_\{|\}")
 _LINE = {Known.NOTHING: " ", Known.ONE: "─", Known.BOTH: "═"}
 
 
-def note_text(names: Names, note: str) -> str:
-    """Return a direction note with links called as their lengths are: ``⊥ CB`` gives ``⊥ BC``."""
-    plain = _MARKUP.sub("", note)  # in words a point is called O1, not O₁
-    sign, space, base = plain.partition(" ")
-    if sign == "∠":
-        angle, _, line = base.partition("° ")
-        return f"{sign} {given(float(angle), names.words)}° {line}"
-    return f"{sign} {names.axis(base)}" if space and sign in "⊥∥" else plain
+def direction_note(names: Names, direction: Direction | None) -> str:
+    """Return a direction in plain text, links called as their lengths are: ``⊥ BC``."""
+    if direction is None:
+        return ""
+    match direction.relation:
+        case Relation.STILL:
+            return "= 0"
+        case Relation.TOWARDS:
+            return " → ".join(direction.points)
+        case Relation.ANGLED:
+            angle = given(float(f"{direction.angle:.4g}"), names.words)
+            return f"∠ {angle}° {''.join(direction.points)}"
+        case Relation.ALONG | Relation.ACROSS:
+            return f"{SIGN[direction.relation]} {names.base(direction)}"
 
 
 def equation_lines(equation: VectorEquation, names: Names) -> list[str]:
@@ -81,4 +86,4 @@ class _Rows:
 def _cells(names: Names, term: Vector | Edge) -> tuple[str, str, str]:
     """Return symbol, underline and direction of a term."""
     symbol = plain_text(term.symbol)
-    return symbol, _LINE[term.known] * width(symbol), note_text(names, term.note)
+    return symbol, _LINE[term.known] * width(symbol), direction_note(names, term.direction)

@@ -9,13 +9,11 @@ import numpy as np
 from planmethod.construct.steps import Compute, LineName, NumberName, PointName
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import found, given, plain_text
-from planmethod.plans.model import PlanKind, Vector
+from planmethod.plans.model import FACTS, PlanKind, Vector
 from planmethod.solved.solution import Solution
 
 _POWER = {1: "", 2: "²", 3: "³"}
 
-UNIT = {PlanKind.POSITION: "m", PlanKind.VELOCITY: "m/s", PlanKind.ACCELERATION: "m/s²"}
-TURNING_UNIT = {PlanKind.VELOCITY: "1/s", PlanKind.ACCELERATION: "1/s²"}
 
 NOTHING = 1e-9
 """Length, mm, below which a segment is a point."""
@@ -35,15 +33,15 @@ class Formulas:
 
     def number(self, name: NumberName) -> float:
         """Return a number as the hand has it."""
-        return float(self.solution.reals(self.solution.by_hand, name)[self.index])
+        return float(self.solution.by_hand.number(name)[self.index])
 
     def exact(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
-        return float(self.solution.reals(self.solution.paper, name)[self.index])
+        return float(self.solution.paper.number(name)[self.index])
 
     def place(self, point: PointName) -> complex:
         """Return a point of the exact drawing, mm."""
-        column = self.solution.complexes(self.solution.paper, point)
+        column = self.solution.paper.point(point)
         return complex(column[self.index])
 
     def course(self, line: LineName) -> complex:
@@ -128,7 +126,7 @@ class Formulas:
         made, lines = self.names.step[value], []
         if isinstance(made, Compute):
             sides = self.product(made.powers, made.factor)
-            lines.append(self.formula(symbol, sides, length * mu, UNIT[kind], ";"))
+            lines.append(self.formula(symbol, sides, length * mu, FACTS[kind].unit, ";"))
         sides = self.fraction(
             [(symbol, _shown(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
         )
@@ -141,7 +139,7 @@ class Formulas:
         powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
         exact = self.exactly(abs(self.exact(step.out)))
         return self.formula(
-            symbol, self.product(powers), abs(self.number(step.out)), UNIT[kind], exact
+            symbol, self.product(powers), abs(self.number(step.out)), FACTS[kind].unit, exact
         )
 
 

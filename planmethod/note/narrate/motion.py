@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from planmethod.construct.steps import Compute, LayOff, LineName, NumberName, PointName, Similar
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.equations import note_text
-from planmethod.note.narrate.formulas import NOTHING, TURNING_UNIT, Formulas
+from planmethod.note.narrate.formulas import NOTHING, Formulas
+from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import given, plain_text
-from planmethod.plans.model import PlanKind, Vector, VectorKind
+from planmethod.plans.model import PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.solved.solution import Solution
 
@@ -30,9 +30,10 @@ class MotionVoice:
 
     def direction(self, line: LineName, ray: Vector | None) -> tuple[str, float]:
         """Return base and angle of a line; the equation's own note says them best."""
-        if ray is not None and ray.note[:1] in ("⊥", "∥"):
-            sign, _, base = note_text(self.names, ray.note).partition(" ")
-            return base, 90.0 if sign == "⊥" else 0.0
+        stated = None if ray is None else ray.direction
+        if stated is not None and stated.relation in SIGN:
+            across = stated.relation is Relation.ACROSS
+            return self.names.base(stated), 90.0 if across else 0.0
         found = self.names.direction(line)
         return self.names.axis(found.base), found.angle
 
@@ -73,9 +74,8 @@ class MotionVoice:
         value, known = self.say.number(step.length), self.names.step[made.powers[0][0]]
         powers = known.powers if isinstance(known, Compute) else ()
         if vector is not None and vector.kind is VectorKind.NORMAL:
-            place, _, joint = (
-                text.strip() for text in note_text(names, vector.note).partition("→")
-            )
+            assert vector.direction is not None
+            place, joint = vector.direction.points
             base = words.parallel.format(base=names.axis(place + joint))
             return words.sense_normal.format(base=base, tail=place, head=joint), ""
         base, angle = self.direction(step.along, vector)
@@ -150,9 +150,10 @@ class MotionVoice:
             exact = self.say.exactly(abs(self.say.exact(step.out)))
             sides = self.say.product(step.powers, step.factor)
             more = f"{exact}, {sense}."
+            unit = self.solution.legend[str(step.out)].kind.unit
             said = {"place": read.place, "joint": read.joint, "link": link, "sense": sense}
             lines = [
-                self.say.formula(symbol, sides, abs(value), TURNING_UNIT[kind], more),
+                self.say.formula(symbol, sides, abs(value), unit, more),
                 words.turning.format(segment=f"({segment})", **said),
             ]
         table = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon
@@ -238,4 +239,6 @@ class MotionVoice:
         return self.names.point(head)
 
     def _track(self, vector: Vector) -> str:
-        return note_text(self.names, vector.note).partition(" ")[2] or plain_text(vector.symbol)
+        if vector.direction is None:
+            return plain_text(vector.symbol)
+        return self.names.base(vector.direction)

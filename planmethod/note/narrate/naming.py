@@ -21,28 +21,31 @@ from planmethod.construct.steps import (
     Touch,
 )
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.letters import pole_letter, shown_letters
+from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
-from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
+from planmethod.plans.model import (
+    FACTS,
+    MOTION,
+    STILL,
+    Direction,
+    Plan,
+    PlanKind,
+    Relation,
+    Vector,
+    VectorKind,
+)
+from planmethod.plans.motion.board import pole_letter
 from planmethod.problem.model import Convention
 from planmethod.solved.solution import Solution
 
-SCALE_KIND = {
-    "mu_l": PlanKind.POSITION,
-    "mu_v": PlanKind.VELOCITY,
-    "mu_a": PlanKind.ACCELERATION,
-}
-SCALE_SYMBOL = {
-    PlanKind.POSITION: "μ_l",
-    PlanKind.VELOCITY: "μ_v",
-    PlanKind.ACCELERATION: "μ_a",
-}
+SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
+SCALE_SYMBOL = {kind: f"μ_{FACTS[kind].letter}" for kind in MOTION}
 
 
 @dataclass(frozen=True, slots=True)
-class Direction:
-    """Direction of a line: turned by ``angle`` degrees (in (-180, 180]) from ``base``."""
+class Course:
+    """Direction of a drawn line: turned by ``angle`` degrees (in (-180, 180]) from ``base``."""
 
     base: str
     angle: float
@@ -143,36 +146,42 @@ class Names:
             return self.words.slot_of.format(link=link) if link else self.words.slot
         return self._given.get(text, text)
 
-    def direction(self, line: LineName) -> Direction:
+    def base(self, direction: Direction) -> str:
+        """Return the line that a direction is told by as the reader calls it."""
+        if direction.relation is Relation.ANGLED:
+            return "".join(direction.points)
+        return self.axis(direction.guide or "".join(direction.points))
+
+    def direction(self, line: LineName) -> Course:
         """Return what a line is turned from and by how much."""
         step = self.step[line]
         match step:
             case Join(_, tail, head):
-                return Direction(self.point(tail) + self.point(head), 0.0, tail, head)
+                return Course(self.point(tail) + self.point(head), 0.0, tail, head)
             case Parallel(_, through, to):
                 found = self.direction(to)
                 if through == found.start:  # the same line drawn again
                     return found
                 if through == found.end:  # produced beyond its end
                     back = found.base if found.start is None else self.segment(through, found.start)
-                    return Direction(back, 180.0, through, found.start)
-                return Direction(found.base, found.angle)
+                    return Course(back, 180.0, through, found.start)
+                return Course(found.base, found.angle)
             case Perpendicular(_, _, to):
                 found = self.direction(to)
-                return Direction(found.base, _reduced(found.angle + 90.0))
+                return Course(found.base, _reduced(found.angle + 90.0))
             case AtAngle(_, _, None, angle):
                 guide = self.guide(line)
                 if guide is not None:
-                    return Direction(guide, 0.0)
+                    return Course(guide, 0.0)
                 if angle == "phi" and self.solution.problem.drive.is_crank:
                     drive = self.solution.problem.bodies[self.solution.problem.drive.link]
                     if drive.axis is not None:
-                        return Direction("".join(drive.axis), 0.0)
-                return Direction(self.words.x_axis, self.value_of(angle))
+                        return Course("".join(drive.axis), 0.0)
+                return Course(self.words.x_axis, self.value_of(angle))
             case AtAngle(_, _, to, angle):
                 assert to is not None
                 found = self.direction(to)
-                return Direction(found.base, _reduced(found.angle + self.value_of(angle)))
+                return Course(found.base, _reduced(found.angle + self.value_of(angle)))
             case _:
                 raise TypeError(f"{step.out} is no line")
 
@@ -283,7 +292,7 @@ class Names:
             return None
         terms = [term for equation in plan.equations for term in equation.right]
         found = [v for v in (*plan.vectors, *terms) if (v.tail, v.head) == (tail, head)]
-        stated = [v for v in found if v.note and not v.note.startswith("=")]
+        stated = [v for v in found if v.direction not in (None, STILL)]
         return next(iter(stated or found), None)
 
     def absolute(self, head: PointName) -> str:
@@ -315,7 +324,7 @@ class Names:
                 for head in self._met(line)
                 for equation in plan.equations
                 for term in equation.right
-                if (term.tail, term.head) == (step.through, head) and term.note
+                if (term.tail, term.head) == (step.through, head) and term.direction
             ),
             None,
         )

@@ -30,7 +30,7 @@ from planmethod.construct.steps import (
     Touch,
     operands,
 )
-from planmethod.note.narrate.equations import note_text
+from planmethod.note.narrate.equations import direction_note
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.motion import MotionVoice
 from planmethod.note.narrate.naming import Names
@@ -129,7 +129,7 @@ class Narrator:
         if ray is None or isinstance(step, Join):
             return self.names.line(line)
         assert isinstance(step, Parallel | Perpendicular | AtAngle)
-        note = note_text(self.names, ray.note)
+        note = direction_note(self.names, ray.direction)
         return self.words.line_through.format(of=self.names.of(step.through), direction=note)
 
     def _meet(self, out: PointName, first: LineName, second: LineName) -> str:

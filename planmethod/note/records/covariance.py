@@ -5,16 +5,18 @@ from __future__ import annotations
 import csv
 import io
 
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 
 def _errors(solution: Solution) -> Errors:
     if solution.problem.dynamics is None:
-        return solution.drafting
+        return drafting_of(solution)
     from planmethod.solved.errors.forces import all_errors
 
-    return all_errors(solution.statics)
+    return all_errors(statics_of(solution))
 
 
 def covariance_text(solutions: list[Solution]) -> str:

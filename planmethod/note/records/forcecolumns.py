@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from planmethod.solved.errors.forces import size_label
+from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.results import force_row, moment_row
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
 
 
 def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
@@ -27,8 +29,8 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     ProblemError
         A load is known in the positions of the file only, and others are asked.
     """
-    statics = solution.statics
-    drawn = statics.drawn
+    statics = statics_of(solution)
+    drawn = drawn_forces(statics)
     for planned, joint in zip(statics.board.reactions, statics.reactions, strict=True):
         name = force_row(planned)
         yield f"{name}.x", joint.force.real

@@ -8,7 +8,9 @@ import numpy as np
 
 from planmethod.mechanism.structure import Structure
 from planmethod.note.numbers import finite_or_none, plain
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION, PlanKind
+from planmethod.plans.motion.board import pole_letter
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Segment, Solution
 
 SCHEMA = 1
@@ -16,8 +18,6 @@ SCHEMA = 1
 
 LONG = {"ak": "a_coriolis", "ar": "a_rel"}
 """Names in the record of what is called shorter in the labels of drafting errors."""
-
-POLE = {PlanKind.VELOCITY: "p", PlanKind.ACCELERATION: "π"}
 
 
 def structure_record(structure: Structure) -> dict[str, Any]:
@@ -54,7 +54,7 @@ def _vector(prefix: str, value: complex) -> dict[str, float]:
 def _segments(
     solution: Solution, kind: PlanKind, segments: list[Segment], index: int
 ) -> dict[str, dict[str, float | None]]:
-    spreads = solution.drafting.spreads
+    spreads = drafting_of(solution).spreads
     return {
         segment.name: {
             "exact": plain(segment.exact[index]),
@@ -67,7 +67,7 @@ def _segments(
 
 def _hand(solution: Solution, index: int) -> dict[str, Any]:
     """Return what follows from the read segments, and one sigma of each quantity."""
-    spreads = solution.drafting.spreads
+    spreads = drafting_of(solution).spreads
 
     def told(label: str) -> dict[str, float | None]:
         """Return a quantity and its sigma; the name is the first part of the label."""
@@ -118,7 +118,7 @@ def record(solution: Solution) -> dict[str, Any]:
     was found by random draws because first order does not hold. ``forces`` is there for a problem
     with ``[dynamics]``: see `planmethod.note.tables.forces`.
     """
-    segments = {kind: solution.segments(kind) for kind in PlanKind}
+    segments = {kind: solution.segments(kind) for kind in MOTION}
     positions = []
     for i, asked in enumerate(solution.positions):
         entry: dict[str, Any] = {}
@@ -164,10 +164,10 @@ def record(solution: Solution) -> dict[str, Any]:
         entry["plans"] = {
             kind.value: {
                 "mu": solution.scales[kind].per_mm,
-                **({"pole": POLE[kind]} if kind in POLE else {}),
+                **({"pole": pole} if (pole := pole_letter(solution.problem, kind)) else {}),
                 "segments": _segments(solution, kind, segments[kind], i),
             }
-            for kind in PlanKind
+            for kind in MOTION
         }
         entry["hand"] = _hand(solution, i)
         if solution.problem.dynamics is not None:

@@ -12,10 +12,11 @@ import numpy as np
 
 from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
 from planmethod.note.wording import wording
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, with_force_scale
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
 
 if TYPE_CHECKING:
     from planmethod.solved.many.gaps import Swept
@@ -68,7 +69,7 @@ def motion_columns(solution: Solution) -> dict[str, Reals]:
         add(f"{name}.phi_deg", link.phi_deg)
         add(f"{name}.omega", link.omega)
         add(f"{name}.epsilon", link.epsilon)
-    for kind in PlanKind:
+    for kind in MOTION:
         for segment in solution.segments(kind):
             add(f"{kind.value}.{segment.name}.exact", segment.exact)
             add(f"{kind.value}.{segment.name}.read", segment.read)

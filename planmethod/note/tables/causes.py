@@ -34,12 +34,11 @@ from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.sigmas import label_of, marked
 from planmethod.plans.model import PlanKind
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 
 MOST = 3
 """Causes that are told of one result."""
-
-UNIT = {"v": "m/s", "a": "m/s²", "ω": "1/s", "ε": "1/s²"}
 
 
 class Causes:
@@ -75,11 +74,11 @@ class Causes:
             symbol=plain_text(f"{symbol}_{{{name}}}"),
             value=spoken(rounded_to(value, sigma), words),
             sigma=spoken(sigma_text(sigma), words),
-            unit=words.units[UNIT[symbol]],
+            unit=words.units[self.solution.legend[label_of(symbol, name)].kind.unit],
             part=fixed(100 * sigma / abs(value), words, 0 if sigma > 0.02 * abs(value) else 1),
         )
         lines = [words.table_causes, *wrap(result)]
-        causes = self.solution.drafting.causes(label_of(symbol, name), index)
+        causes = drafting_of(self.solution).causes(label_of(symbol, name), index)
         for stroke, share in causes[:MOST]:
             part = f"{100 * share:.0f} %"
             lines += wrap(self.tell(stroke), first=f"  {part:>5}  ", rest=" " * 9)
@@ -103,7 +102,7 @@ class Causes:
         known = []
         for symbol, name, values in found:
             value = float(values[index])
-            sigma, mark = marked(s.drafting, label_of(symbol, name), index)
+            sigma, mark = marked(drafting_of(s), label_of(symbol, name), index)
             if not mark and 0.0 < SHORT * sigma <= abs(value):
                 known.append((symbol, name, value, sigma))
         return max(known, key=lambda each: each[3] / abs(each[2]), default=None)

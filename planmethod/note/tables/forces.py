@@ -16,11 +16,12 @@ from planmethod.solved.errors.forces import (
     LEVER,
     DrawnForces,
     angle_label,
+    drawn_forces,
     moment_label,
     size_label,
 )
-from planmethod.solved.forces.contact import NOTHING, Contact
-from planmethod.solved.forces.statics import JointForce, Statics
+from planmethod.solved.forces.contact import NOTHING, Contact, JointForce
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import Solution
 
 
@@ -81,7 +82,7 @@ def _told_labels(statics: Statics, index: int) -> list[str]:
         for joint in statics.reactions
         if _angle(complex(joint.force[index]), largest) is None
     }
-    return [label for label in statics.drawn.items if label not in nothing]
+    return [label for label in drawn_forces(statics).items if label not in nothing]
 
 
 def forces_record(solution: Solution, index: int) -> dict[str, Any]:
@@ -92,8 +93,8 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     ``difference`` from the force plans is that of the exact values; ``sigma`` is what a drawing of
     the profile lets expect, ``hand`` what the ruler gives.
     """
-    statics = solution.statics
-    drawn, largest = statics.drawn, statics.largest(index)
+    statics = statics_of(solution)
+    drawn, largest = drawn_forces(statics), statics.largest(index)
 
     def told(number: int, joint: JointForce) -> dict[str, Any]:
         force, at = complex(joint.force[index]), complex(joint.at[index])
@@ -147,7 +148,7 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
 
 def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
     """Return columns of many positions: the size of every reaction, then what balances."""
-    statics = solution.statics
+    statics = statics_of(solution)
     columns = [
         [f"{joint.joint} {joint.on}←{joint.by}", *(found(float(f), words) for f in size)]
         for joint in statics.reactions
@@ -163,18 +164,18 @@ def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
 
 def _distance(solution: Solution, number: int, index: int, words: Wording) -> str:
     """Return how far along its guide a reaction acts, m."""
-    contact = solution.statics.contacts.get(number)
+    contact = statics_of(solution).contacts.get(number)
     b = np.nan if contact is None else float(contact.b()[index])
     if contact is None or not np.isfinite(b):
         return "—"
-    largest = solution.statics.largest(index)
+    largest = statics_of(solution).largest(index)
     return found(0.0 if abs(contact.joint.moment[index]) <= NOTHING * largest else b, words)
 
 
 def _edge_notes(solution: Solution, words: Wording, index: int) -> list[str]:
     """Return what is told of the guides whose sliders bear at their edges."""
     lines = []
-    for contact in solution.statics.contacts.values():
+    for contact in statics_of(solution).contacts.values():
         edges = contact.edges(index)
         if not edges:
             continue
@@ -208,8 +209,8 @@ def forces_tables(
     ``sigmas`` are the cells of the drafting errors; without them there are none.
     """
     sigmas = sigmas or Sigmas(solution, words, asked=False)
-    statics = solution.statics
-    drawn, largest = statics.drawn, statics.largest(index)
+    statics = statics_of(solution)
+    drawn, largest = drawn_forces(statics), statics.largest(index)
     rows = []
     for number, joint in enumerate(statics.reactions):
         force = complex(joint.force[index])
@@ -243,7 +244,7 @@ def forces_tables(
     if statics.lever is None:
         lines.append(words.lever_stands)
     else:
-        drawn = statics.drawn
+        drawn = drawn_forces(statics)
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
         plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
         share, expected = drawn.balances.share(index), float(drawn.discrepancy_sigma[index])

@@ -7,7 +7,6 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from planmethod.note.narrate.formulas import UNIT
 from planmethod.note.narrate.given import asked_links, asked_points
 from planmethod.note.narrate.naming import SCALE_SYMBOL, Names
 from planmethod.note.plaintext import (
@@ -23,8 +22,9 @@ from planmethod.note.plaintext import (
 )
 from planmethod.note.tables.sigmas import Sigmas, label_of, levelled
 from planmethod.note.wording import Wording, wording
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Segment, Solution
 
 FEW = 3
@@ -88,7 +88,7 @@ def scale_texts(solution: Solution, words: Wording) -> list[str]:
     """Return the scales as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit where the file says so."""
     texts = []
     for kind, scale in solution.scales.items():
-        unit, mm = words.units[UNIT[kind]], words.units["mm"]
+        unit, mm = words.units[FACTS[kind].unit], words.units["mm"]
         inner = f"({unit})" if "/" in unit else unit
         if solution.problem.scales.convention is Convention.MM_PER_UNIT:
             value, per = 1.0 / scale.per_mm, f"{mm}/{inner}"
@@ -133,7 +133,7 @@ def position_tables(
         PlanKind.ACCELERATION: words.plan_acceleration,
     }
     names = Names(solution, words)
-    for kind, scale in zip(PlanKind, scale_texts(solution, words), strict=True):
+    for kind, scale in zip(MOTION, scale_texts(solution, words), strict=True):
         title = words.table_segments.format(
             plan=titles[kind][:1].lower() + titles[kind][1:], scale=scale
         )
@@ -141,7 +141,7 @@ def position_tables(
         if kind is PlanKind.POSITION:
             lines = sigmas.table(sigmas.header(words.columns_lengths, 2), rows)
         else:
-            unit = words.units[UNIT[kind]]
+            unit = words.units[FACTS[kind].unit]
             header = sigmas.header([text.format(unit=unit) for text in words.columns_vectors], 3)
             lines = sigmas.table(header, rows, left=2)
         if rows:
@@ -265,7 +265,7 @@ def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:
 def _resultants(solution: Solution, words: Wording) -> list[str]:
     from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 
-    said = [*shift_lines(solution.statics, words), *kept_lines(solution.statics, words)]
+    said = [*shift_lines(statics_of(solution), words), *kept_lines(statics_of(solution), words)]
     return [line for text in said for line in wrap(plain_text(text))]
 
 

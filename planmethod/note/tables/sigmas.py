@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from planmethod.note.plaintext import spoken, table, wrap
 from planmethod.note.rounding import sigma_text
+from planmethod.solved.errors.motion import drafting_of
 
 if TYPE_CHECKING:
     from planmethod.note.wording import Wording
@@ -60,7 +61,7 @@ class Sigmas:
             return []
         if label is None:
             return ["—"]
-        sigma, mark = marked(errors or self.solution.drafting, label, index)
+        sigma, mark = marked(errors or drafting_of(self.solution), label, index)
         self.drawn = self.drawn or bool(mark)
         return [spoken(sigma_text(sigma), self.words) + mark]
 
@@ -92,7 +93,7 @@ class Sigmas:
         profile = self.words.profiles.get(name, name)
         lines = wrap(self.words.sigma_note.format(profile=profile))
         if self.drawn:
-            lines += wrap(self.words.drawn_note.format(count=self.solution.drafting.draws))
+            lines += wrap(self.words.drawn_note.format(count=drafting_of(self.solution).draws))
         return lines
 
 

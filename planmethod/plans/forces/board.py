@@ -15,12 +15,13 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.forces.loads import Applied, LoadKind, Shift, free_letter, numbers_of
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, reaction_symbol
-from planmethod.plans.model import FORCE_PREFIX
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.leads import Kinematics
 from planmethod.plans.segments import Ends, Segments
 from planmethod.problem.load_records import Dynamics
 
-SCALE = "mu_F"
+SCALE = FACTS[PlanKind.FORCE].scale
+PREFIX = FACTS[PlanKind.FORCE].prefix
 
 
 def plain_name(symbol: str) -> str:
@@ -112,7 +113,7 @@ class Board:
     _count: int = 0
 
     def __post_init__(self) -> None:
-        self.segments = Segments(self.draft.b, self.draft.b.known(SCALE), FORCE_PREFIX)
+        self.segments = Segments(self.draft.b, self.draft.b.known(SCALE), PREFIX)
         self.accelerations = self.kin.acceleration.segments.on(self.draft.b)
         self.pole = self.start()
 
@@ -124,7 +125,7 @@ class Board:
     def name(self, hint: str) -> str:
         """Return a name that nothing has."""
         self._count += 1
-        return f"{FORCE_PREFIX}{hint}{self._count}"
+        return f"{PREFIX}{hint}{self._count}"
 
     def known(self, hint: str, value: Number) -> NumberName:
         """Take numbers of all positions as known."""

@@ -33,8 +33,7 @@ from planmethod.plans.forces.polygons import (
     reaction_symbol,
 )
 from planmethod.plans.model import Known
-from planmethod.plans.motion.board import mark
-from planmethod.plans.motion.leads import arm, track_note
+from planmethod.plans.motion.leads import arm, track_direction
 from planmethod.plans.motion.position import (
     inner_point,
     lead_point,
@@ -137,7 +136,7 @@ def _tangent(
     lever = arm(board.draft, lead.link, outer, middle)
     moment = board.moment((lead.link,), middle)
     end = board.across(origin, lever.line, moment, lever.length)
-    return end, Components(lead, PointName(outer), mark(outer, middle), lever.length)
+    return end, Components(lead, PointName(outer), (outer, str(middle)), lever.length)
 
 
 def _unknown(board: Board, lead: Lead, through: PointName, middle: PointName) -> LineName:
@@ -171,8 +170,8 @@ def _guide_reaction(board: Board, lead: Lead, force: Force, inner: Edge) -> Coup
 def _guide_edge(board: Board, lead: Lead, tail: PointName, head: PointName) -> Edge:
     """Return the reaction of a guide, which is across it."""
     slide = slide_of(board.draft, lead.joint)
-    note = track_note(slide, board.draft.problem, turned=True)
-    return reaction_edge(lead.link, lead.to, PointName(slide.pin), tail, head, note)
+    direction = track_direction(slide, board.draft.problem, turned=True)
+    return reaction_edge(lead.link, lead.to, PointName(slide.pin), tail, head, direction)
 
 
 def _of_guide(couple: CoupleOn, edges: Sequence[Edge], known: tuple[CoupleOn, ...]) -> Moments:
@@ -200,12 +199,12 @@ def _swinging(board: Board, group: AssurGroup) -> None:
         b.perpendicular(between, board.draft.direction(slide)),
     )
     loaded = board.chain(between, host.link, loads[1])
-    hinged = Components(slider, at, mark(at, pivot), over)
+    hinged = Components(slider, at, (str(at), str(pivot)), over)
     two = (hinged.normal(end, start), hinged.tangential(start, first))
     whole = hinged.whole(end, first)
     stands = reaction_edge(host.link, host.to, pivot, loaded, end)
-    note = track_note(slide, board.draft.problem, turned=True)
-    inner = reaction_edge(slider.link, host.link, at, between, end, note)
+    direction = track_direction(slide, board.draft.problem, turned=True)
+    inner = reaction_edge(slider.link, host.link, at, between, end, direction)
     known = board.couples_on(*group.links)
     board.react(at, slider.link, slider.to, Force(at, end, first))
     board.react(pivot, host.link, host.to, Force(pivot, loaded, end))
@@ -267,8 +266,8 @@ def _sliding(board: Board, group: AssurGroup) -> None:
     whole = board.moment((revolute.link, prismatic.link), pin, Force(at, end, first))
     across = _guide_edge(board, prismatic, loaded, end)
     hinge = reaction_edge(revolute.link, revolute.to, at, end, first)
-    note = track_note(inner, board.draft.problem, turned=True)
-    between = reaction_edge(prismatic.link, revolute.link, at, end, start, note)
+    direction = track_direction(inner, board.draft.problem, turned=True)
+    between = reaction_edge(prismatic.link, revolute.link, at, end, start, direction)
     known, of_one = board.couples_on(*group.links), board.couples_on(revolute.link)
     board.react(at, revolute.link, revolute.to, Force(at, end, first))
     across_pin = Force(pin, loaded, end)
@@ -327,10 +326,10 @@ def drive_forces(board: Board) -> Driving:
     held = board.press(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
     problem = board.draft.problem
     drives = Edge(
-        BALANCING_FORCE, drive.link, pin, loaded, end, Known.ONE, track_note(slide, problem)
+        BALANCING_FORCE, drive.link, pin, loaded, end, Known.ONE, track_direction(slide, problem)
     )
-    note = track_note(slide, problem, turned=True)
-    presses = reaction_edge(drive.link, FRAME, pin, end, start, note)
+    direction = track_direction(slide, problem, turned=True)
+    presses = reaction_edge(drive.link, FRAME, pin, end, start, direction)
     balance = board.segments.read_along(loaded, end, guide, "F_dr")
     board.read_off(
         ForcePlan(

@@ -11,7 +11,7 @@ from enum import Enum
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.groups import Lead
-from planmethod.plans.model import Known
+from planmethod.plans.model import Direction, Known, Relation
 from planmethod.plans.segments import Ends
 
 BALANCING_MOMENT = "M_{ур}"
@@ -43,8 +43,8 @@ class Edge:
         Ends on the force plan.
     known : Known
         Before the plan is drawn.
-    note : str
-        Direction under the term where only that is known: ``∥ BC``, ``⊥ y-y``.
+    direction : Direction or None
+        Where only that is known: ``∥ BC``, ``⊥ y-y``.
     """
 
     symbol: str
@@ -53,7 +53,7 @@ class Edge:
     tail: PointName
     head: PointName
     known: Known = Known.BOTH
-    note: str = ""
+    direction: Direction | None = None
     share: Share = Share.WHOLE
 
     @property
@@ -159,13 +159,13 @@ def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = 
 class Components:
     """Reaction of a revolute lead in two shares (нормальная и касательная составляющие).
 
-    ``line`` are the letters of the link from the joint to the middle one, in rich text, ``arm`` the
+    ``line`` are the points of the link from the joint to the middle one, ``arm`` the
     factors of its length, m.
     """
 
     lead: Lead
     at: PointName
-    line: str
+    line: tuple[str, str]
     arm: tuple[tuple[NumberName, int], ...]
 
     def _edge(self, tail: PointName, head: PointName, share: Share) -> Edge:
@@ -175,7 +175,7 @@ class Components:
     def normal(self, tail: PointName, head: PointName) -> Edge:
         """Return the share along the link, which the plan finds."""
         edge = self._edge(tail, head, Share.NORMAL)
-        return replace(edge, known=Known.ONE, note=f"∥ {self.line}")
+        return replace(edge, known=Known.ONE, direction=Direction(Relation.ALONG, self.line))
 
     def tangential(self, tail: PointName, head: PointName) -> Edge:
         """Return the share across the link, which moments have found."""
@@ -187,16 +187,21 @@ class Components:
 
 
 def reaction_edge(
-    on: str, by: str, at: PointName, tail: PointName, head: PointName, note: str = ""
+    on: str,
+    by: str,
+    at: PointName,
+    tail: PointName,
+    head: PointName,
+    direction: Direction | None = None,
 ) -> Edge:
-    """Return a reaction that a plan finds: of a known direction if there is a ``note``."""
-    known = Known.ONE if note else Known.NOTHING
-    return Edge(reaction_symbol(on, by), on, at, tail, head, known, note)
+    """Return a reaction that a plan finds: of a known ``direction`` if there is one."""
+    known = Known.NOTHING if direction is None else Known.ONE
+    return Edge(reaction_symbol(on, by), on, at, tail, head, known, direction)
 
 
 def as_known(edge: Edge) -> Edge:
     """Return a force that an equation before has found."""
-    return replace(edge, known=Known.BOTH, note="")
+    return replace(edge, known=Known.BOTH, direction=None)
 
 
 def back(edge: Edge, on: str) -> Edge:

@@ -12,16 +12,21 @@ from dataclasses import dataclass, field
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
-from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
+from planmethod.plans.model import (
+    FACTS,
+    STILL,
+    Direction,
+    Known,
+    PlanKind,
+    Vector,
+    VectorEquation,
+    VectorKind,
+)
 from planmethod.plans.segments import Segments
+from planmethod.problem.model import Convention, Problem
 
-PREFIX = {PlanKind.VELOCITY: "v:", PlanKind.ACCELERATION: "a:"}
-SYMBOL = {PlanKind.VELOCITY: "v", PlanKind.ACCELERATION: "a"}
 UNKNOWN_KINDS = (VectorKind.RELATIVE, VectorKind.SLIDING)
 """Components that end in a middle joint: from the pole they are its absolute vector as well."""
-
-POLE = {PlanKind.VELOCITY: "p", PlanKind.ACCELERATION: "π"}
-SCALE = {PlanKind.VELOCITY: "mu_v", PlanKind.ACCELERATION: "mu_a"}
 
 
 def letter(point: str) -> str:
@@ -33,11 +38,6 @@ def letter(point: str) -> str:
     if head in "pπ" and not tail:
         return f"{head}_{{{point}}}"
     return f"{head}_{{{tail}}}" if tail else head
-
-
-def mark(*points: str) -> str:
-    """Return names of mechanism points in rich text: ``mark("O3", "A")`` gives ``O_{3}A``."""
-    return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)
 
 
 def _number(vector: Vector) -> str:
@@ -78,16 +78,16 @@ class Motion:
     @classmethod
     def start(cls, kind: PlanKind, draft: Draft) -> Motion:
         """Put the pole down: the fixed points are there."""
-        pole = draft.b.given(PREFIX[kind] + "0")
+        pole = draft.b.given(FACTS[kind].prefix + "0")
         draft.places[pole] = 0j
-        motion = cls(kind, draft, pole, Segments(draft.b, draft.b.known(SCALE[kind])))
+        motion = cls(kind, draft, pole, Segments(draft.b, draft.b.known(FACTS[kind].scale)))
         for point in draft.problem.bodies[FRAME].points:
             motion.put(FRAME, point, pole, show=bool(motion.sharers(point, FRAME)))
         return motion
 
     def name(self, point: str) -> str:
         """Return the plan's name of a point."""
-        return PREFIX[self.kind] + point
+        return FACTS[self.kind].prefix + point
 
     def sharers(self, point: str, link: str) -> list[str]:
         """Return the other links that a point is a revolute joint of."""
@@ -133,7 +133,7 @@ class Motion:
             self.segments.value(vector.tail, vector.head, _number(vector))
         for name, at in self.named.items():
             if self.point[at] != self.pole:
-                number = f"{SYMBOL[self.kind]}_{name}"
+                number = f"{FACTS[self.kind].letter}_{name}"
                 self.segments.value(self.pole, self.point[at], number)
 
     # Vectors ---------------------------------------------------------------------------------
@@ -151,15 +151,25 @@ class Motion:
 
     def absolute(self, name: str, at: PointName, known: Known = Known.BOTH) -> Vector:
         """Return the vector of a point from the pole."""
-        note = "= 0" if at == self.pole else ""
-        symbol = f"{SYMBOL[self.kind]}_{{{name}}}"
-        return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, note))
+        direction = STILL if at == self.pole else None
+        symbol = f"{FACTS[self.kind].letter}_{{{name}}}"
+        return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, direction))
+
+
+def is_primed(problem: Problem, kind: PlanKind) -> bool:
+    """Tell whether a plan's letters carry a prime: the acceleration plan of the mm/unit books."""
+    return kind is PlanKind.ACCELERATION and problem.scales.convention is Convention.MM_PER_UNIT
+
+
+def pole_letter(problem: Problem, kind: PlanKind) -> str:
+    """Return the letter of a plan's pole: p, π; p′ for the latter in the mm/unit books."""
+    return "p′" if is_primed(problem, kind) else FACTS[kind].pole
 
 
 def plain_letter(motion: Motion, point: PointName) -> str:
     """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
     if point == motion.pole:
-        return POLE[motion.kind]
+        return pole_letter(motion.draft.problem, motion.kind)
     first = motion.letters.get(point, [str(point)])[0]
     head, brace, tail = first.partition("_{")
     if not brace:
@@ -180,7 +190,7 @@ class Ray:
         That line.
     terms : tuple of Vector
         Terms of the equation laid off before the line.
-    unknown : (symbol, VectorKind, note)
+    unknown : (symbol, VectorKind, Direction)
         What is found along the line.
     name : str
         What the number is called that is read off the line, signed along it.
@@ -189,10 +199,10 @@ class Ray:
     start: PointName
     line: LineName
     terms: tuple[Vector, ...]
-    unknown: tuple[str, VectorKind, str]
+    unknown: tuple[str, VectorKind, Direction]
     name: str
 
     def close(self, motion: Motion, head: PointName) -> Vector:
         """Return the unknown component, its end being found."""
-        symbol, kind, note = self.unknown
-        return motion.add(Vector(symbol, kind, self.start, head, Known.ONE, note))
+        symbol, kind, direction = self.unknown
+        return motion.add(Vector(symbol, kind, self.start, head, Known.ONE, direction))

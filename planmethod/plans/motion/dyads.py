@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import Revolute
-from planmethod.plans.model import Known, PlanKind, Vector, VectorKind
-from planmethod.plans.motion.board import SYMBOL, Motion
+from planmethod.plans.model import FACTS, Known, PlanKind, Vector, VectorKind
+from planmethod.plans.motion.board import Motion
 from planmethod.plans.motion.leads import (
     Kinematics,
     carried,
@@ -14,7 +14,7 @@ from planmethod.plans.motion.leads import (
     read_sliding,
     read_turning,
     revolute_ray,
-    track_note,
+    track_direction,
     turn_about,
 )
 from planmethod.plans.motion.position import (
@@ -47,9 +47,9 @@ def drive_motion(kin: Kinematics, motion: Motion) -> None:
         out = motion.name(slide.pin)
         along = b.parallel(motion.pole, kin.draft.direction(slide))
         head = motion.segments.lay_off(out, motion.pole, along, rate)
-        symbol = f"{SYMBOL[motion.kind]}_{{{slide.pin}}}"
-        note = track_note(slide, kin.draft.problem)
-        motion.add(Vector(symbol, VectorKind.ABSOLUTE, motion.pole, head, Known.BOTH, note))
+        symbol = f"{FACTS[motion.kind].letter}_{{{slide.pin}}}"
+        direction = track_direction(slide, kin.draft.problem)
+        motion.add(Vector(symbol, VectorKind.ABSOLUTE, motion.pole, head, Known.BOTH, direction))
         motion.put(drive.link, slide.pin, head)
     carry_rest(kin, motion, (drive.link,))
 

@@ -16,8 +16,19 @@ from dataclasses import dataclass, field
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
-from planmethod.plans.model import Known, PlanKind, Vector, VectorEquation, VectorKind
-from planmethod.plans.motion.board import SYMBOL, Motion, Ray, mark
+from planmethod.plans.model import (
+    FACTS,
+    Direction,
+    Known,
+    PlanKind,
+    Relation,
+    Vector,
+    VectorEquation,
+    VectorKind,
+    across,
+    towards,
+)
+from planmethod.plans.motion.board import Motion, Ray
 from planmethod.problem.model import Problem, Slide
 
 
@@ -123,15 +134,15 @@ def revolute_ray(kin: Kinematics, motion: Motion, link: str, joint: str, place: 
             start,
             line,
             tuple(terms),
-            (f"v_{{{both}}}", VectorKind.RELATIVE, f"⊥ {mark(place, joint)}"),
+            (f"v_{{{both}}}", VectorKind.RELATIVE, across(place, joint)),
             f"v_{both}",
         )
     end = _normal(kin, motion, link, (joint, place), start, lever)
     symbol = f"a^{{n}}_{{{both}}}"
-    note = f"{mark(place)} → {mark(joint)}"
-    terms.append(motion.add(Vector(symbol, VectorKind.NORMAL, start, end, Known.BOTH, note)))
+    direction = towards(place, joint)
+    terms.append(motion.add(Vector(symbol, VectorKind.NORMAL, start, end, Known.BOTH, direction)))
     line = b.perpendicular(end, lever.line)
-    unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, f"⊥ {mark(place, joint)}")
+    unknown = (f"a^{{τ}}_{{{both}}}", VectorKind.TANGENTIAL, across(place, joint))
     return Ray(end, line, tuple(terms), unknown, f"at_{both}")
 
 
@@ -153,27 +164,27 @@ def _normal(
     return motion.segments.lay_off(n, start, inward, value)
 
 
-def track_note(slide: Slide, problem: Problem, *, turned: bool = False) -> str:
-    """Return the direction note of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
+def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> Direction:
+    """Return the direction of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
 
     ``turned`` asks for the direction across the line. A line on a moving link is named by its
     point and the pin when the pin is on it, else by the link's own axis where it runs along or
-    across that, else by the link's letters of the line.
+    across that, else by its angle to the axis.
     """
-    along, across = ("⊥", "∥") if turned else ("∥", "⊥")
+    along, beside = Relation.ALONG, Relation.ACROSS
+    if turned:
+        along, beside = beside, along
     axis = problem.bodies[slide.host].axis
     if slide.host == FRAME or slide.through is None:
-        return f"{along} {slide.label}"
+        return Direction(along, guide=slide.label)
     if slide.towards is not None and slide.offset:
-        return f"{along} {mark(slide.through, slide.towards)}"
+        return Direction(along, (slide.through, slide.towards))
     if not slide.offset or axis is None:
-        return f"{along} {mark(slide.through, slide.pin)}"
-    if axis is not None and slide.angle % 180 == 0:
-        return f"{along} {mark(*axis)}"
-    if axis is not None and slide.angle % 180 == 90:
-        return f"{across} {mark(*axis)}"
+        return Direction(along, (slide.through, slide.pin))
+    if slide.angle % 180 in (0, 90):
+        return Direction(along if slide.angle % 180 == 0 else beside, axis)
     angle = slide.angle + (90.0 if turned else 0.0)
-    return f"∠ {(angle + 90.0) % 180.0 - 90.0:.4g}° {mark(*axis)}"
+    return Direction(Relation.ANGLED, axis, angle=(angle + 90.0) % 180.0 - 90.0)
 
 
 def prismatic_ray(
@@ -191,12 +202,12 @@ def prismatic_ray(
         base = motion.moving[to][0]  # the whole link moves so: its first letter tells it
     both = f"{motion.label(of, place)}{base}"
     problem = kin.draft.problem
-    note = track_note(slide, problem)
-    symbol = SYMBOL[motion.kind]
+    direction = track_direction(slide, problem)
+    symbol = FACTS[motion.kind].letter
     terms: list[Vector] = [motion.absolute(base, start)]
     if motion.kind is PlanKind.VELOCITY:
         line = b.parallel(start, guide)
-        unknown = (f"{symbol}_{{{both}}}", VectorKind.SLIDING, note)
+        unknown = (f"{symbol}_{{{both}}}", VectorKind.SLIDING, direction)
         return Ray(start, line, tuple(terms), unknown, f"v_{place}{of}/{to}")
     relative = kin.relatives[place, of, to]
     relative.a_start = relative.a_turned = start
@@ -215,11 +226,11 @@ def prismatic_ray(
             start,
             end,
             Known.BOTH,
-            track_note(slide, problem, turned=True),
+            track_direction(slide, problem, turned=True),
         )
         terms.append(motion.add(turned))
     line = b.parallel(end, guide)
-    unknown = (f"a^{{r}}_{{{both}}}", VectorKind.SLIDING, note)
+    unknown = (f"a^{{r}}_{{{both}}}", VectorKind.SLIDING, direction)
     return Ray(end, line, tuple(terms), unknown, f"ar_{place}{of}/{to}")
 
 
@@ -351,9 +362,9 @@ def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: st
     if motion.kind is PlanKind.VELOCITY:
         value = motion.segments.compute(f"v_{both}", (kin.omega[link], 1), *lever.length)
         head = motion.segments.lay_off(out, start, b.perpendicular(start, lever.line), value)
-        note = f"⊥ {mark(place, joint)}"
+        direction = across(place, joint)
         kind = VectorKind.ABSOLUTE if fixed else VectorKind.RELATIVE
-        last = motion.add(Vector(f"v_{{{both}}}", kind, start, head, Known.BOTH, note))
+        last = motion.add(Vector(f"v_{{{both}}}", kind, start, head, Known.BOTH, direction))
         if not fixed:
             left = motion.absolute(label, head, Known.NOTHING)
             motion.equations.append(VectorEquation(left, (*terms, last)))
@@ -372,15 +383,15 @@ def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: st
         start,
         end,
         Known.BOTH,
-        f"{mark(place)} → {mark(joint)}",
+        towards(place, joint),
     )
     if end != head or not fixed:
         terms.append(motion.add(normal))
     else:
         terms.append(normal)
     if end != head:
-        symbol, note = f"a^{{τ}}_{{{both}}}", f"⊥ {mark(place, joint)}"
-        tangential = Vector(symbol, VectorKind.TANGENTIAL, end, head, Known.BOTH, note)
+        symbol, direction = f"a^{{τ}}_{{{both}}}", across(place, joint)
+        tangential = Vector(symbol, VectorKind.TANGENTIAL, end, head, Known.BOTH, direction)
         terms.append(motion.add(tangential))
     left = motion.absolute(label, head, Known.NOTHING)
     motion.equations.append(VectorEquation(left, tuple(terms)))

@@ -7,6 +7,7 @@ from functools import lru_cache
 from planmethod.construct.steps import PointName
 from planmethod.render.forces.polygon import apart, drawn_edges
 from planmethod.render.pictures.ellipses import Ellipses, shown_ellipses
+from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import ForceReading
 
 
@@ -25,4 +26,4 @@ def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     across = [place.real for place in places.values()]
     up = [place.imag for place in places.values()]
     size = max(max(across) - min(across), max(up) - min(up)) if places else 0.0
-    return shown_ellipses(reading.statics.drawn, reading.index, places, size)
+    return shown_ellipses(drawn_forces(reading.statics), reading.index, places, size)

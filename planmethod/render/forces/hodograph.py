@@ -17,9 +17,10 @@ from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
-from planmethod.solved.forces.cycle import Cycle
+from planmethod.solved.cycle import Cycle
 from planmethod.solved.forces.reading import NOTHING
-from planmethod.solved.solution import Complexes
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.reading import Complexes
 
 HODOGRAPH = "hodograph"
 """Tag of the curve; of the pole it is `POLE`."""
@@ -49,7 +50,7 @@ def polar_groups(cycle: Cycle) -> list[list[int]]:
     They are something, and may turn as they like, unlike those across a guide. Reactions that are
     the same but for their sign, as those at the ends of a massless link, share one.
     """
-    reactions = cycle.solution.statics.board.reactions
+    reactions = statics_of(cycle.solution).board.reactions
     groups: list[list[int]] = []
     for k, reaction in enumerate(reactions):
         if reaction.couple is not None or cycle.is_nothing(k):

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from planmethod.note.narrate.letters import direction_text
 from planmethod.plans.model import Known, Vector, VectorEquation
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import (
@@ -158,7 +159,7 @@ def _equation(
     def term(vector: Vector) -> _Term:
         return _Term(
             typeset(vector_markup(vector.symbol), size),
-            typeset(vector.note, small),
+            typeset(direction_text(vector.direction), small),
             vector.known.value,
         )
 

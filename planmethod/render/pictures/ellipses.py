@@ -15,8 +15,10 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
-from planmethod.solved.scaling import extent, own_scale, plan_extent
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.reading import Reals
+from planmethod.solved.scaling import extent, plan_extent
+from planmethod.solved.solution import Solution
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -94,12 +96,13 @@ def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
     """Return the ellipses of a view's moving points in one position."""
     common, scheme = solution.scales[kind].per_mm, kind is PlanKind.POSITION
     # A plan near a dead position is drawn smaller, and its ellipses with it.
-    per_mm = common if scheme else own_scale(solution, kind, index).per_mm
+    per_mm = common if scheme else solution.own_scale(kind, index).per_mm
     share = common / per_mm
-    size = extent(solution, kind) if scheme else plan_extent(solution, kind, index)
+    construction, si = solution.construction, solution.si
+    size = extent(construction, si, kind) if scheme else plan_extent(construction, si, kind, index)
     places = {point: place * share for point, place in _places(solution, kind, index)}
     return shown_ellipses(
-        solution.drafting,
+        drafting_of(solution),
         index,
         places,
         max(size) / per_mm,
@@ -169,7 +172,7 @@ def _places(solution: Solution, kind: PlanKind, index: int) -> Iterator[tuple[Po
         plan = solution.construction.plan(kind)
         points = sorted(point for point in plan.letters if point != plan.pole)
     for point in points:
-        yield point, complex(solution.complexes(solution.paper, point)[index])
+        yield point, complex(solution.paper.point(point)[index])
 
 
 def _alike(one: Stroke, two: Stroke) -> bool:

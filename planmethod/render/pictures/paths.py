@@ -15,7 +15,8 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
-from planmethod.solved.solution import Complexes, Reals, Solution
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import Solution
 from planmethod.solved.travel import TURN, Course
 
 TRAJECTORY = "trajectory"
@@ -47,7 +48,7 @@ class Paths:
         between = self._between
         trace = between.read(Float64(), between.per_mm)
         points = {p for body in between.problem.bodies.values() for p in body.points}
-        return {point: between.complexes(trace, PointName(point)) for point in points}
+        return {point: trace.point(PointName(point)) for point in points}
 
     def of(self, point: str) -> Complexes:
         """Return the places of a point, mm, ndarray of shape (n,)."""

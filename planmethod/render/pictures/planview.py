@@ -15,7 +15,6 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import vector_arrow
-from planmethod.solved.scaling import own_scale
 from planmethod.solved.solution import Solution
 
 POLE = "pole"
@@ -46,8 +45,8 @@ def plan_places(solution: Solution, kind: PlanKind, index: int) -> dict[PointNam
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
     ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
-    share = solution.scales[kind].per_mm / own_scale(solution, kind, index).per_mm
-    return {name: complex(solution.complexes(solution.paper, name)[index]) * share for name in ends}
+    share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
+    return {name: complex(solution.paper.point(name)[index]) * share for name in ends}
 
 
 @lru_cache(maxsize=256)

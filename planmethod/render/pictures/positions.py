@@ -90,7 +90,7 @@ class Positions:
     def at(self, point: str, index: int) -> complex:
         """Return the place of a point in a position, mm."""
         trace = self.shown.paper
-        return complex(self.shown.complexes(trace, PointName(point))[index])
+        return complex(trace.point(PointName(point))[index])
 
     def spots(self, point: str) -> list[Spot]:
         """Return the places of a point, those that coincide on the paper joined."""

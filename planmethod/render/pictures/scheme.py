@@ -65,7 +65,7 @@ class Scheme:
     def at(self, point: str) -> complex:
         """Return the place of a point on the paper, mm."""
         trace = self.solution.paper
-        return complex(self.solution.complexes(trace, PointName(point))[self.index])
+        return complex(trace.point(PointName(point))[self.index])
 
     def axis(self, link: str) -> complex:
         """Return the direction of a link's own axis, a unit vector."""
@@ -163,8 +163,8 @@ class Scheme:
         """Return the least and the greatest place of a stone along its line in all positions."""
         s = self.solution
         turns = np.array([cis(float(a)) for a in s.links[slide.host].phi_deg]) * cis(slide.angle)
-        pins = s.complexes(s.paper, PointName(slide.pin))
-        bases = s.complexes(s.paper, PointName(slide.through or f"{slide.label}:0"))
+        pins = s.paper.point(PointName(slide.pin))
+        bases = s.paper.point(PointName(slide.through or f"{slide.label}:0"))
         along = ((pins - bases) * turns.conjugate()).real
         return float(along.min()), float(along.max())
 
@@ -238,7 +238,7 @@ class Scheme:
 
     def _way(self, slide: Slide) -> list[complex]:
         """Return the places of a slider's pin in every position of the sheet, mm."""
-        places = self.solution.complexes(self.solution.paper, PointName(slide.pin))
+        places = self.solution.paper.point(PointName(slide.pin))
         return [complex(p) for p in places]
 
     # Joints and inscriptions -----------------------------------------------------------------

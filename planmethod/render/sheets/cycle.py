@@ -39,7 +39,9 @@ from planmethod.render.sheets.cycletable import reactions_table
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription
-from planmethod.solved.forces.cycle import Cycle, Peak, Piece, cycle
+from planmethod.solved.cycle import Cycle, Peak, Piece, cycle
+from planmethod.solved.errors.forces import drawn_forces
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
@@ -122,7 +124,7 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
     forces = cycle(solution)
     width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
-    statics, crank = solution.statics, solution.problem.drive.is_crank
+    statics, crank = statics_of(solution), solution.problem.drive.is_crank
     symbol, unit = (BALANCING_MOMENT, "N·m") if crank else (BALANCING_FORCE, "N")
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
     reach = _range([forces.balance], _real)
@@ -131,7 +133,7 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
     curve = Curve("", frame.parts(forces.balance, per_mm, _real))
     marks, said = [], []
     convention = solution.problem.scales.convention
-    balances = statics.drawn.balances
+    balances = drawn_forces(statics).balances
     if balances is not None:
         for mark, values in ((Mark.RING, balances.plans), (Mark.CROSS, balances.lever)):
             marks += [
@@ -187,7 +189,7 @@ def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner)
     forces = cycle(solution)
     width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
-    links = solution.statics.board.plans[manner.entry.number].links
+    links = statics_of(solution).board.plans[manner.entry.number].links
     own = [k for k, joint in enumerate(forces.joints) if joint.on in links]
     numbers = [k for k in own if not forces.is_nothing(k)]
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
@@ -237,7 +239,7 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
     side = SIDE * manner.width(manner.sizes.column)
     convention = solution.problem.scales.convention
     cells: list[Block] = []
-    scale = solution.statics.scale
+    scale = statics_of(solution).scale
     for group in polar_groups(forces):
         k = group[0]
         scale = hodograph_scale(forces, k, side)

@@ -16,9 +16,12 @@ from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import scale_inscription
-from planmethod.solved.forces.cycle import Cycle, cycle
+from planmethod.solved.cycle import Cycle, cycle
+from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import NOTHING
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
 
 
 def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -45,7 +48,7 @@ def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) 
 def _drawn_at(solution: Solution) -> str:
     """Return at which scales the plans of all positions are drawn, and how they are read."""
     convention = solution.problem.scales.convention
-    scales = [*solution.scales.values(), solution.statics.scale]
+    scales = [*solution.scales.values(), statics_of(solution).scale]
     said = "; ".join(scale_inscription(scale, convention).replace(" ", NBSP) for scale in scales)
     ruler = number(solution.hand.ruler)
     return f"Планы сил и рычаг: {said}; отрезки сняты с точностью {ruler}{NBSP}мм."
@@ -53,7 +56,7 @@ def _drawn_at(solution: Solution) -> str:
 
 def _reaction_columns(forces: Cycle, which: int, indices: Sequence[int]) -> list[TableColumn]:
     """Return size and direction of a reaction, and of a guide its moment about the pin."""
-    joint, statics = forces.joints[which], forces.solution.statics
+    joint, statics = forces.joints[which], statics_of(forces.solution)
     values = [complex(joint.force[i]) for i in indices]
     nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
     sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
@@ -82,7 +85,7 @@ def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableCo
 
     The difference is that of the numbers which stand in the table.
     """
-    statics, crank = solution.statics, solution.problem.drive.is_crank
+    statics, crank = statics_of(solution), solution.problem.drive.is_crank
     symbol, unit = (
         (BALANCING_MOMENT, UNITS_RU["N·m"]) if crank else (BALANCING_FORCE, UNITS_RU["N"])
     )
@@ -99,7 +102,7 @@ def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableCo
         return [float(values[i]) for i in indices]
 
     columns = [column(symbol, alike(chosen(statics.balance)), sense=crank)]
-    balances, sigma = statics.drawn.balances, statics.drawn.discrepancy_sigma
+    balances, sigma = drawn_forces(statics).balances, drawn_forces(statics).discrepancy_sigma
     if balances is None or sigma is None:
         return columns
     both = alike([*chosen(balances.plans), *chosen(balances.lever)])

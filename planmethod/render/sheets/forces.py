@@ -19,6 +19,7 @@ from planmethod.note.narrate.forces.guides import place_lines
 from planmethod.note.narrate.forces.lever_lines import lever_lines
 from planmethod.note.narrate.forces.moment_lines import moment_lines
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+from planmethod.note.narrate.letters import direction_text
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import wording
 from planmethod.plans.forces.polygons import ForcePlan, Share
@@ -44,7 +45,6 @@ from planmethod.render.sheets.reactions import reactions_block
 from planmethod.render.sheets.texts import stated, unbroken
 from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
-from planmethod.solved.scaling import own_scale
 from planmethod.solved.solution import Solution
 
 NOT_TO_SCALE = "Стрелки сил на схемах не в масштабе"
@@ -153,7 +153,7 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     title = manner.entry.title or "Рычаг Жуковского"
     if reading.statics.hung is None:
         return heading(title, manner.title, underline=True)  # why not is told beside it
-    scale = own_scale(solution, PlanKind.VELOCITY, reading.index)
+    scale = solution.own_scale(PlanKind.VELOCITY, reading.index)
     said = [
         "План скоростей повёрнут на 90° против часовой стрелки",
         scale_inscription(scale, solution.problem.scales.convention),
@@ -198,7 +198,7 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     balances: list[Block] = []
     for balance in plan.balances:
         terms = [
-            (edge.symbol, edge.known, edge.note)
+            (edge.symbol, edge.known, direction_text(edge.direction))
             for edge in balance.edges
             if edge.known is not Known.BOTH or not reading.is_none(edge)
         ]

@@ -16,6 +16,7 @@ from planmethod.solved.errors.forces import (
     DIFFERENCE,
     LEVER,
     angle_label,
+    drawn_forces,
     moment_label,
     size_label,
 )
@@ -26,26 +27,26 @@ NO_ERROR = "—"
 
 def sigma_cell(reading: ForceReading, label: str | None) -> str:
     """Return the error of a quantity in the position, with its mark; a dash of none."""
-    if label is None or label not in reading.statics.drawn.items:
+    if label is None or label not in drawn_forces(reading.statics).items:
         return NO_ERROR
-    sigma, mark = marked(reading.statics.drawn, label, reading.index)
+    sigma, mark = marked(drawn_forces(reading.statics), label, reading.index)
     return russian(sigma_text(sigma)) + mark
 
 
 def read_text(reading: ForceReading, label: str) -> str:
     """Return what was read on the drawing, to the place of its error, without its sign."""
-    sigma, _ = marked(reading.statics.drawn, label, reading.index)
+    sigma, _ = marked(drawn_forces(reading.statics), label, reading.index)
     return russian(rounded_to(abs(read_value(reading, label)), sigma))
 
 
 def read_value(reading: ForceReading, label: str) -> float:
     """Return what was read on the drawing, N or N·m."""
-    return float(reading.statics.drawn.read(label)[reading.index])
+    return float(drawn_forces(reading.statics).read(label)[reading.index])
 
 
 def sizes_as_long(reading: ForceReading, texts: Sequence[str]) -> list[str]:
     """Return the sizes of the reactions, each with no fewer decimals than its error has."""
-    errors, index = reading.statics.drawn, reading.index
+    errors, index = drawn_forces(reading.statics), reading.index
     return [
         as_long(text, abs(complex(one.force[index])), marked(errors, size_label(one), index)[0])
         for one, text in zip(reading.statics.reactions, texts, strict=True)
@@ -86,7 +87,7 @@ def balance_columns(reading: ForceReading, columns: Sequence[TableColumn]) -> li
     found = [_with_error(reading, *pair) for pair in ((plans, BALANCE), (lever, LEVER))]
     off = NO_ERROR
     if share.cells[0].text != NO_ERROR:
-        sigma, mark = marked(reading.statics.drawn, DIFFERENCE, reading.index)
+        sigma, mark = marked(drawn_forces(reading.statics), DIFFERENCE, reading.index)
         part = 100.0 * sigma / abs(read_value(reading, BALANCE))
         off = russian(sigma_text(part)) + mark
     return [
@@ -100,7 +101,7 @@ def balance_columns(reading: ForceReading, columns: Sequence[TableColumn]) -> li
 def _with_error(reading: ForceReading, column: TableColumn, label: str) -> TableColumn:
     """Return the column of a balance to the place of its error, and the error."""
     value = column.cells[0]
-    if label in reading.statics.drawn.items:
+    if label in drawn_forces(reading.statics).items:
         value = Cell(read_text(reading, label), value.sense)
     return TableColumn(column.head, (value, _like(column, sigma_cell(reading, label))))
 
@@ -115,6 +116,8 @@ def with_note(
 ) -> Block:
     """Return tables and what the errors in their columns are."""
     cells = (cell.text for column in columns for cell in column.cells)
-    draws = reading.statics.drawn.draws if any(text.endswith(DRAWN) for text in cells) else None
+    draws = (
+        drawn_forces(reading.statics).draws if any(text.endswith(DRAWN) for text in cells) else None
+    )
     told = errors_text(reading.solution.profile.name, draws)
     return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)

@@ -15,7 +15,9 @@ from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
 
 
 def position_text(solution: Solution, index: int) -> str:
@@ -33,7 +35,7 @@ def _sense(value: float) -> int:
 def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple[Cell, Cell]:
     """Return what was read on the drawing, to the place of its error, and the error."""
     read = float(solution.read_off(label_of(symbol, name))[index])
-    sigma, mark = marked(solution.drafting, label_of(symbol, name), index)
+    sigma, mark = marked(drafting_of(solution), label_of(symbol, name), index)
     turns = symbol in "ωε"
     return (
         Cell(russian(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
@@ -64,7 +66,7 @@ def result_columns(
         turns = symbol in "ωε"
         errors = [(0.0, "") for _ in shown]
         if sigma:
-            errors = [marked(solution.drafting, label_of(symbol, name), i) for i in indices]
+            errors = [marked(drafting_of(solution), label_of(symbol, name), i) for i in indices]
         cells = []
         for text, value, (error, mark) in zip(texts, shown, errors, strict=True):
             written = russian(as_long(text, abs(value), error))
@@ -121,7 +123,7 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
         return table
     cells = (cell for column in columns for cell in column.cells)
     drawn = any(cell.text.endswith(DRAWN) for cell in cells)
-    told = errors_text(solution.profile.name, solution.drafting.draws if drawn else None)
+    told = errors_text(solution.profile.name, drafting_of(solution).draws if drawn else None)
     return Column([table, paragraph(told, min(height, 3.5), table.width)], gap=3.0)
 
 

@@ -21,7 +21,6 @@ from planmethod.render.pictures.positions import bold_position
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
-from planmethod.solved.scaling import own_scale
 from planmethod.solved.solution import Solution
 
 TITLES = {
@@ -218,7 +217,7 @@ def plan_grid(
     for i in indices:
         value = position_text(solution, i)
         said = f"{i}: φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"{i}: s = {value} м"
-        own = own_scale(solution, kind, i)
+        own = solution.own_scale(kind, i)
         caption: Block = Line(typeset(said, CAPTION))
         if own != solution.scales[kind]:
             scale = Line(typeset(scale_inscription(own, convention), CAPTION))

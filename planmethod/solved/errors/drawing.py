@@ -9,7 +9,7 @@ from enum import Enum
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.construct.arithmetic import Arithmetic, Number
+from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
@@ -41,7 +41,7 @@ class Item:
     needs : tuple of Name
         Steps that it is taken from.
     take : callable
-        The quantity from the readings of a trace; the same segment is read once.
+        The quantity from a trace.
     kind : ItemKind
     absent : callable or None
         The positions in which nobody draws what it is taken from: there it has no error.
@@ -52,18 +52,10 @@ class Item:
 
     label: str
     needs: tuple[Name, ...]
-    take: Callable[[Reading], Number]
+    take: Callable[[Trace], Number]
     kind: ItemKind = ItemKind.NUMBER
     absent: Callable[[], Flags] | None = None
     direction: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """A program drawn and read by a hand (чертёж и его прочтение)."""
-
-    trace: Trace
-    pencil: Arithmetic
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,8 +90,8 @@ class Drafted:
 # Takers --------------------------------------------------------------------------------------
 
 
-def number(name: Name, *, size: bool = False) -> Callable[[Reading], Number]:
+def number(name: Name, *, size: bool = False) -> Callable[[Trace], Number]:
     """Return what takes a number, or its size."""
     if size:
-        return lambda reading: abs(reading.trace.value[name])
-    return lambda reading: reading.trace.value[name]
+        return lambda trace: abs(trace.value[name])
+    return lambda trace: trace.value[name]

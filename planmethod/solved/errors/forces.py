@@ -8,20 +8,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
+from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind, Reading, number
+from planmethod.plans.forces.board import Force, Reaction
+from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind, number
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
-from planmethod.solved.solution import Reals
-
-if TYPE_CHECKING:
-    from planmethod.plans.forces.board import Force, Reaction
-    from planmethod.solved.forces.statics import JointForce, Statics
+from planmethod.solved.forces.contact import JointForce
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.reading import Reals
 
 BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
 """Labels: what balances the driver by the force plans and by the lever, lever minus plans."""
@@ -88,8 +88,8 @@ class DrawnForces(Errors):
 
     @cached_property
     def _by_hand(self) -> dict[str, Reals]:
-        shape, hand = self.solution.positions.shape, self.solution.hand
-        read = self.taken(Reading(self.statics.by_hand, hand))
+        shape = self.solution.positions.shape
+        read = self.taken(self.statics.by_hand.trace)
         return {
             label: np.broadcast_to(np.asarray(value, dtype=float), shape)
             for label, value in read.items()
@@ -120,9 +120,14 @@ class DrawnForces(Errors):
         return self.spreads[DIFFERENCE].sigma if DIFFERENCE in self.items else None
 
 
+def drawn_forces(statics: Statics) -> DrawnForces:
+    """Return what a hand makes of the force plans, worked out when it is first asked for."""
+    return statics.once(DrawnForces)
+
+
 def all_errors(statics: Statics) -> Errors:
     """Return the errors of force plans and kinematics together: they have strokes in common."""
-    solution, drawn = statics.solution, statics.drawn.drawing
+    solution, drawn = statics.solution, drawn_forces(statics).drawing
     return Errors(
         Drafted(
             statics.board.draft.b.program(),
@@ -130,7 +135,7 @@ def all_errors(statics: Statics) -> Errors:
             drawn.count,
             drawn.profile,
             drawn.free,
-            (*solution.drafting.drawing.items, *drawn.items),
+            (*drafting_of(solution).drawing.items, *drawn.items),
         )
     )
 
@@ -167,9 +172,9 @@ def _number(label: str, name: NumberName) -> Item:
     return Item(label, (name,), number(name))
 
 
-def _direction(force: Force) -> Callable[[Reading], Number]:
-    def take(reading: Reading) -> Number:
-        value = reading.trace.value
+def _direction(force: Force) -> Callable[[Trace], Number]:
+    def take(trace: Trace) -> Number:
+        value = trace.value
         return angle(value[force.head] - value[force.tail], NOTHING_MM) * RADIAN
 
     return take
@@ -185,6 +190,6 @@ def _absent(statics: Statics, force: Force) -> Flags:
     )
     found = np.ones(statics.solution.positions.shape, dtype=bool)
     for edge in plan.polygon:
-        tail, head = (statics.solution.complexes(statics.si, e) for e in (edge.tail, edge.head))
+        tail, head = (statics.si.point(e) for e in (edge.tail, edge.head))
         found &= head == tail
     return found

@@ -9,6 +9,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from planmethod.construct.arithmetic import Number
+from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import PointName
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
@@ -17,7 +18,6 @@ from planmethod.solved.errors.drawing import (
     Flags,
     Item,
     ItemKind,
-    Reading,
     number,
 )
 from planmethod.solved.errors.spread import DRAWS, Errors
@@ -68,13 +68,15 @@ class Drafting(Errors):
         solution, still = self.solution, np.zeros(self.solution.positions.shape)
         found = {}
         for plan in solution.construction.plans:
-            ends = [
-                (solution.complexes(solution.paper, end) for end in (v.tail, v.head))
-                for v in plan.vectors
-            ]
+            ends = [(solution.paper.point(end) for end in (v.tail, v.head)) for v in plan.vectors]
             longest = np.max([still, *(np.abs(head - tail) for tail, head in ends)], axis=0)
             found[plan.kind] = np.asarray(longest == 0)
         return found
+
+
+def drafting_of(solution: Solution) -> Drafting:
+    """Return how far the hand's drawing may be off, worked out when it is first asked for."""
+    return solution.once(Drafting)
 
 
 def _plan_points(solution: Solution) -> tuple[PointName, ...]:
@@ -106,7 +108,5 @@ def _items(solution: Solution) -> Iterable[Item]:
             yield Item(quantity.label, (quantity.size,), number(quantity.size, size=sized), kind)
 
 
-def _coordinate(
-    place: PointName, mu: float, part: str, origin: float
-) -> Callable[[Reading], Number]:
-    return lambda reading: getattr(reading.trace.value[place], part) * mu + origin
+def _coordinate(place: PointName, mu: float, part: str, origin: float) -> Callable[[Trace], Number]:
+    return lambda trace: getattr(trace.value[place], part) * mu + origin

@@ -21,8 +21,8 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName, operands
 from planmethod.errors import PlanMethodError
-from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind, Reading
-from planmethod.solved.solution import Reals
+from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind
+from planmethod.solved.reading import Reals
 
 Key = TypeVar("Key", bound=str)
 
@@ -86,12 +86,12 @@ class Errors:
         """Draw the construction with a pencil and take every quantity off it."""
         program = self.drawing.program
         trace = evaluate(program, self.drawing.data(chosen), pencil)
-        return trace, self.taken(Reading(trace, pencil))
+        return trace, self.taken(trace)
 
-    def taken(self, reading: Reading) -> dict[str, Number]:
+    def taken(self, trace: Trace) -> dict[str, Number]:
         """Return every quantity as it is read."""
         with np.errstate(all="ignore"):
-            return {item.label: item.take(reading) for item in self.items.values()}
+            return {item.label: item.take(trace) for item in self.items.values()}
 
     @cached_property
     def _causes(self) -> int:

@@ -10,10 +10,9 @@ Source: the homework guide's section 1, on the forces in lower pairs.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -23,10 +22,8 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Problem, Slide
-from planmethod.solved.solution import Complexes, Reals, Solution
-
-if TYPE_CHECKING:
-    from planmethod.solved.forces.statics import JointForce, Statics
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import Solution
 
 NOTHING = 1e-12
 """Share of the largest force of a position below which a reaction is nothing."""
@@ -68,6 +65,22 @@ def edge_forces(normal: Reals, moment: Reals, length: float) -> tuple[Reals, Rea
     """
     half = normal / 2.0
     return half + moment / length, half - moment / length
+
+
+@dataclass(frozen=True, slots=True)
+class JointForce:
+    """Reaction in a joint in every position (реакция), N and N·m, ndarrays of shape (n,).
+
+    ``moment`` is about ``at`` (m, in the file's coordinates), counter-clockwise positive; zero in a
+    revolute pair.
+    """
+
+    joint: str
+    on: str
+    by: str
+    at: Complexes
+    force: Complexes
+    moment: Reals
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,13 +169,19 @@ class Contact:
         )
 
 
-def contacts(statics: Statics) -> Mapping[int, Contact]:
-    """Return the prismatic pairs by the numbers of their reactions."""
-    solution = statics.solution
-    largest = np.asarray([statics.largest(k) for k in range(len(solution.positions))])
+def contacts(
+    solution: Solution, reactions: Sequence[JointForce], largest: Reals
+) -> Mapping[int, Contact]:
+    """Return the prismatic pairs by the numbers of their reactions.
+
+    Parameters
+    ----------
+    largest : ndarray of shape (n,), N
+        Size of the largest force of each position.
+    """
     return {
         number: _contact(solution, slide, joint, largest)
-        for number, joint in enumerate(statics.reactions)
+        for number, joint in enumerate(reactions)
         for slide in [slide_between(solution.problem, joint)]
         if slide is not None
     }

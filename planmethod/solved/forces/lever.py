@@ -15,7 +15,6 @@ from planmethod.plans.forces.board import Given
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.board import letter
 from planmethod.solved.forces.reading import ForceReading
-from planmethod.solved.scaling import own_scale
 
 _Own: TypeAlias = tuple[
     float,
@@ -108,7 +107,7 @@ class LeverReading:
         assert reading.statics.hung is not None
         self.reading = reading
         scale = solution.scales[PlanKind.VELOCITY]
-        shown = scale if common else own_scale(solution, PlanKind.VELOCITY, index)
+        shown = scale if common else solution.own_scale(PlanKind.VELOCITY, index)
         self.per_mm = shown.per_mm
         self._share = scale.per_mm / self.per_mm
         self.forces: list[HungForce] = []
@@ -150,7 +149,7 @@ class LeverReading:
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever, mm from the pole."""
         solution = self.reading.solution
-        at = complex(solution.complexes(solution.paper, point)[self.reading.index])
+        at = complex(solution.paper.point(point)[self.reading.index])
         return 1j * at * self._share
 
     def _couple(self, symbol: str, link: str, moment: float) -> HungCouple:
@@ -175,7 +174,7 @@ class LeverReading:
         """Return the angular velocity of a link as the hand has it, 1/s."""
         solution = self.reading.solution
         name = solution.construction.kinematics.omega[link]
-        return float(solution.reals(solution.by_hand, name)[self.reading.index])
+        return float(solution.by_hand.number(name)[self.reading.index])
 
     def _on(self, link: str) -> _Own:
         """Return the ratio of a link, its segment on the plan, its ends and their joints."""

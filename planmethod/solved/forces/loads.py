@@ -28,7 +28,8 @@ from planmethod.problem.load_records import (
     Turning,
 )
 from planmethod.problem.model import Problem
-from planmethod.solved.solution import Complexes, LinkMotion, PointMotion, Reals
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import LinkMotion, PointMotion
 
 STILL = 1e-10
 """Share of the largest speed of a position below which a point or a link stands."""

@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
-from planmethod.construct.evaluate import Trace
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
@@ -20,6 +19,8 @@ from planmethod.plans.forces.polygons import (
 )
 from planmethod.plans.segments import Ends
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.reading import Reading
 from planmethod.solved.solution import Solution
 
 NOTHING = 1e-7
@@ -44,7 +45,7 @@ class ForceReading:
     def __init__(self, solution: Solution, index: int) -> None:
         require_dynamics(solution.problem)
         self.solution, self.index = solution, index
-        self.statics = solution.statics
+        self.statics = statics_of(solution)
         self.plans: tuple[ForcePlan, ...] = tuple(self.statics.board.plans)
 
     @property
@@ -52,8 +53,8 @@ class ForceReading:
         """Scale of all force plans, N per mm."""
         return self.statics.scale
 
-    def _column(self, trace: Trace, name: PointName) -> complex:
-        return complex(self.solution.complexes(trace, name)[self.index])
+    def _column(self, reading: Reading, name: PointName) -> complex:
+        return complex(reading.point(name)[self.index])
 
     # Places, forces, couples -----------------------------------------------------------------
 
@@ -61,7 +62,7 @@ class ForceReading:
         """Return a place of the position plan, mm; those of shifted forces are among them."""
         return self._column(self._of_plan(point) or self.statics.paper, point)
 
-    def _of_plan(self, point: PointName) -> Trace | None:
+    def _of_plan(self, point: PointName) -> Reading | None:
         """Return the position plan if it has a point."""
         return self.solution.paper if point in self.solution.paper.value else None
 
@@ -101,11 +102,11 @@ class ForceReading:
 
     def number(self, name: NumberName) -> float:
         """Return a moment, N·m, or another computed number."""
-        return float(self.solution.reals(self.statics.si, name)[self.index])
+        return float(self.statics.si.number(name)[self.index])
 
     def read_number(self, name: NumberName) -> float:
         """Return a moment as the hand has it, N·m."""
-        return float(self.solution.reals(self.statics.by_hand, name)[self.index])
+        return float(self.statics.by_hand.number(name)[self.index])
 
     def read_product(self, powers: Iterable[tuple[NumberName, int]]) -> float:
         """Return a product of powers as the hand has it."""

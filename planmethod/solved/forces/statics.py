@@ -10,13 +10,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
@@ -27,35 +26,19 @@ from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
 from planmethod.plans.forces.lever import Lever, hang
 from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.solved.errors.forces import DrawnForces
+from planmethod.solved.forces.contact import Contact, JointForce, contacts
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import Kept, singled
 from planmethod.solved.impossible import explain, failing
+from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
 from planmethod.solved.scaling import Box
-from planmethod.solved.solution import EVERY, UNIT_SCALES, Complexes, Reals, Solution
+from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
-if TYPE_CHECKING:
-    from planmethod.solved.forces.contact import Contact
-
+UNIT = FACTS[PlanKind.FORCE].unit
 PLAN_BOX: Box = (100.0, 100.0)
 """What the largest of the force plans shall fill, mm: a usual size on training drawings."""
-
-
-@dataclass(frozen=True, slots=True)
-class JointForce:
-    """Reaction in a joint in every position (реакция), N and N·m, ndarrays of shape (n,).
-
-    ``moment`` is about ``at`` (m, in the file's coordinates), counter-clockwise positive; zero in a
-    revolute pair.
-    """
-
-    joint: str
-    on: str
-    by: str
-    at: Complexes
-    force: Complexes
-    moment: Reals
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +78,7 @@ def plan_forces(
     return Planned(board, driving, hang(board, driving))
 
 
-class Statics:
+class Statics(Remembering):
     """Force analysis of a solution (силовой расчёт).
 
     Parameters
@@ -110,6 +93,7 @@ class Statics:
     """
 
     def __init__(self, solution: Solution) -> None:
+        super().__init__()
         self.solution = solution
         loads = applied(solution)
         single: Mapping[str, Applied] = {}
@@ -133,9 +117,10 @@ class Statics:
         asked.append(self.board.scale)
         return asked + ([self.hung.balance, self.hung.difference] if self.hung else [])
 
-    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Trace:
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Reading:
         """Read the force plans in an arithmetic, at scales of all plans (units per mm)."""
-        return evaluate(self.program, self.data(scales, EVERY), arithmetic)
+        trace = evaluate(self.program, self.data(scales, EVERY), arithmetic)
+        return Reading(trace, len(self.solution.positions))
 
     def data(
         self, scales: Mapping[str, float], chosen: npt.NDArray[np.intp] | slice
@@ -148,7 +133,7 @@ class Statics:
         return {**self.solution.data(scales, chosen), **loads}
 
     @cached_property
-    def si(self) -> Trace:
+    def si(self) -> Reading:
         """Exact reading: what is a millimetre of a force plan is here a newton.
 
         Raises
@@ -158,18 +143,20 @@ class Statics:
         """
         if not self.closes.all():
             problem, at = self.solution.problem, self.solution.positions
-            raise AssemblyError(explain(problem, self.program, self._si, at, unit_scales=True))
+            raise AssemblyError(
+                explain(problem, self.program, self._si.trace, at, unit_scales=True)
+            )
         return self._si
 
     @cached_property
-    def _si(self) -> Trace:
+    def _si(self) -> Reading:
         self.solution.si  # noqa: B018 - an impossible position must be told first
         return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
 
     @cached_property
     def failing(self) -> npt.NDArray[np.int64]:
         """Number of the first step that fails in each position, or -1; shape (n,)."""
-        return failing(self.program, self._si, len(self.solution.positions))
+        return failing(self.program, self._si.trace, len(self.solution.positions))
 
     @property
     def closes(self) -> npt.NDArray[np.bool_]:
@@ -177,14 +164,12 @@ class Statics:
         return np.asarray(self.failing < 0)
 
     def _vector(self, force: Force) -> Complexes:
-        return self.solution.complexes(self.si, force.head) - self.solution.complexes(
-            self.si, force.tail
-        )
+        return self.si.vector(*force.ends)
 
     def _number(self, name: NumberName | None) -> Reals:
         if name is None:
             return np.zeros(self.solution.positions.shape)
-        return self.solution.reals(self.si, name)
+        return self.si.number(name)
 
     @cached_property
     def reactions(self) -> list[JointForce]:
@@ -204,9 +189,9 @@ class Statics:
     @cached_property
     def contacts(self) -> Mapping[int, Contact]:
         """The reactions of the guides, by their numbers: where they act."""
-        from planmethod.solved.forces.contact import contacts
-
-        return contacts(self)
+        positions = range(len(self.solution.positions))
+        largest = np.asarray([self.largest(index) for index in positions])
+        return contacts(self.solution, self.reactions, largest)
 
     @cached_property
     def balance(self) -> Reals:
@@ -231,16 +216,16 @@ class Statics:
         """Scale of the force plans (масштаб сил): the file's, or one of the series for all."""
         scales = self.solution.problem.scales
         if scales.mu_F is not None:
-            return Scale(SCALE, scales.mu_F, "N")
+            return Scale(SCALE, scales.mu_F, UNIT)
         extents = [self._extent(plan) for plan in self.board.plans]
         whole = (max(e[0] for e in extents), max(e[1] for e in extents))
         inverse = scales.convention is Convention.MM_PER_UNIT
-        return Scale(SCALE, choose_scale(whole, PLAN_BOX, mm_per_unit=inverse), "N")
+        return Scale(SCALE, choose_scale(whole, PLAN_BOX, mm_per_unit=inverse), UNIT)
 
     def _extent(self, plan: ForcePlan) -> Box:
         """Return width and height of a plan in the position where it is the widest, N."""
         ends = {end for edge in plan.polygon for end in (edge.tail, edge.head)}
-        places = np.asarray([self.solution.complexes(self.si, end) for end in sorted(ends)])
+        places = np.asarray([self.si.point(end) for end in sorted(ends)])
         return float(np.ptp(places.real, axis=0).max()), float(np.ptp(places.imag, axis=0).max())
 
     @property
@@ -249,16 +234,16 @@ class Statics:
         return {**self.solution.per_mm, SCALE: self.scale.per_mm}
 
     @cached_property
-    def paper(self) -> Trace:
+    def paper(self) -> Reading:
         """Exact reading at the scales of the drawings: millimetres of the plans."""
         return self.read(Float64(), self.per_mm)
 
     @cached_property
-    def by_hand(self) -> Trace:
+    def by_hand(self) -> Reading:
         """Reading of a draughtsman who measures with a ruler, along his own chain."""
         return self.read(self.solution.hand, self.per_mm)
 
-    @cached_property
-    def drawn(self) -> DrawnForces:
-        """What a hand makes of the force plans, and how far it may be off."""
-        return DrawnForces(self)
+
+def statics_of(solution: Solution) -> Statics:
+    """Return the force analysis of a solution, made when it is first asked for."""
+    return solution.once(Statics)

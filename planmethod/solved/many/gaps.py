@@ -10,7 +10,7 @@ import numpy as np
 from planmethod.problem.model import Problem
 from planmethod.solved.many.positions import Codes, Gaps, blocks, evenly, examine, why
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.solution import Reals
+from planmethod.solved.reading import Reals
 
 CHUNK = 16384
 """Positions that are swept in one go."""

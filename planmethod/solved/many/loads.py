@@ -10,7 +10,8 @@ from planmethod.plans.build import Construction
 from planmethod.plans.forces.loads import numbers_of
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.loads import changing, needs_motion
-from planmethod.solved.solution import LinkMotion, PointMotion, Reals
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import LinkMotion, PointMotion
 
 Motion = Callable[[Reals], dict[str, Reals]]
 """Rows of a sweep of the motion by their names, in some positions."""

@@ -12,9 +12,11 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.impossible import failing
+from planmethod.solved.reading import Reals
 from planmethod.solved.selfcheck import (
     DOUBTFUL,
     MOST_NAMED,
@@ -23,7 +25,8 @@ from planmethod.solved.selfcheck import (
     verify,
     warnings,
 )
-from planmethod.solved.solution import Reals, Solution
+from planmethod.solved.solution import Solution
+from planmethod.solved.trust.conditioning import error_bound
 
 Codes = npt.NDArray[np.int16]
 Places = npt.NDArray[np.intp]
@@ -194,7 +197,7 @@ def examine(
             solution = Solution(problem, positions=_listed(positions[left]))
         if not left.size:
             continue
-        estimate[left] = solution.doubt
+        estimate[left] = error_bound(solution)
         spoilt = ~(estimate[left] <= SPOILT)
         if spoilt.any():
             codes[left[spoilt]] = _SPOILT
@@ -207,7 +210,7 @@ def examine(
         except SelfCheckError as error:
             raise SelfCheckError(_renumbered(str(error), numbers[left])) from error
         if forces:
-            unforced[left] = solution.statics.failing
+            unforced[left] = statics_of(solution).failing
 
     def tell(index: int) -> str:
         return why(problem, float(positions[index]), int(numbers[index]), forces=forces)
@@ -232,7 +235,7 @@ def impossible_steps(solution: Solution) -> Codes:
     try:
         _ = solution.si
     except AssemblyError:
-        trace = solution.read(Float64(), {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
+        trace = solution.read(Float64()).trace
         program = solution.construction.program
         return failing(program, trace, len(solution.positions)).astype(np.int16)
     return np.full(solution.positions.shape, -1, np.int16)
@@ -250,7 +253,7 @@ def why(problem: Problem, position: float, number: int, *, forces: bool = False)
     try:
         verify(alone)
         if forces:
-            _ = alone.statics.si
+            _ = statics_of(alone).si
     except AssemblyError as error:
         return _renumbered(str(error), np.array([number]))
     # Alone it can just be assembled: arrays round otherwise than single numbers do.
@@ -283,11 +286,7 @@ def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKi
     """Return the scales of the plans in all positions, chosen by a thousand of them at most."""
     some = evenly(np.flatnonzero(gaps.moving))
     if not some.size:
-        units = {"mu_l": "m", "mu_v": "m/s", "mu_a": "m/s²"}
-        return {
-            kind: Scale(symbol, 1.0, unit)
-            for kind, (symbol, unit) in zip(PlanKind, units.items(), strict=True)
-        }
+        return {kind: Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit) for kind in MOTION}
     return Solution(problem, positions=_listed(positions[some])).scales
 
 
@@ -298,5 +297,5 @@ def with_force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> Problem:
         return problem
     scale = 1.0
     if some.size:
-        scale = Solution(problem, positions=_listed(positions[some])).statics.scale.per_mm
+        scale = statics_of(Solution(problem, positions=_listed(positions[some]))).scale.per_mm
     return replace(problem, scales=replace(problem.scales, mu_F=scale))

@@ -15,12 +15,13 @@ from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import FORCE_PREFIX
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.solved.asked import results_for
 from planmethod.solved.closings import drive_data
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.many.rows import Row, rows_of
-from planmethod.solved.results import Results, results_for
+from planmethod.solved.results import Results
 from planmethod.solved.solution import Solution
 
 if TYPE_CHECKING:
@@ -105,10 +106,11 @@ class Sweep:
             for name, value in data.items()
             if name != self.driver
         }
+        hidden = ("mu_", FACTS[PlanKind.FORCE].prefix)
         self.parameters: dict[str, float] = {
             name: value
             for name, value in self.constants.items()
-            if isinstance(value, float) and not name.startswith(("mu_", FORCE_PREFIX))
+            if isinstance(value, float) and not name.startswith(hidden)
         }
         self._check(varied)
         self.varied = tuple(varied)

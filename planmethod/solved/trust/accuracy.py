@@ -20,7 +20,7 @@ from planmethod.problem.model import Problem
 from planmethod.solved.impossible import failing
 from planmethod.solved.results import natural_size, results_of
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import SCALES
+from planmethod.solved.trust.conditioning import SCALES, error_bound
 
 NOTHING = 1e-14
 """Share of the largest result of its kind below which one is zero by nature, and not measured in
@@ -139,7 +139,7 @@ def examine(
 def _told(problem: Problem, position: float) -> tuple[str, float]:
     """Return why a position is impossible, or what bound of its error the user is told."""
     try:
-        return "", float(Solution(problem, positions=[position]).doubt[0])
+        return "", float(error_bound(Solution(problem, positions=[position]))[0])
     except PlanMethodError as error:
         return str(error), math.inf
 

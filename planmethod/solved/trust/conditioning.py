@@ -10,8 +10,9 @@ import numpy.typing as npt
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
+from planmethod.solved.reading import Reals
 from planmethod.solved.results import natural_size, results_of
-from planmethod.solved.solution import UNIT_SCALES, Reals, Solution
+from planmethod.solved.solution import UNIT_SCALES, Solution
 
 MULTIPLE = 16
 """Forward error of a result in units of u times its reach that is allowed for."""
@@ -34,13 +35,17 @@ JUDGED = (
 )
 
 
-def doubt(solution: Solution) -> Reals:
+def error_bound(solution: Solution) -> Reals:
     """Return a bound of the relative error of the worst results, ndarray of shape (n,).
 
     It is ``16 u`` times the reach of a result (see `planmethod.construct.condition`) over the
     largest value of its kind in the position. Positions far from any cancellation are not
     computed: their bound is given as ``16 u / SAFE**3``, which none of them reaches.
     """
+    return solution.once(_bound)
+
+
+def _bound(solution: Solution) -> Reals:
     solution.si  # noqa: B018 - what does not exist is told first
     bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
     results = [r for r in results_of(solution.construction).all if r.name != ZERO]

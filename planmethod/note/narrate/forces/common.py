@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from planmethod.note.narrate.equations import note_text
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.numbers import Notation
@@ -62,7 +61,8 @@ class Telling:
 
     def base(self, edge: Edge) -> str:
         """Return what the direction of a force is told by: ``BC`` of ``∥ BC``."""
-        return note_text(self.names, edge.note).partition(" ")[2]
+        assert edge.direction is not None
+        return self.names.base(edge.direction)
 
 
 def closed(lines: Sequence[str]) -> list[str]:

@@ -7,6 +7,7 @@ from planmethod.note.narrate.given import given, point_name
 from planmethod.note.numbers import RUSSIAN, UNITS_RU
 from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.problem.load_records import Couple, Load, Over, Table
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 
@@ -40,6 +41,6 @@ def _load(solution: Solution, load: Load | Couple) -> str:
 
 def cycle_wanted(solution: Solution) -> str:
     """Return what is to be found in all positions, as one line of symbols."""
-    symbols = [reaction_symbol(joint.on, joint.by) for joint in solution.statics.reactions]
+    symbols = [reaction_symbol(joint.on, joint.by) for joint in statics_of(solution).reactions]
     crank = solution.problem.drive.is_crank
     return ", ".join([*symbols, BALANCING_MOMENT if crank else BALANCING_FORCE])

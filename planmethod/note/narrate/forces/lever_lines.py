@@ -12,6 +12,7 @@ from planmethod.note.numbers import RUSSIAN, Notation
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
+from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.lever import HungShift, LeverReading, OnLink
 from planmethod.solved.forces.reading import ForceReading
 
@@ -34,14 +35,14 @@ class PairText:
 
 def both_balances(reading: ForceReading) -> tuple[float, float | None]:
     """Return the balancing moment or force as the hand finds it: by the plans, by the lever."""
-    plans = float(reading.statics.drawn.balance[reading.index])
+    plans = float(drawn_forces(reading.statics).balance[reading.index])
     hung = reading.statics.hung
     return plans, None if hung is None else reading.read_number(hung.balance)
 
 
 def difference(reading: ForceReading) -> float | None:
     """Return how far the lever is from the force plans, per cent; None where there is neither."""
-    balances = reading.statics.drawn.balances
+    balances = drawn_forces(reading.statics).balances
     return None if balances is None else balances.share(reading.index)
 
 
@@ -80,7 +81,7 @@ def lever_lines(reading: ForceReading) -> list[str]:
 
 def expected(reading: ForceReading) -> float | None:
     """Return one sigma of lever minus force plans; None where a drawing cannot tell it."""
-    sigma = reading.statics.drawn.discrepancy_sigma
+    sigma = drawn_forces(reading.statics).discrepancy_sigma
     if sigma is None or not np.isfinite(sigma[reading.index]):
         return None
     return float(sigma[reading.index])

@@ -15,12 +15,13 @@ from planmethod.construct.steps import (
     Step,
 )
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.equations import note_text
 from planmethod.note.narrate.forces.common import Telling, closed
 from planmethod.note.narrate.forces.formulas import closing_formula
+from planmethod.note.plaintext import given
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Share, reaction_symbol
+from planmethod.plans.model import Relation
 from planmethod.problem.model import Convention
 
 
@@ -269,18 +270,19 @@ class ForceVoice:
         step = next(s for s in self.statics.program.steps if s.out == line)
         assert isinstance(step, Parallel | Perpendicular)
         ends = {step.through, out}
-        return next(e for e in self._edges if e.note and {e.tail, e.head} == ends)
+        return next(e for e in self._edges if e.direction and {e.tail, e.head} == ends)
 
     def _line(self, edge: Edge, of: str) -> str:
-        sign, _, base = note_text(self.names, edge.note).partition(" ")
-        angle, _, line = base.partition("° ")
-        match sign:
-            case "∥":
+        assert edge.direction is not None
+        base, angle = self.names.base(edge.direction), ""
+        match edge.direction.relation:
+            case Relation.ALONG:
                 template = self.words.draw_parallel
-            case "⊥":
+            case Relation.ACROSS:
                 template = self.words.draw_perpendicular
             case _:
-                template, base = self.words.draw_at_angle, line
+                template = self.words.draw_at_angle
+                angle = given(float(f"{edge.direction.angle:.4g}"), self.words)
         symbol = self.telling.plain(edge.symbol)
         text = template.format(of=of, base=base, angle=angle)
         return f"{text}{self.words.carries.format(symbol=symbol)}."

@@ -26,7 +26,7 @@ def shift_lines(statics: Statics, words: Wording, index: int | None = None) -> l
             force=force_symbol(shift.link), point=shift.letter, couple=shift.moment.name
         )
         if index is not None:
-            length = abs(float(statics.solution.reals(statics.si, shift.length)[index]))
+            length = abs(float(statics.si.number(shift.length)[index]))
             unit = words.units["m"]
             said += f": {shift_symbol(shift.link)} = {given(length, words, 4)} {unit}"
         lines.append(f"{said}.")

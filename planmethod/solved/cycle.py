@@ -15,10 +15,12 @@ import numpy.typing as npt
 
 from planmethod.errors import LayoutError
 from planmethod.problem.load_records import Dynamics, Over, Table
+from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.reading import NOTHING, require_dynamics
-from planmethod.solved.forces.statics import JointForce
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import impossible_steps
-from planmethod.solved.solution import Complexes, Reals, Solution
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import Solution
 from planmethod.solved.travel import Course
 
 STEP, LEAST = 1.0, 120
@@ -81,7 +83,7 @@ class Cycle:
     def __init__(self, solution: Solution) -> None:
         self.solution = solution
         self.course = Course(solution, step=STEP, least=LEAST)
-        self.joints: list[JointForce] = solution.statics.reactions
+        self.joints: list[JointForce] = statics_of(solution).reactions
         assert solution.problem.dynamics is not None
         self.smooth = not _only_in_positions(solution.problem.dynamics)
         if self.smooth:
@@ -96,7 +98,7 @@ class Cycle:
         order = np.unique(s.positions, return_index=True)[1]
         if self.course.closed:
             order = np.append(order, order[:1])
-        rows = [*(joint.force for joint in s.statics.reactions), s.statics.balance]
+        rows = [*(joint.force for joint in statics_of(s).reactions), statics_of(s).balance]
         return np.array([np.asarray(row, dtype=complex)[order] for row in rows])
 
     def _read(self, positions: Reals) -> Rows:
@@ -106,12 +108,12 @@ class Cycle:
         there = impossible_steps(made) < 0
         if not there.all():
             able, made = able[there], self._solved(positions[there])
-        if able.size and not made.statics.closes.all():
-            there = made.statics.closes
+        if able.size and not statics_of(made).closes.all():
+            there = statics_of(made).closes
             able, made = able[there], self._solved(positions[able[there]])
         rows = np.full((len(self.joints) + 1, len(positions)), np.nan, dtype=complex)
         if able.size:
-            statics = made.statics
+            statics = statics_of(made)
             for k, joint in enumerate(statics.reactions):
                 rows[k, able] = joint.force
             rows[-1, able] = statics.balance
@@ -126,7 +128,7 @@ class Cycle:
     @cached_property
     def _peaks(self) -> Reals:
         """Largest force, and largest balance, of the asked positions, for every row."""
-        statics = self.solution.statics
+        statics = statics_of(self.solution)
         forces = max((float(np.max(np.abs(j.force))) for j in self.joints), default=0.0)
         balance = float(np.max(np.abs(statics.balance)))
         return np.array([*([forces or 1.0] * len(self.joints)), balance or 1.0])[:, np.newaxis]

@@ -1,0 +1,80 @@
+"""Programs changed: values put in, steps rewritten (подстановка значений, замена шагов).
+
+With the values that a person has found himself, a program gives what follows from them along the
+chain of the construction. With a step rewritten, it gives what a certain mistake leads to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from planmethod.construct.program import Program
+from planmethod.construct.steps import (
+    Given,
+    Known,
+    Name,
+    NumberName,
+    PointName,
+    Step,
+    makes,
+    operands,
+)
+from planmethod.errors import ProgramError
+
+
+def substituted(program: Program, names: Iterable[Name]) -> Program:
+    """Return a program in which some points and numbers are given instead of made.
+
+    Their values are then data of the program, beside its own: points in mm, numbers in their unit.
+
+    Raises
+    ------
+    ProgramError
+        When no step makes a name, or the step makes a line: a line is told by what is on it.
+    """
+    given = set(names)
+    unknown = given - {step.out for step in program.steps}
+    if unknown:
+        raise ProgramError(f"no step makes {', '.join(sorted(unknown))}")
+
+    def change(step: Step) -> Step:
+        if step.out not in given:
+            return step
+        if makes(step) is PointName:
+            return Given(PointName(step.out))
+        if makes(step) is NumberName:
+            return Known(NumberName(step.out))
+        raise ProgramError(f"{step.out} is a line: give a point of it, or a number")
+
+    return rewritten(program, change)
+
+
+def rewritten(program: Program, change: Callable[[Step], Step]) -> Program:
+    """Return a program with every step changed, or left as it is.
+
+    Parameters
+    ----------
+    change : callable
+        Takes a step and returns what stands in its place: the same step, or another one that makes
+        the same name of the same kind out of what is made before it.
+
+    Raises
+    ------
+    ProgramError
+        When a step makes another name or kind than the one it stands for, or uses what is not
+        made before it.
+    """
+    steps = tuple(change(step) for step in program.steps)
+    for before, after in zip(program.steps, steps, strict=True):
+        if (after.out, makes(after)) != (before.out, makes(before)):
+            raise ProgramError(f"{after.out} cannot stand for {before.out}")
+    return Program(steps)
+
+
+def dependents(program: Program, names: Iterable[Name]) -> frozenset[Name]:
+    """Return what some points, lines and numbers go into, directly or not, and they themselves."""
+    found = set(names)
+    for step in program.steps:
+        if any(name in found for name, _ in operands(step)):
+            found.add(step.out)
+    return frozenset(found)

@@ -1,0 +1,81 @@
+"""One reading of a program in every position: points and numbers as columns (прочтение)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Arithmetic, Number
+from planmethod.construct.evaluate import Trace, go_on
+from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
+
+Complexes = npt.NDArray[np.complex128]
+Reals = npt.NDArray[np.float64]
+Made = TypeVar("Made")
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A program read in one arithmetic (прочтение программы).
+
+    Attributes
+    ----------
+    trace : Trace
+        Values of every step, one for all positions where it is the same.
+    count : int
+        Positions.
+    """
+
+    trace: Trace
+    count: int
+
+    @property
+    def value(self) -> Mapping[Name, Number]:
+        """Values of the steps as the arithmetic has them."""
+        return self.trace.value
+
+    def point(self, name: Name) -> Complexes:
+        """Return a point, mm (at unit scales m, m/s, m/s², N), ndarray of shape (n,)."""
+        return np.broadcast_to(np.asarray(self.value[name], dtype=complex), (self.count,))
+
+    def number(self, name: Name) -> Reals:
+        """Return a number in its unit, ndarray of shape (n,)."""
+        return np.broadcast_to(np.asarray(self.value[name], dtype=float), (self.count,))
+
+    def vector(self, tail: PointName, head: PointName) -> Complexes:
+        """Return a segment as a vector, ndarray of shape (n,)."""
+        return np.asarray(self.point(head) - self.point(tail), dtype=complex)
+
+    def course(self, line: LineName) -> Complexes:
+        """Return a vector along a line, ndarray of shape (n,)."""
+        along = np.asarray(self.value[line][1], dtype=complex)
+        return np.broadcast_to(along, (self.count,))
+
+    def go_on(
+        self, steps: Iterable[Step], data: Mapping[str, Number], arithmetic: Arithmetic
+    ) -> Reading:
+        """Return a reading with further steps, read in the same arithmetic."""
+        return Reading(go_on(self.trace, steps, data, arithmetic), self.count)
+
+    def product(self, powers: tuple[tuple[NumberName, int], ...]) -> Reals:
+        """Return a product of powers of numbers, ndarray of shape (n,)."""
+        factors = [self.number(name) ** float(power) for name, power in powers]
+        return np.asarray(np.prod(np.broadcast_arrays(*factors), axis=0), dtype=float)
+
+
+class Remembering:
+    """Something of which others work out things that they need again (память результатов)."""
+
+    def __init__(self) -> None:
+        self._worked_out: dict[Any, Any] = {}
+
+    def once(self, work_out: Callable[[Any], Made]) -> Made:
+        """Return what a function makes of this, worked out when it is first asked for."""
+        if work_out not in self._worked_out:
+            self._worked_out[work_out] = work_out(self)
+        made: Made = self._worked_out[work_out]
+        return made
