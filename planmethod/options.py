@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import click
 
+from planmethod.languages import LANGUAGES
+
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
@@ -225,6 +227,6 @@ def dxf_text_option(command: F) -> F:
 
 def lang_option(command: F) -> F:
     """Add the language of texts."""
-    return click.option("--lang", type=click.Choice(["ru", "en"]), default="ru", show_default=True)(
-        command
-    )
+    return click.option(
+        "--lang", type=click.Choice(LANGUAGES), default=LANGUAGES[0], show_default=True
+    )(command)

@@ -63,10 +63,9 @@ class Format:
         """Whether the short side is across, and the title block along it."""
         return self.width < self.height
 
-    @property
-    def cyrillic(self) -> str:
-        """Name as the sheet writes it: ``А3``, ``А4×3``, in Cyrillic letters."""
-        return (self.size or self.name).replace("A", "А").replace("x", "×")
+    def written(self, letter: str) -> str:
+        """Return the name as a sheet writes it, with a language's letter: ``A3``, ``A4×3``."""
+        return (self.size or self.name).replace("A", letter).replace("x", "×")
 
 
 # GOST 2.301, table 1: short and long side.

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
+from planmethod.languages import LANGUAGES
+
 if TYPE_CHECKING:
     from planmethod.problem.config import Config
     from planmethod.problem.model import Problem, SheetSettings
@@ -159,6 +161,12 @@ _SHEET_OPTIONS = (
     ),
     stamp_option,
     lettering_option,
+    click.option(
+        "--lang",
+        callback=_reader("lang"),
+        metavar="LANG",
+        help=f"Language: {', '.join(LANGUAGES)}; that of [sheet], else {LANGUAGES[0]}.",
+    ),
     click.option(
         "--form",
         callback=_reader("form"),

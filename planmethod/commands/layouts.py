@@ -7,14 +7,16 @@ from pathlib import Path
 import click
 
 from planmethod.commands.problems import guarded
+from planmethod.options import lang_option
 
 
 @click.command()
 @click.argument("name", required=False)
 @click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--force", is_flag=True, help="Write over an existing file.")
+@lang_option
 @guarded
-def layouts(name: str | None, file: Path | None, force: bool) -> None:
+def layouts(name: str | None, file: Path | None, force: bool, lang: str) -> None:
     """List the shipped layouts of sheets, print the one called NAME, or write it into a FILE.
 
     Edit the file and draw with it: planmethod sheet --layout FILE PROBLEM. The keys:
@@ -25,7 +27,7 @@ def layouts(name: str | None, file: Path | None, force: bool) -> None:
     if name is None:
         width = max(map(len, SHIPPED))
         for shipped in SHIPPED:
-            click.echo(f"{shipped.ljust(width)}  {about(shipped)}")
+            click.echo(f"{shipped.ljust(width)}  {about(shipped, lang)}")
         return
     if name not in SHIPPED:
         from difflib import get_close_matches
@@ -34,11 +36,11 @@ def layouts(name: str | None, file: Path | None, force: bool) -> None:
         hint = f"; did you mean {near[0]!r}?" if near else ""
         raise click.UsageError(f"no layout {name!r}{hint} Known: {', '.join(SHIPPED)}.")
     if file is None:
-        click.echo(shipped_text(name), nl=False)
+        click.echo(shipped_text(name, lang), nl=False)
         return
     if file.exists() and not force:
         raise click.UsageError(f"{file} exists; name another file or give --force")
     from planmethod.render.backends.output import write
 
-    write(file, shipped_text(name).encode())
+    write(file, shipped_text(name, lang).encode())
     click.echo(str(file))

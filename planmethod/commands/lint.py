@@ -14,7 +14,6 @@ from planmethod.errors import ExitCode
 from planmethod.options import (
     Positions,
     drawn_by,
-    lang_option,
     layout_option,
     problem_options,
     reading_options,
@@ -37,7 +36,6 @@ if TYPE_CHECKING:
 )
 @click.option("--strict", is_flag=True, help="Exit with 1 for warnings, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print the findings as one JSON object.")
-@lang_option
 @guarded
 def lint(
     problems: tuple[Path, ...],
@@ -53,7 +51,6 @@ def lint(
     structural: bool,
     strict: bool,
     as_json: bool,
-    lang: str,
 ) -> None:
     """Check the sheets and say what a norm inspector would mark (нормоконтроль).
 
@@ -61,6 +58,7 @@ def lint(
     with the same options, and are not written. Exit code 0 when there is nothing to correct, 1 when
     there are errors. The codes: docs/normcontrol.md.
     """
+    from planmethod.languages import LANGUAGES
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.control_report import control_record, control_text, counted
@@ -71,7 +69,8 @@ def lint(
             "--phi, --errors, --sigma and --layout are of the plans; "
             "the sheet of --structure has none"
         )
-    composed = None if layout is None else composition(layout)
+    if layout is not None:
+        composition(layout)  # its faults are told once, before any problem is drawn
     positions = None if phi is None else phi.tolist()
     settled = asked.settle()
     records: list[dict[str, Any]] = []
@@ -79,6 +78,7 @@ def lint(
 
     def look(problem: Problem) -> None:
         problem = settled(problem)
+        lang = problem.sheet.lang or LANGUAGES[0]
         if structural:
             sheets = controlled_structure(problem, fields=asked.fields)
         else:
@@ -89,7 +89,7 @@ def lint(
                 fields=asked.fields,
                 errors=errors,
                 sigma=sigma,
-                layout=composed,
+                layout=layout,
             )
         found.extend(sheets)
         if as_json:

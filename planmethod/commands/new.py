@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from planmethod.commands.problems import guarded
+from planmethod.options import lang_option
 
 
 @click.command()
@@ -14,15 +15,18 @@ from planmethod.commands.problems import guarded
 @click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
 @click.option("--force", is_flag=True, help="Write over an existing file.")
+@lang_option
 @guarded
-def new(family: str | None, file: Path | None, show: bool, force: bool) -> None:
+def new(family: str | None, file: Path | None, show: bool, force: bool, lang: str) -> None:
     """Write a commented problem file of a FAMILY, ready to edit."""
     from planmethod.problem import FAMILIES, template
 
     if show or family is None:
-        width = max(map(len, FAMILIES))
-        for name, meaning in FAMILIES.items():
-            click.echo(f"{name.ljust(width)}  {meaning}")
+        from planmethod.note.wording import language
+
+        width, meanings = max(map(len, FAMILIES)), language(lang).families
+        for name in FAMILIES:
+            click.echo(f"{name.ljust(width)}  {meanings[name]}")
         if not show:
             raise click.UsageError("give one of these families: planmethod new FAMILY [FILE]")
         return

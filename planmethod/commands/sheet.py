@@ -75,7 +75,8 @@ def sheet(
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
-    composed = None if layout is None else composition(layout)
+    if layout is not None:
+        composition(layout)  # its faults are told once, before any problem is drawn
     positions = None if phi is None else phi.tolist()
     settled = asked.settle()
 
@@ -88,7 +89,7 @@ def sheet(
             furniture=Furniture.of(problem.sheet, before=before, total=total),
             errors=errors,
             sigma=sigma,
-            layout=composed,
+            layout=layout,
         )
 
     def written(problem: Problem, drawings: list[Drawing], formats: Iterable[str]) -> None:

@@ -10,7 +10,7 @@ import click
 from planmethod.commands.asked import lettering_option, stamp_option
 from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import guarded
-from planmethod.options import dxf_text_option, format_option, out_option
+from planmethod.options import dxf_text_option, format_option, lang_option, out_option
 
 
 def read_specimens(
@@ -38,6 +38,7 @@ def read_specimens(
 @format_option("svg,pdf")
 @stamp_option
 @lettering_option
+@lang_option
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @dxf_text_option
 @guarded
@@ -47,6 +48,7 @@ def specimen(
     formats: tuple[str, ...],
     stamp: dict[str, str],
     lettering: str | None,
+    lang: str,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
 ) -> None:
@@ -55,13 +57,15 @@ def specimen(
     SHEET is symbols, lines or lettering; all of them when none is given. The files are
     specimen-symbols.svg and so on. What is on them: docs/symbols.md, docs/lettering.md.
     """
+    from planmethod.note.wording import language
     from planmethod.render.ink.lettering import lettering as lettered
     from planmethod.render.ink.lettering import using
     from planmethod.render.sheets.specimen import SPECIMENS
 
+    words = language(lang)
     for name in sheets:
         with using(lettered(lettering or "B")):
-            drawing = SPECIMENS[name](stamp)
+            drawing = SPECIMENS[name](stamp, words)
         write_drawings(
             [drawing],
             out,

@@ -13,7 +13,6 @@ from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import (
     dxf_text_option,
     format_option,
-    lang_option,
     out_option,
     problem_options,
 )
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
 @dxf_text_option
 @click.option("--no-drawing", is_flag=True, help="Text only.")
 @sheet_options
-@lang_option
 @guarded
 def structure(
     problems: tuple[Path, ...],
@@ -42,9 +40,9 @@ def structure(
     dxf_text: Literal["text", "strokes"],
     no_drawing: bool,
     asked: Asked,
-    lang: str,
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
+    from planmethod.languages import LANGUAGES
     from planmethod.mechanism.structure import analyse
 
     drawn = not as_json and not no_drawing
@@ -63,11 +61,13 @@ def structure(
             return
         from planmethod.note.narrate.structure import structure_text
 
-        click.echo(structure_text(problem.mechanism, found, lang))
+        if settled is not None:
+            problem = settled(problem)
+        lang = asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]
+        click.echo(structure_text(problem.mechanism, found, str(lang)))
         if settled is not None:
             from planmethod.render.sheets.structure import structure_sheet
 
-            problem = settled(problem)
             drawing = structure_sheet(problem, found, fields=asked.fields)
             write_drawings(
                 [drawing],

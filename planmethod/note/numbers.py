@@ -3,24 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import SupportsFloat
 
 MINUS = "−"
-
-UNITS_RU = {
-    "m": "м",
-    "m/s": "м/с",
-    "m/s²": "м/с^{2}",
-    "1/s": "с^{−1}",
-    "1/s²": "с^{−2}",
-    "mm": "мм",
-    "deg": "°",
-    "N": "Н",
-    "N·m": "Н·м",
-}
-"""Units in Russian, as rich text."""
 
 
 def significant(value: float, digits: int = 4) -> str:
@@ -62,19 +50,27 @@ def trimmed(value: float, digits: int = 6) -> str:
     return text.rstrip("0").rstrip(".")
 
 
-def russian(text: str) -> str:
-    """Return a plain number as rich text: decimal comma, minus sign, power of ten."""
+def rich_number(text: str, decimal: str) -> str:
+    """Return a plain number as rich text: decimal sign, minus sign, power of ten."""
     mantissa, e, power = text.partition("e")
-    mantissa = mantissa.replace(".", ",").replace("-", MINUS)
+    mantissa = mantissa.replace(".", decimal).replace("-", MINUS)
     if not e:
         return mantissa
     exponent = str(int(power)).replace("-", MINUS)
     return f"{mantissa}·10^{{{exponent}}}"
 
 
-@dataclass(frozen=True, slots=True)
+def raised(unit: str) -> str:
+    """Return a unit of plain text as rich text: ``m/s²`` gives ``m/s^{2}``."""
+    return _POWER.sub(lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
+
+
+_POWER, _LEVEL = re.compile("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Notation:
-    """How a language writes computed numbers and units, as rich text (запись чисел).
+    """How a language writes numbers, units and symbols, as rich text (запись чисел).
 
     Attributes
     ----------
@@ -82,14 +78,25 @@ class Notation:
         Decimal sign.
     units : mapping
         Letters of the units, by those of SI: ``N``, ``N·m``, ``mm``.
+    symbols : mapping
+        Letters of what the plans name by its role: the balancing moment.
     """
 
     decimal: str
     units: Mapping[str, str]
+    symbols: Mapping[str, str]
 
     def number(self, text: str) -> str:
         """Return a plain number."""
-        return russian(text).replace(",", self.decimal)
+        return rich_number(text, self.decimal)
+
+    def symbol(self, name: str) -> str:
+        """Return the letters of a quantity of the plans: its own, or those of its role."""
+        return self.symbols.get(name, name)
+
+    def given(self, value: float) -> str:
+        """Return a given number, as the problem writes it."""
+        return self.number(trimmed(value))
 
     def found(self, value: float) -> str:
         """Return a computed number, four digits of it."""
@@ -104,9 +111,6 @@ class Notation:
         coarse = f"{value:.1f}"
         is_coarse = abs(float(coarse) - value) <= 1e-6 * abs(value)
         return self.number(coarse) if is_coarse else self.short(value)
-
-
-RUSSIAN = Notation(",", UNITS_RU)
 
 
 def plain(value: SupportsFloat) -> float:

@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from planmethod.note.numbers import russian, significant, trimmed
+from planmethod.note.numbers import rich_number, significant, trimmed
 
 if TYPE_CHECKING:
     from planmethod.note.wording.model import Wording
@@ -44,8 +44,7 @@ def plain_text(rich: str) -> str:
 
 def spoken(text: str, words: Wording) -> str:
     """Return a number with a decimal point as the language writes it."""
-    plain = plain_text(russian(text))
-    return plain if words.decimal == "," else plain.replace(",", words.decimal)
+    return plain_text(rich_number(text, words.decimal))
 
 
 def found(value: float, words: Wording) -> str:

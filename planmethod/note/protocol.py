@@ -5,14 +5,14 @@ from __future__ import annotations
 from planmethod.construct.steps import Compute, MeasureAlong, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.equations import equation_lines
-from planmethod.note.narrate.given import given_lines
+from planmethod.note.narrate.given import given as given_facts
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.numbered import Steps
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
 from planmethod.note.plaintext import NO_BREAK, given, heading, plain_text, wrap
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
-from planmethod.note.wording import Wording, wording
+from planmethod.note.wording import Wording, language, wording
 from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution
@@ -51,7 +51,7 @@ class _Writer(Steps):
     """Text of a protocol while it is being written."""
 
     def __init__(self, solution: Solution, words: Wording, index: int) -> None:
-        super().__init__()
+        super().__init__(words)
         self.solution, self.words, self.index = solution, words, index
         self.names = Names(solution, words)
         self.narrator = Narrator(solution, self.names, index)
@@ -63,9 +63,8 @@ class _Writer(Steps):
             self.lines += wrap(words.source.format(source=problem.source))
         self.lines.append(position_line(self.solution, words, self.index))
         self.lines.append(words.formula.format(formula=self.solution.structure.formula))
-        text = "; ".join(
-            plain_text(line).replace(" ", NO_BREAK) for line in given_lines(problem, words.lang)
-        )
+        facts = given_facts(problem, language(words.lang))
+        text = "; ".join(plain_text(line).replace(" ", NO_BREAK) for line in facts)
         self.lines += wrap(words.given.format(given=text))
         self.chapter(words.scales)
         self.item([words.scales_text.format(scales="; ".join(scale_texts(self.solution, words)))])

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-FAMILIES: dict[str, str] = {
-    "slider-crank": "кривошипно-ползунный механизм",
-    "four-bar": "шарнирный четырёхзвенник",
-    "slotted-link": "кулисный механизм с вращающейся кулисой",
-    "swinging-block": "механизм с качающимся цилиндром (камнем)",
-    "sine": "синусный (кулисно-ползунный) механизм",
-    "six-link": "шестизвенный механизм с кулисой и ползуном",
-    "driving-slider": "механизм с ведущим ползуном",
-}
-"""Family and its description in Russian."""
+FAMILIES = (
+    "slider-crank",
+    "four-bar",
+    "slotted-link",
+    "swinging-block",
+    "sine",
+    "six-link",
+    "driving-slider",
+)
+"""Their names; what they are stands in `planmethod.note.wording`."""
 
 
 def template(family: str) -> str:

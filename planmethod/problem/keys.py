@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from planmethod.languages import LANGUAGES
+
 TOP = (
     "title",
     "source",
@@ -70,12 +72,12 @@ STAMP = (
     "reference",
     "first_use",
 )
-SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering")
+SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering", "lang")
 FORMS = ("1", "1+2a", "2", "2a")
 """Forms of the title block: of every sheet, or of the first and of the later ones."""
 LETTERINGS = ("A", "A-upright", "B", "B-upright")
 """Types of the lettering of GOST 2.304, slanted where nothing else is said."""
-SHEET_CHOICES = {"form": FORMS, "lettering": LETTERINGS}
+SHEET_CHOICES = {"form": FORMS, "lettering": LETTERINGS, "lang": LANGUAGES}
 """Keys of ``[sheet]`` that take one of some names."""
 CONFIG = ("stamp", "sheet")
 DYNAMICS = ("gravity", "resultant", "links")

@@ -179,6 +179,8 @@ class SheetSettings:
         Which of the additional graphs there are.
     lettering : str, optional
         Type of the lettering: ``A``, ``A-upright``, ``B`` or ``B-upright``.
+    lang : str, optional
+        Language of the sheets: ``ru`` or ``en``.
     """
 
     paper: str | None = None
@@ -187,6 +189,7 @@ class SheetSettings:
     graphs_27_30: bool | None = None
     side_columns: bool | None = None
     lettering: str | None = None
+    lang: str | None = None
 
     def over(self, lower: SheetSettings) -> SheetSettings:
         """Return these settings, and those of ``lower`` where these say nothing."""

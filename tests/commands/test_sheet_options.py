@@ -62,6 +62,7 @@ def test_the_page_is_the_paper() -> None:
         ("--paper", "A4:landscape", "A4 cannot lie: by GOST 2.301 it stands"),
         ("--paper", "A3x2", "There is no paper format A3x2 in GOST 2.301"),
         ("--form", "3", "'3' is not one of 1, 1+2a, 2, 2a"),
+        ("--lang", "de", "'de' is not one of ru, en"),
         ("--stamp", "autor=x", "Unknown field 'autor' of the title block. Did you mean author?"),
         ("--config", "no.toml", "no.toml: 1 fault in the config file"),
     ],
@@ -116,6 +117,30 @@ def test_options_outrank_the_problem_and_the_problem_outranks_the_config() -> No
     assert "Задачин" not in with_options
     assert 'width="891mm"' in with_options
     assert "Инв. № подл." not in with_options
+
+
+def test_the_language_of_the_config_of_the_problem_and_of_the_option() -> None:
+    name, mine = config('[sheet]\nlang = "en"\n'), Path(EX1).read_text("utf-8")
+    assert "План скоростей" in drawn()
+    assert "Velocity plan" in drawn("--config", name)
+    assert "План скоростей" in drawn("--config", name, "--lang", "ru")
+    Path("ex1.toml").write_text(f'{mine}\n[sheet]\nlang = "ru"\n', "utf-8")
+    done = run("sheet", "ex1.toml", "--config", name, "--format", "svg")
+    assert done.exit_code == 0
+    assert "План скоростей" in Path("out/ex1.svg").read_text("utf-8")
+
+
+def test_texts_have_the_language_of_their_sheets() -> None:
+    name = config('[sheet]\nlang = "en"\n')
+    structure = run("structure", EX1, "--config", name)
+    assert "Kinematic pairs" in structure.output
+    assert "Structural formulas" in Path("out/ex1-structure.svg").read_text("utf-8")
+    assert "short segments" in run("lint", EX1, "--config", name, "--json").output
+    assert "замечан" in run("lint", EX1, "--structure", "--config", name, "--lang", "ru").output
+    for command in (("layouts",), ("layouts", "homework"), ("new", "--list")):
+        english = run(*command, "--lang", "en")
+        assert english.exit_code == 0
+        assert not re.search("[а-яё]", english.output, re.IGNORECASE)
 
 
 def test_the_config_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:

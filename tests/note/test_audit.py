@@ -20,7 +20,8 @@ from planmethod.note.audit.audit import (
     half_digit,
     source_scales,
 )
-from planmethod.note.audit.table import EN, RU, Document
+from planmethod.note.audit.table import Document
+from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
 from planmethod.problem.model import Problem, Published
 
@@ -113,7 +114,8 @@ def test_a_position_that_the_problem_does_not_have_is_said() -> None:
     late = replace(problem, published=(replace(problem.published[0], position=7),))
     (item,) = audit(late)
     assert item.why is Why.NO_POSITION
-    assert EN.whys[Why.NO_POSITION] in Document("en", 0.5).markdown([(late, [item])])
+    said = language("en").audit.whys[Why.NO_POSITION.value]
+    assert said in Document("en", 0.5).markdown([(late, [item])])
 
 
 def test_what_is_not_said_is_listed_with_its_note() -> None:
@@ -275,7 +277,8 @@ def test_the_counts_add_up() -> None:
 
 
 def test_every_row_has_every_cell() -> None:
-    for lang, says in (("en", EN), ("ru", RU)):
+    for lang in LANGUAGES:
+        says = language(lang).audit
         text = Document(lang, 0.5).markdown(audits())
         for block in text.split("\n\n"):
             rows = [line for line in block.splitlines() if line.startswith("| ")]
@@ -311,7 +314,7 @@ def test_the_command_prints_by_default_in_russian() -> None:
     path = next(path for path in PROBLEMS if path.stem == "ex1")
     result = CliRunner().invoke(cli, ["audit", str(path), "--ruler", "1"])
     assert result.exit_code == 0
-    assert result.stdout.startswith(f"# {RU.title}")
+    assert result.stdout.startswith(f"# {language('ru').audit.title}")
     assert "ценой деления 1 мм" in result.stdout
 
 

@@ -18,6 +18,7 @@ from planmethod.note.narrate.forces.lever_lines import lever_equation
 from planmethod.note.narrate.forces.moment_lines import moment_text
 from planmethod.note.plaintext import plain_text
 from planmethod.note.protocol import protocol
+from planmethod.note.wording import language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem import loads
 from planmethod.solved.forces.lever import LeverReading
@@ -260,7 +261,7 @@ def test_every_reaction_is_told_from_end_to_end() -> None:
         reading, text = ForceReading(solution, 0), forces_of(text_of(solution))
         for plan in reading.plans:
             for edge in plan.reactions:
-                symbol = re.escape(plain_text(edge.symbol))
+                symbol = re.escape(plain_text(language("ru").say.symbol(edge.symbol)))
                 assert re.search(rf"[ :]{symbol} (=|≈) [^;.]*[;.]", text), symbol
                 if not reading.is_none(edge):
                     said = rf"{symbol} (— (вектор )?от|=|замыкает)|реакция {symbol} = "
@@ -322,15 +323,16 @@ def test_the_force_of_a_guide_acts_where_it_is_told() -> None:
 @pytest.mark.parametrize("name", LOADED)
 def test_the_protocol_has_the_formulas_of_the_sheet(name: str) -> None:
     reading, text = ForceReading(worked(name), 0), told(name, "ru")
+    say = language("ru").say
     for plan in reading.plans:
         for edge in plan.reactions:
-            assert plain_text(closing_formula(reading, edge)) in text
+            assert plain_text(closing_formula(reading, edge, say)) in text
         for equation in plan.moments:
-            sheet = moment_text(reading, equation)
+            sheet = moment_text(reading, equation, say)
             if sheet is not None and sheet.result:
                 assert plain_text(sheet.result) in text
                 assert plain_text("; ".join(sheet.arms)) in text
-    assert plain_text(lever_equation(LeverReading(reading))) in text
+    assert plain_text(lever_equation(LeverReading(reading), say)) in text
 
 
 # Odd problems -------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from worked import problem_of as worked
 from planmethod.note.audit.asking import UnansweredError, Why
 from planmethod.note.audit.audit import Audited, Verdict, audit, source_force_scale
 from planmethod.note.audit.quantities import Quantities
-from planmethod.note.audit.table import EN, RU
+from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import FORCES, parse_selector
@@ -257,8 +257,7 @@ def test_what_the_forces_do_not_have(problem: Problem, what: str, why: Why) -> N
     with pytest.raises(UnansweredError) as caught:
         asked(problem, what)
     assert caught.value.why is why
-    assert EN.whys[why]
-    assert RU.whys[why]
+    assert all(language(lang).audit.whys[why.value] for lang in LANGUAGES)
 
 
 def test_a_force_that_is_nothing_has_no_direction() -> None:

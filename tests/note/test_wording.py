@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+import ast
 import re
-from dataclasses import fields
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from string import Formatter
 
@@ -9,55 +11,129 @@ import pytest
 
 import planmethod
 from planmethod.errors import ExitCode
-from planmethod.note.wording import (
-    CATALOGUES,
-    FORCE_CATALOGUES,
-    ForceWording,
-    UnknownLanguageError,
-    Wording,
-    force_wording,
-    wording,
-)
+from planmethod.note.audit.asking import Why
+from planmethod.note.audit.audit import Verdict
+from planmethod.note.numbers import Notation
+from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
+from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT
+from planmethod.problem import FAMILIES
 
-TEMPLATES: list[tuple[tuple[object, ...], str]] = []
-TEMPLATES += [(CATALOGUES, field.name) for field in fields(Wording)]
-TEMPLATES += [(FORCE_CATALOGUES, field.name) for field in fields(ForceWording)]
+HOME = Path(planmethod.__file__).parent
+CYRILLIC = re.compile("[\u0400-\u04ff]")
+
+NO_WORDS = {
+    "problem/names.py": "Cyrillic letters that look like Latin ones, in names of problem files",
+    "problem/sheet.py": "type \u0411 of the lettering in a problem file, an example of a surname",
+    "paper.py": "names of formats that files and options may write in Cyrillic letters",
+    "render/ink/lettering/shapes.py": "the letters themselves",
+    "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
+    "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
+    "render/frame/titleblock.py": "field terms of GOST 2.104 in the table of the keys",
+}
+"""Where Cyrillic letters stand that no language says to a reader, and why."""
+
+TERMS = {
+    "commands/asked.py",
+    "commands/solve.py",
+    "problem/extras.py",
+    "problem/forces.py",
+    "problem/links.py",
+    "render/sheets/composition/reader.py",
+}
+"""Where English help and messages quote what a file may say, or a field term in brackets."""
+
+
+def said(words: object, path: str = "") -> Iterator[tuple[str, object]]:
+    """Yield all that a language says, by its place."""
+    if is_dataclass(words):
+        for field in fields(words):
+            yield from said(getattr(words, field.name), f"{path}.{field.name}")
+    elif isinstance(words, Mapping):
+        for key, value in words.items():
+            yield from said(value, f"{path}[{key}]")
+    elif isinstance(words, tuple) and not path.endswith(".intro"):
+        for key, value in enumerate(words):
+            yield from said(value, f"{path}[{key}]")
+    else:
+        yield path, words
 
 
 def places(text: str) -> set[str]:
-    return {name for _, name, _, _ in Formatter().parse(text) if name}
+    return {name for _, name, _, _ in Formatter().parse(text) if name is not None}
 
 
-@pytest.mark.parametrize(("catalogues", "name"), TEMPLATES, ids=[name for _, name in TEMPLATES])
-def test_catalogues_fill_the_same_places(catalogues: tuple[object, ...], name: str) -> None:
-    one, *others = (getattr(catalogue, name) for catalogue in catalogues)
-    for other in others:
-        assert type(other) is type(one)
-        if isinstance(one, str):
-            assert places(other) == places(one)
-        elif isinstance(one, tuple):
-            assert [places(text) for text in other] == [places(text) for text in one]
-        else:
-            assert set(other) == set(one)
+@pytest.mark.parametrize("lang", LANGUAGES[1:])
+def test_a_language_says_all_that_russian_says_with_the_same_places(lang: str) -> None:
+    russian, other = (dict(said(language(name))) for name in (LANGUAGES[0], lang))
+    assert set(russian) == set(other)
+    for path, text in russian.items():
+        assert type(text) is type(other[path])
+        # Rich text without places has braces of its own.
+        if isinstance(text, str) and not path.startswith(
+            (".say", ".layouts", ".specimens.samples")
+        ):
+            assert places(text) == places(str(other[path])), path
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
+    words = language(lang)
+    assert set(words.say.symbols) == {BALANCING_MOMENT, BALANCING_FORCE}
+    assert list(words.families) == list(FAMILIES)
+    assert set(words.audit.whys) == {why.value for why in Why}
+    assert list(words.audit.verdicts) == list(words.audit.counted) == [v.value for v in Verdict]
 
 
 def test_russian_is_russian_and_english_is_english() -> None:
-    for catalogue in (wording("en"), force_wording(wording("en"))):
-        for field in fields(catalogue):
-            text = getattr(catalogue, field.name)
-            assert not re.search("[а-яё]", str(text), re.IGNORECASE), field.name
+    for path, text in said(language("en")):
+        assert not CYRILLIC.search(str(text)), path
+    names = re.compile(r"\{\w*\}|planmethod|toml|ГОСТ|PROBLEM|\[\w+\]|--\w+|`[^`]*`|\$\w+")
+    for path, text in said(language("ru")):
+        if path.startswith((".say", ".lang", ".layouts", ".note.lang", ".forces.lang")):
+            continue
+        words = re.findall("[A-Za-z]{4,}", names.sub(" ", str(text)))
+        assert set(words) <= {"float", "board", "grow", "true"}, (path, words)
+
+
+def test_no_word_stands_outside_the_folders_of_the_languages() -> None:
+    found = set()
+    for path in sorted(HOME.rglob("*.py")):
+        name = path.relative_to(HOME).as_posix()
+        if not name.startswith("note/wording/") and any(map(CYRILLIC.search, literals(path))):
+            found.add(name)
+    assert found == {*NO_WORDS, *TERMS}
+    for path in (HOME / "render").rglob("*.toml"):
+        assert not CYRILLIC.search(path.read_text(encoding="utf-8")), path
+
+
+def literals(path: Path) -> Iterator[str]:
+    """Yield the texts of a module that are no docstrings."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    alone = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in alone:
+            yield node.value
 
 
 def test_every_sentence_of_the_forces_is_said() -> None:
-    folder = Path(planmethod.__file__).parent / "note"
-    source = "".join(path.read_text(encoding="utf-8") for path in folder.rglob("*.py"))
+    source = "".join(path.read_text("utf-8") for path in (HOME / "note").rglob("*.py"))
     for field in fields(ForceWording):
         name = field.name
         other = name == "lang" or name.startswith("side_")  # these are put together
         assert other or re.search(rf"(said\.|\"){name}\b", source), name
 
 
+def test_a_notation_writes_numbers_and_names_what_has_a_role() -> None:
+    russian, english = (language(lang).say for lang in ("ru", "en"))
+    for say, text in ((russian, "−1,5·10^{−7}"), (english, "−1.5·10^{−7}")):
+        assert isinstance(say, Notation)
+        assert say.number("-1.5e-07") == text
+        assert say.symbol("G_{2}") == "G_{2}"
+    assert russian.symbol(BALANCING_MOMENT) == "M_{ур}"
+    assert english.symbol(BALANCING_MOMENT) == "M_{b}"
+
+
 def test_an_unknown_language_is_an_error_of_usage() -> None:
     with pytest.raises(UnknownLanguageError, match=r"'de'.*Choose one of: ru, en") as error:
-        wording("de")
+        language("de")
     assert error.value.exit_code is ExitCode.USAGE

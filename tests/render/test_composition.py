@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from worked import ROOT, SIX, path_of, problem_of
 
 from planmethod.errors import CompositionError, ExitCode, LayoutError
+from planmethod.note.wording import LANGUAGES, language
 from planmethod.plans.model import MOTION
 from planmethod.problem import loads
 from planmethod.render.control.texts import lint
@@ -74,8 +75,10 @@ def test_the_shipped_are_the_files_that_lie_there() -> None:
     files = {path.stem for path in (SHEETS / "compositions").glob("*.toml")}
     assert files == set(SHIPPED)
     for name in SHIPPED:
-        assert shipped(name).about == about(name) != ""
-        assert re.search("[а-я]", shipped_text(name).splitlines()[0])  # a comment, in Russian
+        for lang in LANGUAGES:
+            assert shipped(name, lang).about == about(name, lang) != ""
+            russian = re.search("[а-я]", shipped_text(name, lang))
+            assert (russian is not None) is (lang == "ru")
 
 
 KINEMATIC = tuple(name for name in SHIPPED if not name.startswith("forces"))
@@ -189,7 +192,9 @@ def test_sheets_keep_clear_of_graph_26(name: str, corner: str) -> None:
     if corner == "right":
         cell = (right - 14.0, top - 70.0, right, top)
     room = Room(fmt.inner, fmt.stamp, (cell,))
-    found = pages_of(shipped("one-position"), solution, (0,), Paper("A1", lambda _: room), Extras())
+    found = pages_of(
+        shipped("one-position"), solution, (0,), Paper("A1", lambda _: room), Extras(language("ru"))
+    )
     assert found is not None
     (page,) = found
     for item in page.items:

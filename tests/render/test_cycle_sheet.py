@@ -14,18 +14,20 @@ from worked import path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.errors import LayoutError, PlanMethodError, ProblemError
+from planmethod.note.wording import language
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.hodograph import HODOGRAPH, POLE, polar_groups
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text, View
 from planmethod.render.pictures.diagram import AXIS, CURVE
-from planmethod.render.sheets.cycle import CHORDS
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
+
+RU = language("ru")
 
 TURN = tuple(30.0 * k for k in range(12))
 PRESS = tuple(98.918918918919 + phi for phi in TURN)
@@ -224,7 +226,7 @@ def test_chords_are_told() -> None:
     )
     sheet = draw(loads(text, name="press"), PRESS)
     texts = " ".join(i.text for i in sheet.items if isinstance(i, Text)).replace("\u00a0", " ")
-    assert CHORDS in texts and errors(sheet) == []
+    assert RU.sheets.chords in texts and errors(sheet) == []
 
 
 @pytest.mark.parametrize("seed", range(8))

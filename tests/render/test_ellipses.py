@@ -14,6 +14,7 @@ from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
+from planmethod.note.wording import language
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.render.ink.drawing import Pen, Stroke, Text
 from planmethod.render.ink.typeset import text_corners
@@ -29,6 +30,8 @@ from planmethod.render.pictures.planview import plan_picture
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
+
+RU = language("ru")
 
 FINITE = st.floats(-20.0, 20.0, allow_nan=False)
 
@@ -163,7 +166,7 @@ def test_what_is_thinner_than_the_pen_is_not_drawn() -> None:
     solution = solved("linkages/ex1", "cad")
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
         assert error_ellipses(solution, kind, 0).strokes == ()
-        (line,) = ellipse_inscription(solution, kind, [0])
+        (line,) = ellipse_inscription(solution, kind, [0], RU)
         assert "тоньше линий" in line
         assert "САПР" in line
 
@@ -173,7 +176,7 @@ def test_what_is_larger_than_half_the_plan_is_not_drawn_but_told() -> None:
     for index in range(12):
         view = error_ellipses(solution, kind, index)
         told = "эллипсы больше половины плана не показаны"
-        assert (told in ellipse_inscription(solution, kind, [index])) == view.too_large
+        assert (told in ellipse_inscription(solution, kind, [index], RU)) == view.too_large
     assert any(error_ellipses(solution, kind, index).too_large for index in range(12))
 
 
@@ -187,7 +190,7 @@ def test_dashed_are_the_points_where_first_order_does_not_hold() -> None:
         drawn = any(drafting_of(solution).spreads[f"{axis}_H"].drawn[index] for axis in "xy")
         assert pens == {Pen.HIDDEN if drawn else Pen.THIN}
         told = "штриховые: первый порядок неверен"
-        assert (told in ellipse_inscription(solution, PlanKind.POSITION, [index])) == drawn
+        assert (told in ellipse_inscription(solution, PlanKind.POSITION, [index], RU)) == drawn
 
 
 def test_a_short_segment_alone_does_not_make_its_end_dashed() -> None:
@@ -198,13 +201,13 @@ def test_a_short_segment_alone_does_not_make_its_end_dashed() -> None:
 
 
 def test_the_inscription_names_factor_and_profile() -> None:
-    assert ellipse_inscription(solved("linkages/ex3"), PlanKind.VELOCITY, [0]) == [
+    assert ellipse_inscription(solved("linkages/ex3"), PlanKind.VELOCITY, [0], RU) == [
         "эллипсы погрешности: 2σ, чертёжная доска"
     ]
-    assert ellipse_inscription(solved("linkages/ex3", "coarse"), PlanKind.VELOCITY, [0]) == [
+    assert ellipse_inscription(solved("linkages/ex3", "coarse"), PlanKind.VELOCITY, [0], RU) == [
         "эллипсы погрешности: 2σ, грубо"
     ]
-    assert ellipse_inscription(solved("linkages/ex3"), PlanKind.POSITION, [0]) == [
+    assert ellipse_inscription(solved("linkages/ex3"), PlanKind.POSITION, [0], RU) == [
         "эллипсы погрешности: 2σ, увеличены 5:1, чертёжная доска"
     ]
 

@@ -13,6 +13,7 @@ from worked import SIX, problem_of
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import LayoutError
 from planmethod.note.narrate.given import asked_links, asked_points
+from planmethod.note.wording import language
 from planmethod.render.frame.frame import FORMATS
 from planmethod.render.ink.drawing import Drawing, Stroke
 from planmethod.render.pictures.ellipses import TAG
@@ -21,6 +22,8 @@ from planmethod.render.sheets.results import result_columns
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
+
+RU = language("ru")
 
 
 def count_ellipses(sheet: Drawing) -> int:
@@ -118,8 +121,10 @@ def number(text: str) -> Decimal:
 @pytest.mark.parametrize("name", SIX)
 def test_rows_of_a_single_position(name: str) -> None:
     solution = Solution(problem_of(name), views=Views.for_paper("A2", 1))
-    columns = {column.head: column.cells for column in result_columns(solution, [0], sigma=True)}
-    plain = {column.head: column.cells for column in result_columns(solution, [0])}
+    columns = {
+        column.head: column.cells for column in result_columns(solution, [0], RU, sigma=True)
+    }
+    plain = {column.head: column.cells for column in result_columns(solution, [0], RU)}
     assert [cell.text for cell in columns.pop("")] == ["точно", "снято", "±σ"]
     assert list(columns) == list(plain)
     labels = [("v", "v", p) for p in asked_points(solution)]
@@ -147,8 +152,8 @@ def test_values_of_many_positions_have_their_errors_beside_them() -> None:
     name = "linkages/ex3"
     solution = Solution(problem_of(name), positions=MANY[name], views=Views.for_paper("A1", 12))
     indices = range(12)
-    columns = {c.head: c.cells for c in result_columns(solution, indices, sigma=True)}
-    plain = {c.head: c.cells for c in result_columns(solution, indices)}
+    columns = {c.head: c.cells for c in result_columns(solution, indices, RU, sigma=True)}
+    plain = {c.head: c.cells for c in result_columns(solution, indices, RU)}
     assert list(columns) == list(plain)
     drafting = drafting_of(solution)
     for i in indices:
@@ -167,7 +172,7 @@ def test_values_of_many_positions_have_their_errors_beside_them() -> None:
 
 def test_an_exact_value_has_no_fewer_digits_than_its_error() -> None:
     solution = Solution(problem_of("linkages/ex3"), profile=PROFILES["cad"])
-    for column in result_columns(solution, [0], sigma=True)[1:]:
+    for column in result_columns(solution, [0], RU, sigma=True)[1:]:
         exact, _, error = column.cells
         assert len(exact.text.partition(",")[2]) >= len(error.text.partition(",")[2])
 

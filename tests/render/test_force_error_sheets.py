@@ -18,7 +18,7 @@ from planmethod import loads
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.records.solution import record
 from planmethod.note.tables.results import result_tables
-from planmethod.note.wording import wording
+from planmethod.note.wording import language, wording
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.ellipses import vertex_ellipses
@@ -49,6 +49,8 @@ from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
+
+RU = language("ru")
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
 NEAR_DEAD = (230.0, 240.0, 250.0)
@@ -113,7 +115,7 @@ def test_a_driver_that_stands_has_a_dash_for_the_lever() -> None:
     sheets = kinematics_sheets(problem, layout="forces", errors=True, sigma=True)
     assert errors_in(sheets) == []
     reading = ForceReading(Solution(problem), 0)
-    columns = balance_columns(reading, _balances(reading))
+    columns = balance_columns(reading, _balances(reading, RU), RU)
     assert [cell.text for cell in columns[3].cells] == ["—", "—"]
     assert [cell.text for cell in columns[4].cells] == ["—", "—"]
     assert columns[2].cells[1].text != "—"
@@ -238,9 +240,9 @@ def test_what_is_larger_than_half_the_plan_is_told() -> None:
 def test_columns_of_the_reactions(name: str) -> None:
     reading = reading_of(name)
     drawn, found = drawn_forces(reading.statics), reading.statics.reactions
-    read, error = size_columns(reading)
-    turn = angle_column(reading, [False] * len(found))
-    moment = moment_column(reading)
+    read, error = size_columns(reading, RU)
+    turn = angle_column(reading, [False] * len(found), RU.say)
+    moment = moment_column(reading, RU.say)
     for k, joint in enumerate(found):
         for column, label in (
             (error, size_label(joint)),
@@ -266,7 +268,7 @@ def test_columns_of_the_reactions(name: str) -> None:
 
 def test_the_discrepancy_and_its_error_are_of_one_unit() -> None:
     reading = reading_of("levers/task12")
-    _, exact, plans, lever, share = balance_columns(reading, _balances(reading))
+    _, exact, plans, lever, share = balance_columns(reading, _balances(reading, RU), RU)
     drawn = drawn_forces(reading.statics)
     assert exact.cells[1].text == "—"
     for column, label in ((plans, "balance"), (lever, "lever")):
@@ -286,7 +288,7 @@ def test_the_table_is_no_wider_than_it_may_be(seed: int, height: float) -> None:
     solution = Solution(problem, positions=problem.drive.positions[:1])
     sizes = composition("forces").sizes_for("A1")
     entry = Entry("reactions", heights=(height,))
-    block = reactions_block(solution, [0], Manner(entry, sizes, 811.0, Extras(sigma=True)))
+    block = reactions_block(solution, [0], Manner(entry, sizes, 811.0, Extras(RU, sigma=True)))
     assert block.width == pytest.approx(185.0)
 
 

@@ -20,14 +20,18 @@ from planmethod.cli import cli
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.note.narrate.forces.formulas import load_lines, statement, wanted
 from planmethod.note.narrate.forces.lever_lines import (
-    STANDS,
     both_balances,
     difference,
     lever_lines,
 )
 from planmethod.note.narrate.forces.moment_lines import plan_moments
-from planmethod.note.numbers import alike, russian, significant
-from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.note.numbers import alike, significant
+from planmethod.note.wording import language
+from planmethod.plans.forces.polygons import (
+    BALANCING_FORCE,
+    BALANCING_MOMENT,
+    reaction_symbol,
+)
 from planmethod.plans.model import Known
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import Severity
@@ -37,11 +41,12 @@ from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
 from planmethod.render.layout.equations import balance_block
 from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.forces import APART
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
+
+RU = language("ru")
 
 LOADED = ("levers/six-link", "levers/task12", "press/press")
 
@@ -214,7 +219,8 @@ def test_cut_links_have_loads_and_reactions_in_their_directions(name: str) -> No
         drawn = dict(arrows(sheet, view))
         assert set(drawn) == set(expected)
         assert all(turned(vector, expected[letter]) < 0.01 for letter, vector in drawn.items())
-        assert sorted(couples(sheet, view)) == sorted(c.symbol for c in reading.couples(plan))
+        symbols = [RU.say.symbol(couple.symbol) for couple in reading.couples(plan)]
+        assert sorted(couples(sheet, view)) == sorted(symbols)
 
 
 @pytest.mark.parametrize("name", LOADED)
@@ -251,7 +257,7 @@ def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
 
 def test_vectors_on_one_line_are_drawn_apart_and_it_is_said() -> None:
     sheet = sheet_of("levers/task12")
-    assert APART in shown(sheet)
+    assert RU.sheets.apart in shown(sheet)
     view = views(sheet, "forces")[0]  # all of its forces are vertical
     shafts = [item for item in within(sheet.items, view.box) if item.tag.startswith("plan-force ")]
     lines = sorted({round(s.points[0].real, 2) for s in shafts if isinstance(s, Stroke)})
@@ -307,7 +313,7 @@ def test_formulas_of_moments_compute_to_what_they_say(name: str) -> None:
     reading = reading_of(name)
     count = 0
     for plan in reading.plans:
-        for line in plan_moments(reading, plan):
+        for line in plan_moments(reading, plan, RU.say):
             match = FORMULA.match(line)
             if match:
                 count += 1
@@ -318,25 +324,25 @@ def test_formulas_of_moments_compute_to_what_they_say(name: str) -> None:
 
 def test_the_moments_of_the_textbook() -> None:
     reading = reading_of("levers/six-link")
-    lines = plan_moments(reading, reading.plans[1])
+    lines = plan_moments(reading, reading.plans[1], RU.say)
     assert lines[0] == (
         "Σ_{2}M_{C} = Φ_{2}·h_{Φ2} + F_{24}·h_{F24} − G_{2}·h_{G2} − M_{Φ2} − F^{τ}_{21}·l_{BC} = 0"
     )
     assert lines[2].endswith("/0,3 = 3470 Н")
     assert (
-        plan_moments(reading, reading.plans[2])[0]
+        plan_moments(reading, reading.plans[2], RU.say)[0]
         == "Σ_{1}M_{A} = F_{12}·h_{F12} − M_{Φ1} − M_{ур} = 0"
     )
 
 
 def test_what_is_given_and_the_computed_loads() -> None:
     reading = reading_of("levers/six-link")
-    facts = statement(reading)
+    facts = statement(reading, RU)
     for fact in ("m_{2} = 40 кг", "J_{S1} = 5 кг·м^{2}", "g = 9,81 м/с^{2}", "F_{5C} = 6000 Н"):
         assert fact in facts
-    assert "G_{2} = m_{2}·g = 40·9,81 = 392,4 Н" in load_lines(reading)
-    assert "M_{Φ1} = J_{S1}·ε_{1} = 5·80 = 400,0 Н·м" in load_lines(reading)
-    assert wanted(reading) == (
+    assert "G_{2} = m_{2}·g = 40·9,81 = 392,4 Н" in load_lines(reading, RU.say)
+    assert "M_{Φ1} = J_{S1}·ε_{1} = 5·80 = 400,0 Н·м" in load_lines(reading, RU.say)
+    assert wanted(reading, RU.say) == (
         "F_{42}, F_{50}, F_{45}, F_{21}, F_{30}, F_{23}, F_{10}, l_{42}, l_{50}, M_{ур}"
     )
 
@@ -354,11 +360,11 @@ def test_the_table_has_every_reaction(name: str) -> None:
         force = complex(one.force[0])
         assert f"({one.on}–{one.by})" in written
         if abs(force) > 1.0:
-            assert russian(size) in written
-            assert russian(f"{degrees(phase(force)) % 360.0:.1f}") in written
-    assert russian(significant(abs(float(reading.statics.balance[0])))) in written
+            assert RU.say.number(size) in written
+            assert RU.say.number(f"{degrees(phase(force)) % 360.0:.1f}") in written
+    assert RU.say.number(significant(abs(float(reading.statics.balance[0])))) in written
     for value in both_balances(reading):
-        assert value is not None and russian(significant(abs(value))) in written
+        assert value is not None and RU.say.number(significant(abs(value))) in written
 
 
 # Lever --------------------------------------------------------------------------------------------
@@ -389,18 +395,19 @@ def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
     assert sorted(letter for letter, _ in arrows(sheet, view)) == sorted(
         one.symbol for one in lever.forces
     )
-    assert sorted(couples(sheet, view)) == sorted(one.symbol for one in lever.couples)
-    assert lever.couples[-1].symbol == "M_{ур}"
+    symbols = [RU.say.symbol(one.symbol) for one in lever.couples]
+    assert sorted(couples(sheet, view)) == sorted(symbols)
+    assert lever.couples[-1].symbol == BALANCING_MOMENT
     assert 0.0 < (difference(reading) or 0.0) < 5.0
 
 
 def test_a_driving_slider_is_balanced_by_a_force() -> None:
     problem = loaded_template("driving-slider", "B", "3", "O")
     reading = ForceReading(Solution(problem), 0)
-    assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == ["F_{ур}", "F_{10}"]
+    assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == [BALANCING_FORCE, "F_{10}"]
     plans, lever = both_balances(reading)
     assert lever is not None and plans * lever > 0
-    apart, expected = lever_lines(reading)[-2:]
+    apart, expected = lever_lines(reading, RU)[-2:]
     assert apart.startswith("Расхождение")
     assert expected.startswith("Ожидаемое СКО расхождения σ = ")
     assert expected.endswith(" Н")
@@ -408,13 +415,14 @@ def test_a_driving_slider_is_balanced_by_a_force() -> None:
     assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
     (view,) = views(sheet, "velocity")
     assert "F_{ур}" in [letter for letter, _ in arrows(sheet, view)]
+    assert "F_ур" in [span.name for plan in views(sheet, "forces") for span in plan.spans]
 
 
 def test_a_driver_that_stands_has_no_lever() -> None:
     problem = loaded_template("four-bar", "B", "3", "C", omega="0")
     (sheet,) = kinematics_sheets(problem, layout="forces")
     assert views(sheet, "velocity") == []
-    assert STANDS.split(":")[0] in shown(sheet)
+    assert RU.sheets.lever_stands.split(":")[0] in shown(sheet)
 
 
 @pytest.mark.parametrize(

@@ -210,13 +210,13 @@ def test_frame_is_20_mm_from_the_left_and_5_from_the_other_edges(name: str, form
 def test_notes_under_the_frame(name: str) -> None:
     fmt = FORMATS[name]
     below = [run for run in texts(sheet_frame(name).items) if run.tag == MARGIN_NOTE]
-    assert [run.text for run in below] == ["Копировал", f"Формат {fmt.cyrillic}"]
+    assert [run.text for run in below] == ["Копировал", "Формат " + fmt.written("\u0410")]
     assert all(0 < run.at.imag < run.at.imag + run.height < 5 for run in below)
     assert all(fmt.width - 190 < run.at.real < fmt.width - 5 for run in below)
 
 
-def test_the_name_of_an_elongated_format_is_cyrillic() -> None:
-    assert FORMATS["A4x3:portrait"].cyrillic == "\u04104\u00d73"
+def test_the_name_of_an_elongated_format_has_a_sign_of_times() -> None:
+    assert FORMATS["A4x3:portrait"].written("\u0410") == "\u04104\u00d73"
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from worked import path_of
 from planmethod import loads
 from planmethod.note.narrate.forces.formulas import statement, wanted
 from planmethod.note.narrate.forces.guides import place_lines
+from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import Severity
@@ -24,6 +25,8 @@ from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
+
+RU = language("ru")
 
 LOADS = """
 [dynamics]
@@ -181,7 +184,7 @@ def test_sliders_are_to_scale_where_they_look_like_one() -> None:
     ],
 )
 def test_an_inner_guide_has_a_picture_of_one_link(problem: Problem, link: str) -> None:
-    found = inner_picture(reading(problem), 0, 5.0)
+    found = inner_picture(reading(problem), 0, 5.0, RU.say)
     assert found is not None
     name, picture = found
     assert name == link
@@ -197,7 +200,7 @@ def test_an_inner_guide_has_a_picture_of_one_link(problem: Problem, link: str) -
 
 
 def test_a_stone_without_a_moment_needs_no_picture() -> None:
-    assert inner_picture(reading(task12("")), 1, 5.0) is None
+    assert inner_picture(reading(task12("")), 1, 5.0, RU.say) is None
 
 
 # Formulas and table -------------------------------------------------------------------------------
@@ -219,7 +222,7 @@ def test_formulas_of_places_compute_to_what_they_say(
     problem: Problem, index: int, count: int
 ) -> None:
     at = reading(problem, index)
-    lines = [line for plan in at.plans for line in place_lines(at, plan)]
+    lines = [line for plan in at.plans for line in place_lines(at, plan, RU.say)]
     matches = [match for line in lines if (match := PLACE.match(line))]
     assert len(matches) == count
     for match in matches:
@@ -229,7 +232,7 @@ def test_formulas_of_places_compute_to_what_they_say(
 
 def test_formulas_of_the_crosshead() -> None:
     at = reading(crosshead(), 1)
-    lines = place_lines(at, at.plans[0])
+    lines = place_lines(at, at.plans[0], RU.say)
     assert lines[0].startswith("l_{30} = M_{30}/F_{30} = 12,00/")
     assert lines[1] == "l_{30} > a_{30}/2 = 0,04 м"
     assert lines[2].startswith("F^{'}_{30} = F_{30}·(l_{30} − a_{30}/2)/a_{30} = ")
@@ -238,13 +241,13 @@ def test_formulas_of_the_crosshead() -> None:
     for line, size in zip(lines[2:], sizes, strict=True):
         read = float(line.rpartition(" = ")[2].removesuffix(" Н").replace(",", "."))
         assert read == pytest.approx(size, rel=0.05)
-    assert "a_{30} = 0,08 м" in statement(at)
-    assert wanted(at) == "F_{21}, F_{30}, F_{23}, F_{10}, l_{30}, M_{ур}"
+    assert "a_{30} = 0,08 м" in statement(at, RU)
+    assert wanted(at, RU.say) == "F_{21}, F_{30}, F_{23}, F_{10}, l_{30}, M_{ур}"
 
 
 def test_a_force_through_the_joint_has_no_distance() -> None:
     at = reading(loads(path_of("levers/six-link").read_text("utf-8"), name="six-link"))
-    assert place_lines(at, at.plans[0]) == ["l_{42} = l_{50} = 0"]
+    assert place_lines(at, at.plans[0], RU.say) == ["l_{42} = l_{50} = 0"]
 
 
 def test_the_table_tells_distances_and_edges() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from planmethod.note.wording import language
 from planmethod.render.control.texts import GRID, lint
 from planmethod.render.ink.drawing import Stroke, Text
 from planmethod.render.ink.lettering import STYLES, in_use, lettering, using
@@ -17,11 +18,13 @@ from planmethod.render.sheets.specimen.lettering import (
     measured,
 )
 
+RU = language("ru")
+
 
 @pytest.mark.parametrize("style", STYLES)
 def test_specimen_shows_every_letter_and_is_clean(style: str) -> None:
     with using(lettering(style)) as used:
-        drawing = lettering_sheet()
+        drawing = lettering_sheet({}, RU)
         assert drawing.lettering is used
         assert used.missing("".join(ALPHABETS)) == set()
         shown = [i for i in drawing.items if isinstance(i, Text) and i.height == HEIGHT]
@@ -31,7 +34,7 @@ def test_specimen_shows_every_letter_and_is_clean(style: str) -> None:
 
 
 def test_letters_stand_on_their_grid() -> None:
-    drawing = lettering_sheet()
+    drawing = lettering_sheet({}, RU)
     first = next(i for i in drawing.items if isinstance(i, Text) and i.height == HEIGHT)
     lines = [i for i in drawing.items if isinstance(i, Stroke) and i.tag == GRID]
     level = [line for line in lines if line.points[0].imag == line.points[1].imag]

@@ -2,7 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from planmethod.render.control.texts import CODES, lint
+from planmethod.render.control.remarks import REMARKS
+from planmethod.render.control.texts import lint
 from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import typeset
@@ -130,4 +131,4 @@ def test_blank_text_has_no_ink() -> None:
 def test_codes_are_sorted_and_known() -> None:
     told = codes(Text(15 + 50j, "сло…", 1.8, tag=CUT), WORD, Stroke((45 + 52j, 90 + 52j)))
     assert told == sorted(told)
-    assert set(told) <= set(CODES)
+    assert set(told) <= set(REMARKS)

@@ -8,6 +8,7 @@ from itertools import pairwise
 import pytest
 
 from planmethod.errors import LayoutError
+from planmethod.note.wording import LANGUAGES, language
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Stroke, Text
 from planmethod.render.ink.extent import ink_bounds
@@ -23,13 +24,16 @@ from planmethod.render.sheets.specimen.lines import (
     rule_cells,
     sample,
 )
-from planmethod.render.sheets.specimen.symbols import COURSE, HEIGHT, WIDTH, symbol_cells
+from planmethod.render.sheets.specimen.symbols import HEIGHT, WIDTH, symbol_cells
 from planmethod.render.symbols import GROUND, SIZES
 
+RU = language("ru")
 
+
+@pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", SPECIMENS)
-def test_the_norm_control_has_nothing_to_say(name: str) -> None:
-    assert inspect(SPECIMENS[name]({})) == []
+def test_the_norm_control_has_nothing_to_say(name: str, lang: str) -> None:
+    assert inspect(SPECIMENS[name]({}, language(lang))) == []
 
 
 def letters(drawing: Drawing) -> str:
@@ -38,11 +42,11 @@ def letters(drawing: Drawing) -> str:
 
 @pytest.mark.parametrize("name", SPECIMENS)
 def test_fields_of_the_title_block(name: str) -> None:
-    told = letters(SPECIMENS[name]({"author": "Иванов", "title": "Образцы"}))
+    told = letters(SPECIMENS[name]({"author": "Иванов", "title": "Образцы"}, RU))
     assert "Иванов" in told
     assert "Образцы" in told
     with pytest.raises(LayoutError):
-        SPECIMENS[name]({"autor": "Иванов"})
+        SPECIMENS[name]({"autor": "Иванов"}, RU)
 
 
 # Symbols -----------------------------------------------------------------------------------------
@@ -53,13 +57,13 @@ def test_every_symbol_has_a_name_and_a_clause_of_its_own() -> None:
     names = [cell.name for cell in cells]
     assert len(set(names)) == len(names) >= 28
     for cell in cells:
-        assert cell.clause == COURSE or re.fullmatch(
-            r"ГОСТ 2\.770(, п\. (1|2|5, а|6, [абв]|7, а|38))?", cell.clause
+        assert cell.clause is None or re.fullmatch(
+            r"ГОСТ 2\.770(, п\. (1|2|5, а|6, [абв]|7, а|38))?", cell.clause.told(RU.specimens)
         )
 
 
 def test_the_symbols_asked_for_are_there() -> None:
-    told = " ".join(cell.name.lower() for cell in symbol_cells())
+    told = " ".join(RU.specimens.cells[cell.name].lower() for cell in symbol_cells())
     for name in (
         "неподвижная опора",
         "двусторонней",
@@ -83,10 +87,11 @@ def test_the_symbols_asked_for_are_there() -> None:
         assert name in told
 
 
+@pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("cell", symbol_cells(), ids=lambda cell: cell.name)
-def test_a_symbol_stays_in_its_cell(cell: Cell) -> None:
-    box = (0.0, 0.0, WIDTH, HEIGHT)
-    left, low, right, high = ink_bounds(drawn_cell(cell, 1, box))
+def test_a_symbol_stays_in_its_cell(cell: Cell, lang: str) -> None:
+    box, words = (0.0, 0.0, WIDTH, HEIGHT), language(lang).specimens
+    left, low, right, high = ink_bounds(drawn_cell(cell, 1, box, words))
     assert left > 1
     assert low > 1
     assert right < WIDTH - 1
@@ -98,7 +103,7 @@ def test_the_symbols_are_at_working_size() -> None:
     joints = [i for i in items if isinstance(i, Arc) and i.pen is Pen.MAIN]
     assert sum(abs(i.radius - SIZES.joint / 2) < 1e-9 for i in joints) > 20
     assert any(isinstance(i, Stroke) and i.tag == GROUND for i in items)
-    told = letters(SPECIMENS["symbols"]({}))
+    told = letters(SPECIMENS["symbols"]({}, RU))
     for size in (SIZES.joint, SIZES.support_height, SIZES.base, SIZES.hatch_step, ARROW.width):
         assert f"{size:g}".replace(".", ",") in told
 
@@ -119,9 +124,9 @@ def test_what_is_said_of_strokes_is_what_is_drawn(kind: LineType) -> None:
     assert abs(line.points[-1] - line.points[0]) == pytest.approx(SAMPLE)
     pieces = stroke_lines(line)
     if PENS[kind.pen].dashes is None:
-        assert measured([line]) == "–"
+        assert measured([line], RU.say) == "–"
         return
-    stroke, gap = (float(part.replace(",", ".")) for part in measured([line]).split("; "))
+    stroke, gap = (float(part.replace(",", ".")) for part in measured([line], RU.say).split("; "))
     lengths = [abs(piece[-1] - piece[0]) for piece in pieces]
     assert stroke == pytest.approx(max(lengths), abs=0.051)
     long = [piece for piece in pieces if abs(piece[-1] - piece[0]) > 2]
@@ -129,17 +134,18 @@ def test_what_is_said_of_strokes_is_what_is_drawn(kind: LineType) -> None:
 
 
 def test_the_table_has_the_widths_of_the_pens() -> None:
-    told = letters(lines_sheet({}))
+    told = letters(lines_sheet({}, RU))
     for kind in TYPES:
         assert f"{PENS[kind.pen].width:g}".replace(".", ",") in told
-        assert kind.name.split("\n")[0] in told
+        assert RU.specimens.line_names[kind.name].split("\n")[0] in told
 
 
 def test_the_rules_are_kept_in_their_own_pictures() -> None:
-    drawn = {cell.name.replace("\n", " "): cell.items for cell in rule_cells()}
-    (small,) = (items for name, items in drawn.items() if "Диаметр менее 12" in name)
+    drawn = {cell.name: cell for cell in rule_cells(RU.say)}
+    small = drawn["small_circle"].items
+    assert drawn["small_circle"].size == "12"
     (circle,) = (i for i in small if isinstance(i, Arc))
     assert 2 * circle.radius < 12
     assert {i.pen for i in small if isinstance(i, Stroke)} == {Pen.THIN}
-    (heads,) = (items for name, items in drawn.items() if name.startswith("Стрелка"))
+    heads = drawn["arrow"].items
     assert sum(isinstance(i, Fill) for i in heads) == 4

@@ -11,6 +11,7 @@ import pytest
 from planmethod.errors import LayoutError
 from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure, analyse
+from planmethod.note.wording import language
 from planmethod.problem import load
 from planmethod.problem.model import Drive, Problem
 from planmethod.render.control.texts import lint
@@ -26,8 +27,10 @@ from planmethod.render.pictures.chains import (
 )
 from planmethod.render.pictures.embedding import Bar, Net, embed
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
-from planmethod.render.sheets.structure import TITLE, structure_sheet
+from planmethod.render.sheets.structure import structure_sheet
 from planmethod.render.sheets.structure_texts import formulas, group_caption
+
+RU = language("ru")
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 
@@ -222,10 +225,10 @@ def test_title_block() -> None:
     problem, structure = _case("ex3")
     drawing = structure_sheet(problem, structure, fields={"author": "Сидоров"})
     told = " ".join(_texts(drawing, stamp=True))
-    assert TITLE in " ".join(told.split())
+    assert RU.structure.title in " ".join(told.split())
     assert "Сидоров" in told
     assert problem.stamp["designation"] in told
-    assert drawing.title == TITLE
+    assert drawing.title == RU.structure.title
     other = structure_sheet(problem, structure, fields={"title": "Лист 1"})
     assert other.title == "Лист 1"
 
@@ -257,7 +260,7 @@ def test_texts_of_ex3() -> None:
 
 def test_formulas_of_ex3() -> None:
     problem, structure = _case("ex3")
-    lines = formulas(problem.mechanism, structure)
+    lines = formulas(problem.mechanism, structure, RU)
     assert lines[1] == "По Чебышеву: W = 3n − 2p_{н} − p_{в} = 3·5 − 2·7 − 0 = 1"
     assert lines[2] == "Пространственная схема: W_{пр} = 6n − 5p_{1} = 6·5 − 5·7 = −5"
     assert lines[3] == "Избыточные связи: q = W_{0} + W_{м} − W_{пр} = 1 + 0 − (−5) = 6"
@@ -265,7 +268,7 @@ def test_formulas_of_ex3() -> None:
 
 def test_caption_of_a_class_three_group() -> None:
     _, structure = _case("triad of class III")
-    named, w, q = (line.replace("\u00a0", " ") for line in group_caption(structure.groups[0]))
+    named, w, q = (line.replace("\u00a0", " ") for line in group_caption(structure.groups[0], RU))
     assert named == "Группа III класса, 3-го порядка (трёхповодковая): звенья 2, 3, 4, 5"
     assert w == "W = 3·4 − 2·6 = 0"
     assert q == "q = 0 − (6·4 − 5·6) = 6"

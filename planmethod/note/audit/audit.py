@@ -8,8 +8,10 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
 
+from planmethod.languages import LANGUAGES
 from planmethod.note.audit.asking import PLANS, UnansweredError, Why
 from planmethod.note.audit.quantities import Quantities, is_angle
+from planmethod.note.wording import wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Published, Scales
 from planmethod.problem.selector import FORCES, Selector, parse_selector
@@ -24,21 +26,19 @@ RULER_MM = 0.5
 
 SYMBOLS = {kind: FACTS[kind].scale for kind in MOTION}
 
-UNITS = {
-    "м": "mu_l",
-    "m": "mu_l",
-    "м/с": "mu_v",
-    "m/s": "mu_v",
-    "м/с²": "mu_a",
-    "m/s²": "mu_a",
-    "м/с^2": "mu_a",
-    "m/s^2": "mu_a",
-}
-"""Of which plan a scale ``per_mm`` is, by the unit of its value."""
+_WORDS = tuple(map(wording, LANGUAGES))
 
-NEWTONS = ("Н", "N")
-METRES = ("м", "m")
-RADIANS = ("рад", "rad")
+UNITS = {
+    written: symbol
+    for words in _WORDS
+    for unit, symbol in (("m", "mu_l"), ("m/s", "mu_v"), ("m/s²", "mu_a"))
+    for written in (words.units[unit], words.units[unit].replace("²", "^2"))
+}
+"""Of which plan a scale ``per_mm`` is, by the unit of its value, in any language."""
+
+NEWTONS, METRES, RADIANS = (
+    tuple(words.units[unit] for words in _WORDS) for unit in ("N", "m", "rad")
+)
 
 
 class Verdict(Enum):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from planmethod.construct.steps import Compute, NumberName, PointName, Similar
 from planmethod.note.narrate.letters import mark, segment
-from planmethod.note.numbers import UNITS_RU, russian, significant, trimmed
+from planmethod.note.wording import Language
 from planmethod.plans.model import (
     FACTS,
     Known,
@@ -21,30 +21,18 @@ from planmethod.solved.solution import Solution
 TURNING = {PlanKind.VELOCITY: ("ω", "1/s"), PlanKind.ACCELERATION: ("ε", "1/s²")}
 
 
-def _given(value: float) -> str:
-    return russian(trimmed(value, 5))
-
-
-def _found(value: float) -> str:
-    return russian(significant(value))
-
-
-def _mm(value: float) -> str:
-    """Return a length on the drawing: no pencil lays off less than a tenth of a millimetre."""
-    return russian(f"{value:.1f}")
-
-
 class Calculation:
     """Lines of rich text for one plan in one position (расчёт к плану)."""
 
-    def __init__(self, solution: Solution, kind: PlanKind, index: int) -> None:
-        self.solution, self.kind, self.index = solution, kind, index
+    def __init__(self, solution: Solution, kind: PlanKind, index: int, words: Language) -> None:
+        self.solution, self.kind, self.index, self.words = solution, kind, index, words
+        self._given, self._found = words.say.short, words.say.found
         self.plan = solution.construction.plan(kind)
         self.kin = solution.construction.kinematics
         motion = self.kin.velocity if kind is PlanKind.VELOCITY else self.kin.acceleration
         self.segments = motion.segments
         self.mu = solution.scales[kind].per_mm
-        self.unit = UNITS_RU[FACTS[kind].unit]
+        self.unit = words.say.units[FACTS[kind].unit]
 
     def lines(self) -> list[str]:
         """Return one formula a line, in the order in which each becomes known."""
@@ -68,6 +56,10 @@ class Calculation:
         for link, read in turnings.values():  # of segments that another vector draws
             result += self._turning(link, read)
         return result
+
+    def _mm(self, value: float) -> str:
+        """Return a length on the drawing: no pencil lays off less than a tenth of a millimetre."""
+        return self.words.say.number(f"{value:.1f}")
 
     # Numbers ---------------------------------------------------------------------------------
 
@@ -96,10 +88,11 @@ class Calculation:
     def _measured_arm(self, arm: str, letters: str, metres: float) -> str:
         """Return how an arm that no given length tells follows from the drawing."""
         scale = self.solution.scales[PlanKind.POSITION].per_mm
-        mm, found = _mm(metres / scale), f"{_given(round(metres, 9))} м"
+        mm, unit = self._mm(metres / scale), self.words.say.units["m"]
+        found = f"{self._given(round(metres, 9))} {unit}"
         if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
-            return f"{arm} = ({letters})/μ_{{l}} = {mm}/{_given(1.0 / scale)} = {found}"
-        return f"{arm} = μ_{{l}}·({letters}) = {_given(scale)}·{mm} = {found}"
+            return f"{arm} = ({letters})/μ_{{l}} = {mm}/{self._given(1.0 / scale)} = {found}"
+        return f"{arm} = μ_{{l}}·({letters}) = {self._given(scale)}·{mm} = {found}"
 
     def _letters(self, tail: PointName, head: PointName) -> str:
         return segment(self.solution.problem, self.plan, tail, head)
@@ -111,14 +104,16 @@ class Calculation:
         letters, mm = self._letters(*ends), self._read(*ends)
         source = self._source(vector)
         if source is not None:
-            value = f"{_found(self.mu * mm)} {self.unit}"
-            return f"{vector.symbol} = {source}{value};  {letters} = {_mm(mm)} мм"
+            value = f"{self._found(self.mu * mm)} {self.unit}"
+            segment_mm = f"{self._mm(mm)} {self.words.say.units['mm']}"
+            return f"{vector.symbol} = {source}{value};  {letters} = {segment_mm}"
         scale = f"μ_{{{FACTS[self.kind].letter}}}"
-        value = f"{_found(self.mu * mm)} {self.unit}"
+        value = f"{self._found(self.mu * mm)} {self.unit}"
         if self.solution.problem.scales.convention is Convention.MM_PER_UNIT:
-            quotient = f"{_mm(mm)}/{_given(1.0 / self.mu)}"
+            quotient = f"{self._mm(mm)}/{self._given(1.0 / self.mu)}"
             return f"{vector.symbol} = {letters}/{scale} = {quotient} = {value}"
-        return f"{vector.symbol} = {scale}·{letters} = {_given(self.mu)}·{_mm(mm)} = {value}"
+        product = f"{self._given(self.mu)}·{self._mm(mm)}"
+        return f"{vector.symbol} = {scale}·{letters} = {product} = {value}"
 
     def _source(self, vector: Vector) -> str | None:
         """Return the formula of a vector that is computed before it is laid off, or None.
@@ -145,7 +140,7 @@ class Calculation:
         omega = abs(self._number(self.kin.omega[relative.to]))
         speed = abs(self._number(relative.speed))
         symbols = f"2ω_{{{relative.to}}}·v_{vector.symbol.partition('_')[2]}"
-        return f"{symbols} = 2·{_found(omega)}·{_found(speed)} = "
+        return f"{symbols} = 2·{self._found(omega)}·{self._found(speed)} = "
 
     def _components(self, vector: Vector) -> tuple[Vector, ...] | None:
         """Return the components of an absolute vector when all are known beforehand."""
@@ -173,13 +168,13 @@ class Calculation:
 
     def _formula(self, vector: Vector, link: str, ends: tuple[str, ...]) -> str:
         p, q = ends
-        arm, metres = self._length(p, q), _given(round(self._distance(p, q), 9))
+        arm, metres = self._length(p, q), self._given(round(self._distance(p, q), 9))
         velocity = self.kind is PlanKind.VELOCITY
         normal = vector.kind is VectorKind.NORMAL
         letter = "ω" if velocity or normal else "ε"
         table = self.kin.omega if velocity or normal else self.kin.epsilon
         driven = link == self.solution.problem.drive.link
-        written = _given if driven else _found
+        written = self._given if driven else self._found
         value = written(abs(self._number(table[link]))) if link in table else "0"
         if normal:
             return f"ω_{{{link}}}^{{2}}·{arm} = {value}^{{2}}·{metres} = "
@@ -202,8 +197,9 @@ class Calculation:
         whole = self._read(step.plan_b, step.plan_c)
         found, given = (self._letters(step.plan_b, p) for p in (step.out, step.plan_c))
         ratio = f"{mark(b, s)}/{mark(b, c)}"
-        numbers = f"{_mm(whole)}·{_mm(lengths[0])}/{_mm(lengths[1])}"
-        return f"{found} = {given}·{ratio} = {numbers} = {_mm(whole * lengths[0] / lengths[1])} мм"
+        numbers = f"{self._mm(whole)}·{self._mm(lengths[0])}/{self._mm(lengths[1])}"
+        result = f"{self._mm(whole * lengths[0] / lengths[1])} {self.words.say.units['mm']}"
+        return f"{found} = {given}·{ratio} = {numbers} = {result}"
 
     # Turning ---------------------------------------------------------------------------------
 
@@ -223,9 +219,9 @@ class Calculation:
         if not value:
             lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} = 0")
         else:
-            sense = "против часовой стрелки" if value > 0 else "по часовой стрелке"
-            numbers = f"{_found(component)}/{_given(round(metres, 9))}"
-            found = f"{_found(abs(value))} {UNITS_RU[unit]} ({sense})"
+            sense = self.words.note.ccw if value > 0 else self.words.note.cw
+            numbers = f"{self._found(component)}/{self._given(round(metres, 9))}"
+            found = f"{self._found(abs(value))} {self.words.say.units[unit]} ({sense})"
             lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} = {numbers} = {found}")
         others = [k for k, name in table.items() if name == table[link] and k != link]
         lines += [f"{letter}_{{{other}}} = {letter}_{{{link}}}" for other in others]
@@ -237,6 +233,6 @@ def _is_known(equation: VectorEquation) -> bool:
     return all(term.known is Known.BOTH for term in equation.right)
 
 
-def calculation(solution: Solution, kind: PlanKind, index: int) -> list[str]:
+def calculation(solution: Solution, kind: PlanKind, index: int, words: Language) -> list[str]:
     """Return the formulas of one plan in one position as rich text."""
-    return Calculation(solution, kind, index).lines()
+    return Calculation(solution, kind, index, words).lines()

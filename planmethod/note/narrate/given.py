@@ -1,4 +1,4 @@
-"""The statement of a problem in symbols: "Дано" and "Определить" (rich text)."""
+"""The statement of a problem in symbols: what is given, what to find (Дано, Определить)."""
 
 from __future__ import annotations
 
@@ -7,22 +7,18 @@ from collections.abc import Sequence
 import numpy as np
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.numbers import UNITS_RU, russian, trimmed
+from planmethod.note.numbers import Notation, trimmed
+from planmethod.note.wording import Language
 from planmethod.problem.model import Body, Problem, Slide
 from planmethod.solved.solution import Solution
 
 
-def number(value: float) -> str:
-    """Return a given number as rich text."""
-    return russian(trimmed(value))
-
-
-def coordinate(value: float, problem: Problem) -> str:
+def coordinate(value: float, problem: Problem, say: Notation) -> str:
     """Return a given coordinate as rich text, with the digits that the mechanism needs."""
     size = max((length for _, _, length in problem.lengths), default=abs(value))
     if abs(float(trimmed(value)) - value) <= 1e-6 * size:
-        return number(value)
-    return russian(trimmed(value, 15))
+        return say.given(value)
+    return say.number(trimmed(value, 15))
 
 
 def point_name(point: str) -> str:
@@ -30,51 +26,53 @@ def point_name(point: str) -> str:
     return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
 
 
-def given(problem: Problem, positions: Sequence[float] | None = None) -> list[str]:
+def given(problem: Problem, words: Language, positions: Sequence[float] | None = None) -> list[str]:
     """Return what is given, one ``symbol = value unit`` each.
 
     ``positions`` are the driver's, degrees (m for a slider); the file's when absent.
     """
-    drive = problem.drive
+    drive, number, units = problem.drive, words.say.given, words.say.units
     asked = drive.positions if positions is None else positions
-    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", " м")
+    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", f" {units['m']}")
     said = f"{number(float(asked[0]))}{unit}"
     if len(asked) > 1:
-        said += f"…{number(float(asked[-1]))}{unit} ({len(asked)} полож.)"
+        count = words.note.given_count.format(count=len(asked))
+        said += f"…{number(float(asked[-1]))}{unit}{count}"
     lines = [f"{symbol} = {said}"]
     named = {name for _, name, _ in problem.lengths}
     for _, name, metres in problem.lengths:
-        lines.append(f"l_{{{name}}} = {number(metres)} м")
+        lines.append(f"l_{{{name}}} = {number(metres)} {units['m']}")
     for link, body in problem.bodies.items():
         if link != FRAME:
-            lines += _distances(body, named)
+            lines += _distances(body, named, words)
     for point, place in problem.bodies[FRAME].points.items():
         if place != 0:
-            lines += _coordinates(point, place, problem)
+            lines += _coordinates(point, place, problem, words.say)
     carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
     for guide, (through, base, angle) in problem.guides.items():
         if through is None:
-            lines += _guide(guide, base, angle, problem)
+            lines += _guide(guide, base, angle, problem, words.say)
         elif guide in carried:
-            lines.append(f"{guide} через {point_name(through)}")
+            point = point_name(through)
+            lines.append(words.note.given_through.format(guide=guide, point=point))
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for slide in problem.slides.values():
-        lines += _carried(problem, slide)
+        lines += _carried(problem, slide, words)
         if slide.offset:
             name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
-            lines.append(f"e_{{{name}}} = {number(slide.offset)} м")
+            lines.append(f"e_{{{name}}} = {number(slide.offset)} {units['m']}")
     if drive.is_crank:
         constant = "" if drive.acceleration else " = const"
-        lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {UNITS_RU['1/s']}{constant}")
+        lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {units['1/s']}{constant}")
         if drive.acceleration:
-            lines.append(f"ε_{{{drive.link}}} = {number(drive.acceleration)} {UNITS_RU['1/s²']}")
+            lines.append(f"ε_{{{drive.link}}} = {number(drive.acceleration)} {units['1/s²']}")
     else:
-        lines.append(f"v = {number(drive.rate)} {UNITS_RU['m/s']}")
-        lines.append(f"a = {number(drive.acceleration)} {UNITS_RU['m/s²']}")
+        lines.append(f"v = {number(drive.rate)} {units['m/s']}")
+        lines.append(f"a = {number(drive.acceleration)} {units['m/s²']}")
     return lines
 
 
-def _distances(body: Body, named: set[str]) -> list[str]:
+def _distances(body: Body, named: set[str], words: Language) -> list[str]:
     """Return the distances that place a link's further points, where no length was given."""
     points = list(body.points)
     ends = body.axis or (points[0],)
@@ -85,10 +83,12 @@ def _distances(body: Body, named: set[str]) -> list[str]:
         for end in ends[: 2 if off_axis else 1]:
             if point not in ends and f"{end}{point}" not in named and f"{point}{end}" not in named:
                 metres = abs(body.points[point] - body.points[end])
-                lines.append(f"l_{{{end}{point}}} = {number(metres)} м")
+                length = f"{words.say.given(metres)} {words.say.units['m']}"
+                lines.append(f"l_{{{end}{point}}} = {length}")
         if off_axis and body.axis is not None:
-            side = "слева" if body.points[point].imag > 0 else "справа"
-            lines.append(f"{point_name(point)} {side} от {_line(*body.axis)}")
+            left = body.points[point].imag > 0
+            side = words.note.given_left if left else words.note.given_right
+            lines.append(side.format(point=point_name(point), line=_line(*body.axis)))
     return lines
 
 
@@ -96,31 +96,34 @@ def _line(start: str, end: str) -> str:
     return f"{point_name(start)}{point_name(end)}"
 
 
-def _carried(problem: Problem, slide: Slide) -> list[str]:
+def _carried(problem: Problem, slide: Slide, words: Language) -> list[str]:
     """Return how the line of a moving link lies on it, where two letters do not tell it."""
     axis = problem.bodies[slide.host].axis
     if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
         return []
+    angle = words.say.given(slide.angle)
     if slide.offset:
-        return [f"∠(направляющая звена {slide.host}, {_line(*axis)}) = {number(slide.angle)}°"]
+        guide = words.note.given_guide.format(link=slide.host, line=_line(*axis))
+        return [f"{guide} = {angle}°"]
     line = _line(slide.through, slide.pin)
     if slide.angle % 180 == 90:
         return [f"{line} ⊥ {_line(*axis)}"]
-    return [f"∠({line}, {_line(*axis)}) = {number(slide.angle)}°"] if slide.angle % 180 else []
+    return [f"∠({line}, {_line(*axis)}) = {angle}°"] if slide.angle % 180 else []
 
 
-def _coordinates(name: str, place: complex, problem: Problem) -> list[str]:
-    x, y = (coordinate(value, problem) for value in (place.real, place.imag))
-    return [f"x_{{{name}}} = {x} м", f"y_{{{name}}} = {y} м"]
+def _coordinates(name: str, place: complex, problem: Problem, say: Notation) -> list[str]:
+    x, y = (coordinate(value, problem, say) for value in (place.real, place.imag))
+    return [f"x_{{{name}}} = {x} {say.units['m']}", f"y_{{{name}}} = {y} {say.units['m']}"]
 
 
-def _guide(name: str, base: complex, angle: float, problem: Problem) -> list[str]:
+def _guide(name: str, base: complex, angle: float, problem: Problem, say: Notation) -> list[str]:
     """Return where a guide is: by one coordinate when it runs along an axis."""
+    x, y = _coordinates(name, base, problem, say)
     if angle % 180 == 90:
-        return [f"x_{{{name}}} = {coordinate(base.real, problem)} м"]
+        return [x]
     if angle % 180 == 0:
-        return [f"y_{{{name}}} = {coordinate(base.imag, problem)} м"]
-    return [*_coordinates(name, base, problem), f"∠({name}) = {number(angle)}°"]
+        return [y]
+    return [x, y, f"∠({name}) = {say.given(angle)}°"]
 
 
 def asked_points(solution: Solution) -> list[str]:
@@ -153,26 +156,6 @@ def wanted(solution: Solution) -> str:
     symbols = [f"v_{{{p}}}" for p in points] + [f"ω_{{{k}}}" for k in links]
     symbols += [f"a_{{{p}}}" for p in points] + [f"ε_{{{k}}}" for k in links]
     return ", ".join(symbols)
-
-
-_ENGLISH = (
-    (" м/с^{2}", " m/s^{2}"),
-    (" м/с", " m/s"),
-    (" м", " m"),
-    (" с^{", " s^{"),
-    (" полож.", " positions"),
-    (",", "."),
-)
-
-
-def given_lines(problem: Problem, lang: str) -> list[str]:
-    """Return what is given in a language, one ``symbol = value unit`` each (rich text)."""
-    lines = given(problem)
-    if lang == "ru":
-        return lines
-    for russian_text, english in _ENGLISH:
-        lines = [line.replace(russian_text, english) for line in lines]
-    return lines
 
 
 def solution_peak(solution: Solution, symbol: str) -> float:

@@ -6,19 +6,22 @@ import re
 from collections.abc import Sequence
 
 from planmethod.note.plaintext import NO_BREAK, heading, wrap
+from planmethod.note.wording import Wording
 
 INDENT = " " * 5
 """What stands before the lines of a step, under its number."""
 
-_UNIT = re.compile(r"(?<=\d) (?=(?:мм|м|Н|с|mm|m|N|s)(?![^\W\d_]))")
-"""Space between a number and its unit, where no line is cut."""
+_WORD = re.compile(r"^[^\W\d_]+")
+"""Letters that a unit begins with: between a number and them no line is cut."""
 
 
 class Steps:
     """Plain text while it is being written: headings, and steps numbered through all of them."""
 
-    def __init__(self) -> None:
+    def __init__(self, words: Wording) -> None:
         self.lines: list[str] = []
+        units = "|".join(name for unit in words.units.values() for name in _WORD.findall(unit))
+        self._unit = re.compile(rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))")
         self._step = self._chapter = self._part = 0
 
     def chapter(self, title: str) -> None:
@@ -40,7 +43,7 @@ class Steps:
             self._step += 1
         for i, line in enumerate(lines):
             first = f"{self._step:>3}) " if i == 0 and not more else INDENT
-            self.lines += wrap(_UNIT.sub(NO_BREAK, line), first=first, rest=INDENT)
+            self.lines += wrap(self._unit.sub(NO_BREAK, line), first=first, rest=INDENT)
 
     def formulas(self, lines: Sequence[str]) -> None:
         """Write lines that must not be wrapped, such as an equation over its underlines."""

@@ -1,51 +1,58 @@
-"""Catalogues of sentences, one module per language."""
+"""All words that a person reads: a folder for each language, a module for each subject (фразы).
+
+What a language must be able to say stand in the modules beside this one; the folders fill them in.
+"""
 
 from __future__ import annotations
 
-from planmethod.errors import ExitCode, PlanMethodError
-from planmethod.note.wording.en import EN
-from planmethod.note.wording.force_en import FORCE_EN
-from planmethod.note.wording.force_model import ForceWording
-from planmethod.note.wording.force_ru import FORCE_RU
-from planmethod.note.wording.model import Wording
-from planmethod.note.wording.ru import RU
+from functools import cache
+from importlib import import_module
 
-CATALOGUES: tuple[Wording, ...] = (RU, EN)
-FORCE_CATALOGUES: tuple[ForceWording, ...] = (FORCE_RU, FORCE_EN)
+from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording.force_model import ForceWording
+from planmethod.note.wording.language import Language
+from planmethod.note.wording.model import Wording
 
 
 class UnknownLanguageError(PlanMethodError):
-    """A language was asked for that no catalogue speaks (неизвестный язык)."""
+    """A language was asked for that nobody speaks here (неизвестный язык)."""
 
     exit_code = ExitCode.USAGE
 
 
-def wording(lang: str) -> Wording:
-    """Return the catalogue of a language.
+@cache
+def language(lang: str) -> Language:
+    """Return all words of a language.
 
     Raises
     ------
     UnknownLanguageError
         Naming the languages there are.
     """
-    for catalogue in CATALOGUES:
-        if catalogue.lang == lang:
-            return catalogue
-    known = ", ".join(catalogue.lang for catalogue in CATALOGUES)
-    raise UnknownLanguageError(f"No catalogue for the language {lang!r}. Choose one of: {known}.")
+    if lang not in LANGUAGES:
+        known = ", ".join(LANGUAGES)
+        raise UnknownLanguageError(f"No words in the language {lang!r}. Choose one of: {known}.")
+    found: Language = import_module(f"{__name__}.{lang}").LANGUAGE
+    return found
 
 
-def force_wording(words: Wording) -> ForceWording:
-    """Return the sentences of the force analysis in the language of a catalogue."""
-    return next(catalogue for catalogue in FORCE_CATALOGUES if catalogue.lang == words.lang)
+def wording(lang: str) -> Wording:
+    """Return the sentences of protocol and tables in a language.
+
+    Raises
+    ------
+    UnknownLanguageError
+    """
+    return language(lang).note
 
 
 __all__ = [
-    "CATALOGUES",
-    "FORCE_CATALOGUES",
+    "LANGUAGES",
     "ForceWording",
+    "Language",
     "UnknownLanguageError",
     "Wording",
-    "force_wording",
+    "language",
     "wording",
 ]

@@ -15,7 +15,6 @@ class ForceWording:
     """
 
     lang: str
-    balancing: str
 
     # Loads
     title_loads: str

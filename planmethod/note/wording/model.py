@@ -37,6 +37,11 @@ class Wording:
     position_slider: str
     formula: str
     given: str
+    given_count: str
+    given_left: str
+    given_right: str
+    given_through: str
+    given_guide: str
     scales: str
     scales_text: str
     ruler: str

@@ -30,9 +30,6 @@ from planmethod.render.labels.model import BREAKABLE, UNDER_LABEL
 from planmethod.render.labels.paper import arc_step
 from planmethod.render.layout.block import CUT
 
-CODES = {code: remark.said["en"].title for code, remark in REMARKS.items()}
-"""Every code of the norm control, those of `planmethod.render.control.sheet` too, and its title."""
-
 SMALLEST_OF_ALL = 1.8
 """Smallest height of an index and in the title block, mm (the smallest of GOST 2.304)."""
 
@@ -49,7 +46,7 @@ class Finding:
     Attributes
     ----------
     code : str
-        One of `CODES`.
+        One of `REMARKS`.
     where : complex, mm
         Place on the sheet, from its lower left corner.
     value, limit : float

@@ -13,6 +13,7 @@ from itertools import combinations
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
+from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import CoupleOn, Edge, Share
 from planmethod.problem.model import Slide
 from planmethod.render.forces.arrows import (
@@ -183,7 +184,7 @@ def _loaded_picture(
 
 
 @lru_cache(maxsize=32)
-def loads_picture(reading: ForceReading, letter_height: float) -> Picture:
+def loads_picture(reading: ForceReading, letter_height: float, say: Notation) -> Picture:
     """Return the whole scheme with the weights, inertia forces and couples, external loads, mm."""
     solution, index = reading.solution, reading.index
     scheme = Scheme(solution, index, letter_height)
@@ -197,24 +198,24 @@ def loads_picture(reading: ForceReading, letter_height: float) -> Picture:
         elif given.couple is not None:
             couple = CoupleOn(one.name, one.link, given.couple)
             if not reading.is_no_couple(couple):
-                couples.append(_turning(reading, scheme, couple))
+                couples.append(_turning(reading, scheme, couple, say))
     links = solution.problem.mechanism.links
-    shifts = shifts_on(reading, links)
+    shifts = shifts_on(reading, links, say)
     return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}")
 
 
 @lru_cache(maxsize=64)
-def cut_picture(reading: ForceReading, number: int, letter_height: float) -> Picture:
+def cut_picture(reading: ForceReading, number: int, letter_height: float, say: Notation) -> Picture:
     """Return the links of a force plan cut free, with all that acts on them, mm."""
     plan = reading.plans[number]
     scheme = Cut(reading.solution, reading.index, letter_height, links=plan.links)
     prefix = f"cut {reading.index} {number}"
-    return _cut(reading, scheme, reading.shown(plan), reading.couples(plan), prefix)
+    return _cut(reading, scheme, reading.shown(plan), reading.couples(plan), prefix, say)
 
 
 @lru_cache(maxsize=64)
 def inner_picture(
-    reading: ForceReading, number: int, letter_height: float
+    reading: ForceReading, number: int, letter_height: float, say: Notation
 ) -> tuple[str, Picture] | None:
     """Return a link of a dyad cut free at its inner guide too, and its picture, mm.
 
@@ -232,7 +233,7 @@ def inner_picture(
     couples = [couple for couple in reading.couples(plan) if couple.on == link]
     couples.append(CoupleOn(guided.symbol("M"), link, reaction.couple, reaction.force.at))
     scheme = Cut(reading.solution, reading.index, letter_height, links=(link,))
-    return link, _cut(reading, scheme, edges, couples, f"link {reading.index} {link}")
+    return link, _cut(reading, scheme, edges, couples, f"link {reading.index} {link}", say)
 
 
 def _cut(
@@ -241,6 +242,7 @@ def _cut(
     edges: Sequence[Edge],
     couples: Sequence[CoupleOn],
     prefix: str,
+    say: Notation,
 ) -> Picture:
     guided = pressed(reading, scheme.links, _link_lines(reading, scheme.links), scheme.factor)
     # The axis of a guide reaches the place of its reaction; a link that does so needs no axis.
@@ -251,12 +253,14 @@ def _cut(
     shown = sorted(edges, key=lambda edge: edge.share is Share.WHOLE)
     forces = [force for one in guided for force in one.forces]
     forces += [
-        Acting(edge.symbol, reading.place(edge.at), reading.force(edge))
+        Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.force(edge))
         for edge in shown
         if edge.symbol not in replaced
     ]
-    turnings = [_turning(reading, scheme, one) for one in couples if one.symbol not in replaced]
-    shifts = shifts_on(reading, scheme.links)
+    turnings = [
+        _turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced
+    ]
+    shifts = shifts_on(reading, scheme.links, say)
     return _loaded_picture(scheme, scheme.links, forces, turnings, shifts, prefix, guided)
 
 
@@ -267,15 +271,15 @@ def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:
     return [pair for ends in places for pair in combinations(ends, 2)]
 
 
-def _turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn) -> Turning:
+def _turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn, say: Notation) -> Turning:
     """Return a couple as it is drawn: about its own place, else about the centre of mass."""
-    sense = 1 if reading.number(couple.moment) > 0 else -1
+    sense, symbol = 1 if reading.number(couple.moment) > 0 else -1, say.symbol(couple.symbol)
     if couple.at is not None:
-        return Turning(couple.symbol, reading.place(couple.at), sense)
+        return Turning(symbol, reading.place(couple.at), sense)
     problem = scheme.solution.problem
     mass = problem.dynamics.masses.get(couple.on) if problem.dynamics is not None else None
     points = list(problem.bodies[couple.on].points)
     places = [scheme.at(point) for point in points]
     if mass is not None and mass.centre in points and couple.symbol.startswith("M_{Φ"):
-        return Turning(couple.symbol, scheme.at(mass.centre), sense)
-    return Turning(couple.symbol, sum(places) / len(places), sense)
+        return Turning(symbol, scheme.at(mass.centre), sense)
+    return Turning(symbol, sum(places) / len(places), sense)

@@ -6,6 +6,7 @@ from functools import lru_cache
 
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.narrate.letters import shown_letters
+from planmethod.note.numbers import Notation
 from planmethod.plans.model import PlanKind
 from planmethod.render.forces.arrows import (
     Acting,
@@ -30,7 +31,7 @@ LEVER = "lever"
 
 
 @lru_cache(maxsize=32)
-def lever_picture(reading: ForceReading, letter_height: float) -> Picture:
+def lever_picture(reading: ForceReading, letter_height: float, say: Notation) -> Picture:
     """Return the lever with all that hangs on it, its pole at the origin, mm."""
     solution = reading.solution
     lever, plan = LeverReading(reading), solution.construction.plan(PlanKind.VELOCITY)
@@ -58,19 +59,19 @@ def lever_picture(reading: ForceReading, letter_height: float) -> Picture:
         )
         for place, own in spots
     ]
-    forces = [Acting(force.symbol, force.at, force.force) for force in lever.forces]
+    forces = [Acting(say.symbol(force.symbol), force.at, force.force) for force in lever.forces]
     shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts]
     shifts = [one for one in shifts if one.is_seen]
     placed = lay_forces(forces, [one.line for one in shifts])
     arrows, letters_of_forces = force_items(placed, letter_height, prefix)
     lines, letters_of_shifts = shift_items(shifts, placed, letter_height, prefix)
     items += [*lines, *arrows]
-    turnings = [_turning(one) for one in lever.couples if one.lever_moment]
+    turnings = [_turning(one, say) for one in lever.couples if one.lever_moment]
     turns, letters_of_couples = couple_items(turnings, items, letter_height, prefix)
     named = [*letters_of_forces, *letters_of_couples, *letters_of_shifts, *labels]
     return lettered([*items, *turns], named)
 
 
-def _turning(one: HungCouple) -> Turning:
+def _turning(one: HungCouple, say: Notation) -> Turning:
     place = 0j if one.segment is None else sum(one.segment) / 2
-    return Turning(one.symbol, place, 1 if one.lever_moment > 0 else -1)
+    return Turning(say.symbol(one.symbol), place, 1 if one.lever_moment > 0 else -1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.render.forces.arrows import MANNER, PLAN_FORCE, Segment, distance
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen
@@ -53,14 +54,14 @@ def _rounded(place: complex) -> complex:
     return complex(round(place.real, 3), round(place.imag, 3))
 
 
-def _written(reading: ForceReading, number: int, edge: Edge) -> str:
+def _written(reading: ForceReading, number: int, edge: Edge, say: Notation) -> str:
     """Return what is written at a segment: all reactions that it shows.
 
     A component may be the whole reaction, and the inner reaction the same line.
     """
     plan = reading.plans[number]
     others = [*plan.wholes, *([] if plan.inner is None else [plan.inner])]
-    written = [vector_markup(edge.symbol)]
+    written = [vector_markup(say.symbol(edge.symbol))]
     tail, head = reading.end(edge.tail), reading.end(edge.head)
     for other in others:
         ends = reading.end(other.tail), reading.end(other.head)
@@ -107,7 +108,11 @@ def _hides(one: Segment, other: Segment) -> bool:
 
 @lru_cache(maxsize=64)
 def polygon_picture(
-    reading: ForceReading, number: int, letter_height: float, ellipses: Ellipses = NO_ELLIPSES
+    reading: ForceReading,
+    number: int,
+    letter_height: float,
+    say: Notation,
+    ellipses: Ellipses = NO_ELLIPSES,
 ) -> Picture:
     """Return the force plan of a group or of the driver, its first point at the origin, mm."""
     edges, shifts = drawn_edges(reading, number), apart(reading, number)
@@ -119,15 +124,16 @@ def polygon_picture(
         tail, head = reading.end(edge.tail) + shift, reading.end(edge.head) + shift
         thin = edge.share is not Share.WHOLE
         pen = Pen.THIN if thin else Pen.MAIN
-        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=f"{PLAN_FORCE} {edge.symbol}")
+        symbol = say.symbol(edge.symbol)
+        items += vector_arrow(tail, head, pen=pen, length=4.0, tag=f"{PLAN_FORCE} {symbol}")
         labels.append(
             Label(
-                typeset(_written(reading, number, edge), letter_height),
+                typeset(_written(reading, number, edge, say), letter_height),
                 (tail + head) / 2,
                 (tail, head),
                 prefer=(tail + head) / 2 - centre,
                 gap=1.0,
-                name=f"plan {reading.index} {number} {k}: {edge.symbol}",
+                name=f"plan {reading.index} {number} {k}: {symbol}",
                 manner=MANNER,
             )
         )

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from planmethod.note.narrate.forces.resultants import force_symbol, shift_symbol
-from planmethod.note.numbers import half_up, russian
+from planmethod.note.numbers import Notation, half_up
 from planmethod.render.forces.arrows import Acting, Segment
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
@@ -46,7 +46,7 @@ class Shifted:
         return self.centre, self.at
 
 
-def shifts_on(reading: ForceReading, links: Iterable[str]) -> list[Shifted]:
+def shifts_on(reading: ForceReading, links: Iterable[str], say: Notation) -> list[Shifted]:
     """Return the shifts on some links that are there to be drawn."""
     found = []
     for link in links:
@@ -54,7 +54,8 @@ def shifts_on(reading: ForceReading, links: Iterable[str]) -> list[Shifted]:
         if shift is not None:
             centre, at = reading.place(shift.centre), reading.place(shift.at)
             read = abs(reading.read_number(shift.length))
-            told = f"{shift_symbol(link)} = {russian(f'{half_up(read, 1):.1f}')} мм"
+            length = f"{say.number(f'{half_up(read, 1):.1f}')} {say.units['mm']}"
+            told = f"{shift_symbol(link)} = {length}"
             found.append(Shifted(force_symbol(link), shift.letter, centre, at, told))
     return [one for one in found if one.is_seen]
 

@@ -37,6 +37,7 @@ class Form:
         Lines, from (x0, y0) to (x1, y1); the outline is drawn besides. Thick ones part the graphs,
         thin ones the rows and the three small cells of "Лит.".
     captions : tuple of (str, Bounds, Align)
+        By their names in `FrameWording.captions`.
     cells : mapping of str to Cell
         Where the fields go; a form leaves out fields that it has no graph for.
     organisation : Cell, optional
@@ -63,11 +64,11 @@ class Form:
 
 # The left part, alike in all forms: columns of the table of changes and of the signatures.
 _COLUMNS = (
-    ("Изм.", 0, 7),
-    ("Лист", 7, 17),
-    ("№ докум.", 17, 40),
-    ("Подп.", 40, 55),
-    ("Дата", 55, 65),
+    ("change", 0, 7),
+    ("changed", 7, 17),
+    ("document", 17, 40),
+    ("signature", 40, 55),
+    ("date", 55, 65),
 )
 
 
@@ -76,20 +77,20 @@ def _header(y: float) -> tuple[Caption, ...]:
     return tuple((caption, (x0, y, x1, y + 5), "centre") for caption, x0, x1 in _COLUMNS)
 
 
-def _hands(rows: Sequence[tuple[str, str]]) -> Iterator[tuple[str, Cell]]:
-    """Yield the cells of surnames and dates; ``rows`` of (role, caption) go from the bottom up."""
-    for y, (role, _) in zip(range(0, 5 * len(rows), 5), rows, strict=True):
+def _hands(rows: Sequence[str]) -> Iterator[tuple[str, Cell]]:
+    """Yield the cells of surnames and dates; the roles of ``rows`` go from the bottom up."""
+    for y, role in zip(range(0, 5 * len(rows), 5), rows, strict=True):
         yield role, Cell((17, y, 40, y + 5), 2.5, "left")
         yield f"{role}_date", Cell((55, y, 65, y + 5), 2.5)
         if role == "extra":
             yield "extra_role", Cell((0, y, 17, y + 5), 2.5, "left")
 
 
-def _roles(rows: Sequence[tuple[str, str]]) -> Iterator[Caption]:
-    """Yield the captions of the rows of signatures."""
-    for y, (_, caption) in zip(range(0, 5 * len(rows), 5), rows, strict=True):
-        if caption:
-            yield caption, (0, y, 17, y + 5), "left"
+def _roles(rows: Sequence[str]) -> Iterator[Caption]:
+    """Yield the captions of the rows of signatures; the free row has none."""
+    for y, role in zip(range(0, 5 * len(rows), 5), rows, strict=True):
+        if role != "extra":
+            yield role, (0, y, 17, y + 5), "left"
 
 
 def _rows(*levels: float) -> tuple[Bounds, ...]:
@@ -102,14 +103,7 @@ def _small_cells(y0: float, y1: float) -> tuple[Bounds, ...]:
     return tuple((x, y0, x + 5, y1) for x in (135.0, 140.0, 145.0))
 
 
-_HANDS_1 = (
-    ("approver", "Утв."),
-    ("norm_control", "Н.контр."),
-    ("extra", ""),
-    ("t_control", "Т.контр."),
-    ("checker", "Пров."),
-    ("author", "Разраб."),
-)
+_HANDS_1 = ("approver", "norm_control", "extra", "t_control", "checker", "author")
 _LETTERS_1, _LETTERS_2 = _small_cells(20, 35), _small_cells(15, 20)
 
 FORM_1 = Form(
@@ -137,11 +131,11 @@ FORM_1 = Form(
     captions=(
         *_header(30),
         *_roles(_HANDS_1),
-        ("Лит.", (135, 35, 150, 40), "centre"),
-        ("Масса", (150, 35, 167, 40), "centre"),
-        ("Масштаб", (167, 35, 185, 40), "centre"),
-        ("Лист", (135, 15, 146, 20), "left"),
-        ("Листов", (155, 15, 171, 20), "left"),
+        ("letter", (135, 35, 150, 40), "centre"),
+        ("mass", (150, 35, 167, 40), "centre"),
+        ("scale", (167, 35, 185, 40), "centre"),
+        ("sheet", (135, 15, 146, 20), "left"),
+        ("sheets", (155, 15, 171, 20), "left"),
     ),
     cells=MappingProxyType(
         {
@@ -160,7 +154,7 @@ FORM_1 = Form(
 )
 """Form 1: every sheet of a drawing (185x55 mm)."""
 
-_HANDS_2 = tuple(row for row in _HANDS_1 if row[0] != "t_control")
+_HANDS_2 = tuple(role for role in _HANDS_1 if role != "t_control")
 
 FORM_2 = Form(
     name="2",
@@ -184,9 +178,9 @@ FORM_2 = Form(
     captions=(
         *_header(25),
         *_roles(_HANDS_2),
-        ("Лит.", (135, 20, 150, 25), "centre"),
-        ("Лист", (150, 20, 165, 25), "centre"),
-        ("Листов", (165, 20, 185, 25), "centre"),
+        ("letter", (135, 20, 150, 25), "centre"),
+        ("sheet", (150, 20, 165, 25), "centre"),
+        ("sheets", (165, 20, 185, 25), "centre"),
     ),
     cells=MappingProxyType(
         {
@@ -217,7 +211,7 @@ FORM_2A = Form(
         (175, 8, 185, 8),
     ),
     thin=_rows(10),
-    captions=(*_header(0), ("Лист", (175, 8, 185, 15), "centre")),
+    captions=(*_header(0), ("sheet", (175, 8, 185, 15), "centre")),
     cells=MappingProxyType(
         {
             "designation": Cell((65, 0, 175, 15), 7.0),

@@ -13,6 +13,8 @@ from math import radians
 from types import MappingProxyType
 from typing import NamedTuple
 
+from planmethod.note.wording import language
+from planmethod.note.wording.frame_model import FrameWording
 from planmethod.paper import (
     FORMATS,
     FRAME_LEFT,
@@ -90,19 +92,20 @@ def sheet_frame(
     """
     paper = paper_format(paper) if isinstance(paper, str) else paper
     check_fields(fields)
+    words = language(furniture.lang).frame
     room = furniture.room(paper, sheet)
     edge = rectangle((0.0, 0.0, paper.width, paper.height), Pen.THIN, "edge")
     items: list[Item] = [edge, rectangle(room.inner, Pen.FRAME, "frame")]
     corner = complex(room.stamp[0], room.stamp[1])
-    items += shifted(title_block(fields, furniture.form_of(sheet)), corner)
+    items += shifted(title_block(fields, furniture.form_of(sheet), lang=furniture.lang), corner)
     turn = 90.0 if paper.stands and paper.size != "A4" else 180.0
     for number, box in furniture.graphs(paper, sheet).items():
         items.append(rectangle(box, Pen.FRAME, STAMP))
         if number == "26" and fields.get("designation"):
             items += _turned_into(str(fields["designation"]), Cell(box, 7.0), turn, STAMP)
     if furniture.side_columns:
-        items += _side_columns(paper, fields, first=furniture.is_first(sheet))
-    items += _under_the_frame(paper)
+        items += _side_columns(paper, fields, words, first=furniture.is_first(sheet))
+    items += _under_the_frame(paper, words)
     return Frame(items, room.inner, room.stamp, room.taken)
 
 
@@ -110,31 +113,33 @@ def sheet_frame(
 
 _CAPTION_COLUMN, _VALUE_COLUMN = (8.0, 13.0), (13.0, 20.0)
 
-# GOST 2.104, graphs 19 to 23 from the bottom up, 24 and 25 from the top down: caption, length of
-# the cell and the field that goes beside the caption.
+# GOST 2.104, graphs 19 to 23 from the bottom up, 24 and 25 from the top down: caption, which is the
+# field beside it too, and length of the cell.
 _FROM_BELOW = (
-    ("Инв. № подл.", 25.0, "inventory"),
-    ("Подп. и дата", 35.0, ""),
-    ("Взам. инв. №", 25.0, "inventory_instead"),
-    ("Инв. № дубл.", 25.0, "inventory_copy"),
-    ("Подп. и дата", 35.0, ""),
+    ("inventory", 25.0),
+    ("signed", 35.0),
+    ("inventory_instead", 25.0),
+    ("inventory_copy", 25.0),
+    ("signed", 35.0),
 )
-_FROM_ABOVE = (("Перв. примен.", 60.0, "first_use"), ("Справ. №", 60.0, "reference"))
+_FROM_ABOVE = (("first_use", 60.0), ("reference", 60.0))
 
 
-def _side_columns(paper: Format, fields: Mapping[str, str], *, first: bool) -> Iterator[Item]:
+def _side_columns(
+    paper: Format, fields: Mapping[str, str], words: FrameWording, *, first: bool
+) -> Iterator[Item]:
     """Yield the cells in the binding margin; their texts read from the bottom up."""
     _, low, _, high = paper.inner
-    cells: list[tuple[str, float, float, str]] = []
-    for caption, length, key in _FROM_BELOW:
-        cells.append((caption, low, low + length, key))
+    cells: list[tuple[str, float, float]] = []
+    for key, length in _FROM_BELOW:
+        cells.append((key, low, low + length))
         low += length
-    for caption, length, key in _FROM_ABOVE if first else ():
-        cells.append((caption, high - length, high, key))
+    for key, length in _FROM_ABOVE if first else ():
+        cells.append((key, high - length, high))
         high -= length
-    for caption, bottom, top, key in cells:
+    for key, bottom, top in cells:
         for (x0, x1), text, size in (
-            (_CAPTION_COLUMN, caption, 2.5),
+            (_CAPTION_COLUMN, words.captions[key], 2.5),
             (_VALUE_COLUMN, str(fields.get(key, "")), 3.5),
         ):
             box = (x0, bottom, x1, top)
@@ -168,11 +173,11 @@ def _turned(items: Iterable[Item], about: complex, angle: float, box: Bounds) ->
             yield replace(item, points=tuple(about + turn * (p - about) for p in item.points))
 
 
-def _under_the_frame(paper: Format) -> list[Item]:
+def _under_the_frame(paper: Format, words: FrameWording) -> list[Item]:
     """Return the notes below the title block: who copied, which format (графы 31, 32)."""
     right = paper.width - FRAME_OTHER
     base = (FRAME_OTHER - 2.5) / 2
-    copied = typeset("Копировал", 2.5)
-    name = typeset(f"Формат {paper.cyrillic}", 2.5)
+    copied = typeset(words.copied, 2.5)
+    name = typeset(words.format.format(paper=paper.written(words.paper)), 2.5)
     items = copied.at(complex(right - STAMP_WIDTH + 75.0, base), tag=MARGIN_NOTE)
     return items + name.at(complex(right - 35.0, base), tag=MARGIN_NOTE)

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from planmethod.errors import LayoutError
+from planmethod.languages import LANGUAGES
 from planmethod.paper import FRAME_OTHER, Format
 from planmethod.problem.model import SheetSettings
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
@@ -67,6 +68,8 @@ class Furniture:
         Sheets of the set before the first of these.
     total : int, optional
         Sheets of the whole set; those before and these when absent.
+    lang : str
+        Language of the captions.
     """
 
     form: str = "1"
@@ -75,6 +78,7 @@ class Furniture:
     side_columns: bool = False
     before: int = 0
     total: int | None = None
+    lang: str = LANGUAGES[0]
 
     def __post_init__(self) -> None:
         """Refuse an unknown form."""
@@ -93,6 +97,7 @@ class Furniture:
             bool(settings.side_columns),
             before,
             total,
+            settings.lang or LANGUAGES[0],
         )
 
     def is_first(self, sheet: int) -> bool:

@@ -7,6 +7,8 @@ from difflib import get_close_matches
 from types import MappingProxyType
 
 from planmethod.errors import LayoutError
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
 from planmethod.render.frame.forms import FORM_1, Cell, Form
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.style import HEIGHTS
@@ -74,7 +76,10 @@ def merged(*layers: Mapping[str, str]) -> dict[str, str]:
 
 
 def title_block(
-    fields: Mapping[str, str] = MappingProxyType({}), form: Form = FORM_1
+    fields: Mapping[str, str] = MappingProxyType({}),
+    form: Form = FORM_1,
+    *,
+    lang: str = LANGUAGES[0],
 ) -> list[Item]:
     """Return the title block, its lower left corner at the origin.
 
@@ -87,6 +92,7 @@ def title_block(
         If a field is unknown.
     """
     check_fields(fields)
+    captions = language(lang).frame.captions
     values = merged({key: str(value).strip() for key, value in fields.items()})
     letters = values.get("letter", "").replace(" ", "")
     divided = len(letters) <= len(form.letters)
@@ -100,7 +106,7 @@ def title_block(
         ]
     items.append(rectangle((0.0, 0.0, form.width, form.height), Pen.FRAME, STAMP))
     for caption, box, align in form.captions:
-        items += filled(caption, Cell(box, 2.5, align))
+        items += filled(captions[caption], Cell(box, 2.5, align))
     for key, cell in form.cells.items():
         if key in values:
             items += filled(values[key], cell)

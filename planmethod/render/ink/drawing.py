@@ -157,6 +157,7 @@ class Drawing:
     """Display list of one sheet, drawn in order (чертёж), and what its views are.
 
     ``lettering`` is that in which its texts were measured: the output formats draw them in it.
+    ``is_cut_down`` tells that blocks were left out that may be, so that the others had room.
     """
 
     width: float
@@ -165,6 +166,7 @@ class Drawing:
     items: list[Item] = field(default_factory=list)
     views: list[View] = field(default_factory=list)
     lettering: OutlineLettering = field(default_factory=in_use)
+    is_cut_down: bool = False
 
     def add(self, *items: Item) -> None:
         """Append items."""

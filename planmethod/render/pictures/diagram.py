@@ -13,7 +13,7 @@ from itertools import pairwise
 from math import ceil, floor
 
 from planmethod.construct.scale import series_near
-from planmethod.note.numbers import russian, trimmed
+from planmethod.note.numbers import Notation, trimmed
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -54,10 +54,11 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Ordinates:
-    """Axis of ordinates: what stands at its arrow, and its scale, units per mm."""
+    """Axis of ordinates: what stands at its arrow, its scale, units per mm, and its numbers."""
 
     name: str
     per_mm: float
+    say: Notation
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +160,7 @@ def _ordinate_numbers(up: Ordinates, low: float, high: float, size: float) -> li
         if not k:
             continue
         y = k * step / up.per_mm
-        number = typeset(russian(trimmed(k * step, 4)), size)
+        number = typeset(up.say.number(trimmed(k * step, 4)), size)
         items.append(Stroke((complex(-_TICK, y), complex(_TICK, y)), Pen.THIN, tag=AXIS))
         items += number.at(complex(-_TICK - 1.2 - number.width, y - size / 2))
     return items

@@ -12,6 +12,7 @@ import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
+from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
@@ -180,25 +181,27 @@ def _alike(one: Stroke, two: Stroke) -> bool:
     return all(abs(p - q) < 0.02 for p, q in zip(one.points, two.points, strict=True))
 
 
-def ellipse_inscription(solution: Solution, kind: PlanKind, indices: Sequence[int]) -> list[str]:
+def ellipse_inscription(
+    solution: Solution, kind: PlanKind, indices: Sequence[int], words: Language
+) -> list[str]:
     """Return the lines that tell what the ellipses of a view are."""
-    return told_ellipses([error_ellipses(solution, kind, i) for i in indices], solution.profile)
+    shown = [error_ellipses(solution, kind, i) for i in indices]
+    return told_ellipses(shown, solution.profile, words)
 
 
-def told_ellipses(shown: Sequence[Ellipses], profile: Profile) -> list[str]:
+def told_ellipses(shown: Sequence[Ellipses], profile: Profile, words: Language) -> list[str]:
     """Return the lines that tell what some ellipses are, drawn by the hand of a profile."""
-    from planmethod.note.wording import wording
-
-    hand = wording("ru").profiles.get(profile.name, profile.name)
+    said = words.sheets
+    hand = words.note.profiles.get(profile.name, profile.name)
     if not any(view.strokes or view.too_large or view.undefined for view in shown):
-        return [f"эллипсы погрешности {SIGMAS}σ тоньше линий ({hand})"]
+        return [said.ellipses_thin.format(sigmas=SIGMAS, profile=hand)]
     enlarged = max(view.enlarged for view in shown)
-    size = f"{SIGMAS}σ, увеличены {enlarged}:1" if enlarged > 1 else f"{SIGMAS}σ"
-    lines = [f"эллипсы погрешности: {size}, {hand}"]
+    head = said.ellipses_enlarged if enlarged > 1 else said.ellipses
+    lines = [head.format(sigmas=SIGMAS, times=enlarged, profile=hand)]
     if any(view.strained for view in shown):
-        lines.append("штриховые: первый порядок неверен")
+        lines.append(said.ellipses_strained)
     if any(view.too_large for view in shown):
-        lines.append("эллипсы больше половины плана не показаны")
+        lines.append(said.ellipses_large)
     if any(view.undefined for view in shown):
-        lines.append("неопределённые эллипсы не показаны")
+        lines.append(said.ellipses_undefined)
     return lines

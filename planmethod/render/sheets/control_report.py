@@ -5,34 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from planmethod.note.wording import language
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import (
-    LANGUAGES,
     REMARKS,
-    SEVERITIES,
-    UNITS,
     Severity,
-    UnknownRemarkError,
     limit_text,
-    russian_paper,
+    paper_text,
+    unit_text,
     unlike,
 )
 from planmethod.render.control.texts import Finding
-from planmethod.render.control.words import PLACES
 from planmethod.render.sheets.controlled import Controlled
-
-_SHEET = {"ru": "лист {number} из {count}, {paper}", "en": "sheet {number} of {count}, {paper}"}
-_CLEAN = {"ru": "замечаний нет", "en": "no findings"}
-_COUNTS = {
-    "ru": "ошибок {errors}, предупреждений {warnings}",
-    "en": "errors {errors}, warnings {warnings}",
-}
-_POSITION = {"ru": ", положение {number}", "en": ", position {number}"}
-_NUMBERS = {
-    "ru": "; {value} {unit}, предел {limit} {unit}",
-    "en": "; {value} {unit}, limit {limit} {unit}",
-}
-_NEXT = {"ru": "Что делать: ", "en": "Next: "}
 
 
 def counted(sheets: Sequence[Controlled], severity: Severity) -> int:
@@ -45,38 +29,34 @@ def control_text(name: str, sheets: Sequence[Controlled], lang: str = "ru") -> s
 
     Raises
     ------
-    UnknownRemarkError
+    UnknownLanguageError
         When nobody speaks the language here.
     """
-    if lang not in LANGUAGES:
-        raise UnknownRemarkError(
-            f"No remarks in the language {lang!r}. Choose one of: {', '.join(LANGUAGES)}."
-        )
-    lines: list[str] = []
+    words, lines = language(lang).control, []
     for number, sheet in enumerate(sheets, 1):
-        paper = russian_paper(sheet.paper) if lang == "ru" else sheet.paper
-        head = _SHEET[lang].format(number=number, count=len(sheets), paper=paper)
+        paper = paper_text(sheet.paper, lang)
+        head = words.sheet.format(number=number, count=len(sheets), paper=paper)
         errors, warnings = (counted([sheet], severity) for severity in Severity)
-        told = _COUNTS[lang].format(errors=errors, warnings=warnings)
-        lines.append(f"{name}: {head}: {told if sheet.findings else _CLEAN[lang]}")
+        told = words.counts.format(errors=errors, warnings=warnings)
+        lines.append(f"{name}: {head}: {told if sheet.findings else words.clean}")
         for finding in sheet.findings:
             lines += _lines(finding, lang)
     return "\n".join(lines)
 
 
 def _lines(finding: Finding, lang: str) -> list[str]:
-    unit = UNITS[lang][REMARKS[finding.code].unit]
-    place = PLACES[lang][finding.view]
+    words, unit = language(lang).control, unit_text(REMARKS[finding.code].unit, lang)
+    place = words.views[finding.view]
     if finding.position is not None:
-        place += _POSITION[lang].format(number=finding.position)
+        place += words.position.format(number=finding.position)
     if unit:
         value = unlike(finding.value, finding.limit, lang, 2)
         limit = limit_text(finding.limit, lang)
-        place += _NUMBERS[lang].format(value=value, limit=limit, unit=unit)
+        place += words.numbers.format(value=value, limit=limit, unit=unit)
     return [
-        f"  {finding.code} {SEVERITIES[lang][finding.severity]}: {place}",
+        f"  {finding.code} {words.severities[finding.severity.value]}: {place}",
         f"    {finding.what(lang)}.",
-        f"    {_NEXT[lang]}{finding.action(lang)}",
+        f"    {words.action.format(action=finding.action(lang))}",
     ]
 
 
@@ -107,7 +87,7 @@ def _finding_record(finding: Finding, lang: str) -> dict[str, Any]:
     return {
         "code": finding.code,
         "severity": finding.severity.value,
-        "title": remark.said[lang].title,
+        "title": language(lang).control.remarks[finding.code].title,
         "what": finding.what(lang),
         "where": {
             "view": finding.view or "sheet",

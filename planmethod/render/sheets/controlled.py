@@ -15,7 +15,7 @@ from planmethod.problem.model import Convention, Problem, Scales
 from planmethod.render.control.sheet import SHORTEST, inspect
 from planmethod.render.control.texts import Finding
 from planmethod.render.frame.frame import FORMATS
-from planmethod.render.ink.drawing import Bounds, Drawing, Span, Text, View
+from planmethod.render.ink.drawing import Bounds, Drawing, Span, View
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.model import Composition
 from planmethod.render.sheets.structure import structure_sheet
@@ -166,7 +166,8 @@ class _Trial:
         if not all(_has_room(view, view.per_mm / per_mm, inner) for view in views):
             return False
         made = self._drawn(key, per_mm)
-        if made is None or len(made) != len(self.drawings) or _told(made) != _told(self.drawings):
+        # A scale is not to push out what stands beside the plans.
+        if made is None or _cut_down(made) != _cut_down(self.drawings):
             return False
         found = _spans(_views(made, finding.view)[chosen], finding)
         lengths = [span.length for span in found if span.name in names]
@@ -223,10 +224,9 @@ def _has_room(view: View, times: float, inner: Bounds) -> bool:
     return width <= inner[2] - inner[0] and height <= inner[3] - inner[1]
 
 
-def _told(drawings: Sequence[Drawing]) -> int:
-    """Return how many calculations are beside the plans: a scale is not to push them out."""
-    texts = (item for drawing in drawings for item in drawing.items if isinstance(item, Text))
-    return sum(text.text.startswith("Расчёт") for text in texts)
+def _cut_down(drawings: Sequence[Drawing]) -> list[bool]:
+    """Return of which sheets blocks were left out."""
+    return [drawing.is_cut_down for drawing in drawings]
 
 
 def _spans(views: Sequence[View], finding: Finding) -> list[Span]:

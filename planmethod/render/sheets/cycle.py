@@ -13,7 +13,8 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
 from planmethod.note.narrate.forces.formulas import link_names
 from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, half_up, russian
+from planmethod.note.numbers import MINUS, half_up
+from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
@@ -45,9 +46,6 @@ from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
-
-CHORDS = "Нагрузка известна только в положениях: между ними хорды"
-BY_PLANS, BY_LEVER = "по планам сил", "по рычагу Жуковского"
 
 WIDE, HIGH, SIDE = 0.8, 0.3, 0.45
 """Length and height of a diagram, and side of a polar diagram, as parts of the width of a text."""
@@ -125,7 +123,9 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
     width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
     statics, crank = statics_of(solution), solution.problem.drive.is_crank
-    symbol, unit = (BALANCING_MOMENT, "N·m") if crank else (BALANCING_FORCE, "N")
+    words, say = manner.words, manner.words.say
+    role, unit = (BALANCING_MOMENT, "N·m") if crank else (BALANCING_FORCE, "N")
+    symbol = say.symbol(role)
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
     reach = _range([forces.balance], _real)
     per_mm = choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
@@ -144,15 +144,15 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
         said = [_legend(manner)]
     picture = diagram_picture(
         frame.axis(forces),
-        Ordinates(f"{symbol}, {UNITS_RU[unit]}", per_mm),
+        Ordinates(f"{symbol}, {say.units[unit]}", per_mm, say),
         [curve],
         marks,
         letter_height=manner.letter,
         name="balance",
     )
-    what = "Уравновешивающий момент" if crank else "Уравновешивающая сила"
+    what = words.sheets.balance_moment if crank else words.sheets.balance_force
     lines = [_scales(manner, convention, scale, frame.scale), *said, *_chords(forces, manner)]
-    block = named(picture, manner.entry.title or f"{what} {symbol}", lines, manner)
+    block = named(picture, manner.entry.title or what.format(symbol=symbol), lines, manner)
     return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="balance", scale=scale)
 
 
@@ -162,9 +162,9 @@ def _real(value: complex) -> float:
 
 def _legend(manner: Manner) -> Block:
     """Return what the marks of the balance are."""
-    height = manner.text(manner.sizes.text)
-    parts: list[Block] = [Line(typeset("линия — точно;", height))]
-    for mark, text in ((Mark.RING, f"— {BY_PLANS};"), (Mark.CROSS, f"— {BY_LEVER}")):
+    height, said = manner.text(manner.sizes.text), manner.words.sheets
+    parts: list[Block] = [Line(typeset(said.legend_exact, height))]
+    for mark, text in ((Mark.RING, said.legend_plans), (Mark.CROSS, said.legend_lever)):
         items = tuple(mark_items(mark, 0j))
         parts.append(
             Row(
@@ -177,11 +177,12 @@ def _legend(manner: Manner) -> Block:
 
 
 def _scales(manner: Manner, convention: Convention, *scales: Scale) -> Line:
-    return _line(manner, "; ".join(scale_inscription(scale, convention) for scale in scales))
+    say = manner.words.say
+    return _line(manner, "; ".join(scale_inscription(scale, convention, say) for scale in scales))
 
 
 def _chords(forces: Cycle, manner: Manner) -> list[Block]:
-    return [] if forces.smooth else [_line(manner, CHORDS)]
+    return [] if forces.smooth else [_line(manner, manner.words.sheets.chords)]
 
 
 def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -208,13 +209,14 @@ def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner)
             curves[same] = Curve(both, curves[same].parts, curves[same].pen)
     picture = diagram_picture(
         frame.axis(forces),
-        Ordinates(f"F, {UNITS_RU['N']}", per_mm),
+        Ordinates(f"F, {manner.words.say.units['N']}", per_mm, manner.words.say),
         curves,
         letter_height=manner.letter,
         name=f"reactions {manner.entry.number}",
     )
-    whose = "группы звеньев" if len(links) > 1 else "начального звена"
-    title = f"Реакции {whose} {link_names(links)}"
+    said = manner.words.sheets
+    whose = said.reactions_of_group if len(links) > 1 else said.reactions_of_driver
+    title = whose.format(links=link_names(links))
     lines = [_scales(manner, solution.problem.scales.convention, scale, frame.scale)]
     none = [f"{_symbol(forces, k)} = 0" for k in own if k not in numbers]
     lines += [_line(manner, "; ".join(none))] if none else []
@@ -236,7 +238,7 @@ def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -
 def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
     """Return the polar diagrams of the reactions in the revolute joints, in rows."""
     forces = cycle(solution)
-    side = SIDE * manner.width(manner.sizes.column)
+    side, words = SIDE * manner.width(manner.sizes.column), manner.words
     convention = solution.problem.scales.convention
     cells: list[Block] = []
     scale = statics_of(solution).scale
@@ -245,16 +247,17 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
         scale = hodograph_scale(forces, k, side)
         symbol = _symbol(forces, k)
         lines = [
-            _line(manner, _whose(forces, group)),
-            _line(manner, scale_inscription(scale, convention)),
-            _line(manner, _largest(solution, symbol, forces.peak(k))),
+            _line(manner, _whose(forces, group, words)),
+            _line(manner, scale_inscription(scale, convention, words.say)),
+            _line(manner, _largest(solution, symbol, forces.peak(k), words)),
         ]
         picture = hodograph_picture(forces, k, scale.per_mm, manner.letter)
         cells.append(Column([picture, Column(lines, gap=2.5, align="centre")], gap=4.0,
                             align="centre"))  # fmt: skip
     step = manner.entry.per_row or 3
     rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in range(0, len(cells), step)]
-    title = Line(typeset(manner.entry.title or "Годографы реакций", manner.title), underline=True)
+    name = manner.entry.title or words.sheets.hodographs
+    title = Line(typeset(name, manner.title), underline=True)
     block = Column([title, *rows, *_chords(forces, manner)], gap=7.0, align="centre")
     return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="hodograph", scale=scale)
 
@@ -264,26 +267,28 @@ def _symbol(forces: Cycle, number: int) -> str:
     return reaction_symbol(joint.on, joint.by)
 
 
-def _whose(forces: Cycle, group: Sequence[int]) -> str:
+def _whose(forces: Cycle, group: Sequence[int], words: Language) -> str:
     """Return the reactions that a polar diagram shows, and their joints."""
     first = group[0]
     signs = ["" if k == first or not opposite(forces, first, k) else MINUS for k in group]
     symbols = [sign + _symbol(forces, k) for sign, k in zip(signs, group, strict=True)]
     joints = dict.fromkeys(point_name(forces.joints[k].joint) for k in group)
-    word = "шарнир" if len(joints) == 1 else "шарниры"
-    return f"{' = '.join(symbols)} ({word} {', '.join(joints)})"
+    told = words.sheets.of_joint if len(joints) == 1 else words.sheets.of_joints
+    return told.format(symbols=" = ".join(symbols), joints=", ".join(joints))
 
 
-def _largest(solution: Solution, symbol: str, peak: Peak) -> str:
+def _largest(solution: Solution, symbol: str, peak: Peak, words: Language) -> str:
     """Return the largest size of a reaction and the position where it is, or comes near to."""
-    drive = solution.problem.drive
+    drive, say = solution.problem.drive, words.say
     letter, _, index = symbol.partition("_")
-    head = f"{letter}_{{{index.strip('{}')} max}} = {RUSSIAN.found(peak.size)} {UNITS_RU['N']}"
+    head = f"{letter}_{{{index.strip('{}')} max}} = {say.found(peak.size)} {say.units['N']}"
     sign = "→" if peak.is_limit else "="
     if drive.is_crank:
-        degrees = russian(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
-        return f"{head} при φ_{{{drive.link}}} {sign} {degrees}°"
-    return f"{head} при s {sign} {RUSSIAN.found(peak.position)} м"
+        degrees = say.number(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
+        at = f"φ_{{{drive.link}}} {sign} {degrees}°"
+    else:
+        at = f"s {sign} {say.found(peak.position)} {say.units['m']}"
+    return words.sheets.largest_at.format(largest=head, at=at)
 
 
 # Texts -------------------------------------------------------------------------------------------
@@ -292,8 +297,9 @@ def _largest(solution: Solution, symbol: str, peak: Peak) -> str:
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" with masses and loads of all positions, and "Определить"."""
     cycle(solution)
-    asked = f"Определить за цикл: {cycle_wanted(solution)}."
-    return stated(cycle_statement(solution), asked, manner)
+    words = manner.words
+    asked = words.sheets.wanted_cycle.format(wanted=cycle_wanted(solution, words.say))
+    return stated(cycle_statement(solution, words), asked, manner)
 
 
 MAKERS: Mapping[str, Maker] = MappingProxyType(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.given import number
-from planmethod.note.numbers import UNITS_RU, alike, half_up, russian
+from planmethod.note.numbers import Notation, alike, half_up
+from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
@@ -31,39 +31,44 @@ def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) 
     height = manner.text(min(size, 3.5))
     room = manner.inside - 2 * EDGE
     width = min(max(STAMP_WIDTH, manner.width(room)), room)
-    drive = solution.problem.drive
-    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
+    drive, words, say = solution.problem.drive, manner.words, manner.words.say
+    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", say.units["m"])
     columns = [
-        TableColumn("№", tuple(str(i) for i in indices), least=8.0),
-        TableColumn(symbol, tuple(position_text(solution, i) for i in indices), unit=unit),
+        TableColumn(words.note.number, tuple(str(i) for i in indices), least=8.0),
+        TableColumn(symbol, tuple(position_text(solution, i, say) for i in indices), unit=unit),
     ]
     for k in range(len(forces.joints)):
-        columns += _reaction_columns(forces, k, indices)
-    columns += _balance_columns(solution, indices)
-    title = manner.entry.title or "Реакции и уравновешивающий момент по положениям"
+        columns += _reaction_columns(forces, k, indices, say)
+    columns += _balance_columns(solution, indices, words)
+    title = manner.entry.title or words.sheets.cycle_reactions
     table = table_block(columns, height, max_width=width, leading=2, title=title)
-    return Column([table, paragraph(_drawn_at(solution), height, table.width)], gap=3.0)
+    return Column([table, paragraph(_drawn_at(solution, words), height, table.width)], gap=3.0)
 
 
-def _drawn_at(solution: Solution) -> str:
+def _drawn_at(solution: Solution, words: Language) -> str:
     """Return at which scales the plans of all positions are drawn, and how they are read."""
     convention = solution.problem.scales.convention
     scales = [*solution.scales.values(), statics_of(solution).scale]
-    said = "; ".join(scale_inscription(scale, convention).replace(" ", NBSP) for scale in scales)
-    ruler = number(solution.hand.ruler)
-    return f"Планы сил и рычаг: {said}; отрезки сняты с точностью {ruler}{NBSP}мм."
+    told = (scale_inscription(scale, convention, words.say) for scale in scales)
+    said = "; ".join(text.replace(" ", NBSP) for text in told)
+    ruler = f"{words.say.given(solution.hand.ruler)}{NBSP}{words.say.units['mm']}"
+    return words.sheets.cycle_note.format(scales=said, ruler=ruler)
 
 
-def _reaction_columns(forces: Cycle, which: int, indices: Sequence[int]) -> list[TableColumn]:
+def _reaction_columns(
+    forces: Cycle, which: int, indices: Sequence[int], say: Notation
+) -> list[TableColumn]:
     """Return size and direction of a reaction, and of a guide its moment about the pin."""
     joint, statics = forces.joints[which], statics_of(forces.solution)
     values = [complex(joint.force[i]) for i in indices]
     nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
     sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
-    angles = ["—" if nil else angle_text(v) for v, nil in zip(values, nothing, strict=True)]
+    angles = ["—" if nil else angle_text(v, say) for v, nil in zip(values, nothing, strict=True)]
     index = reaction_symbol(joint.on, joint.by, letter="")
     columns = [
-        TableColumn(reaction_symbol(joint.on, joint.by), tuple(map(russian, sizes)), unit="Н"),
+        TableColumn(
+            reaction_symbol(joint.on, joint.by), tuple(map(say.number, sizes)), unit=say.units["N"]
+        ),
         TableColumn(f"φ{index}", tuple(angles), unit="°"),
     ]
     moments = [float(joint.moment[i]) for i in indices]
@@ -73,29 +78,31 @@ def _reaction_columns(forces: Cycle, which: int, indices: Sequence[int]) -> list
     if not all(none):
         texts = alike([0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)])
         cells = tuple(
-            Cell(russian(text), 0 if nil else (1 if m > 0 else -1))
+            Cell(say.number(text), 0 if nil else (1 if m > 0 else -1))
             for text, m, nil in zip(texts, moments, none, strict=True)
         )
-        columns.append(TableColumn(f"M{index}", cells, unit=UNITS_RU["N·m"]))
+        columns.append(TableColumn(f"M{index}", cells, unit=say.units["N·m"]))
     return columns
 
 
-def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableColumn]:
+def _balance_columns(
+    solution: Solution, indices: Sequence[int], words: Language
+) -> list[TableColumn]:
     """Return the balance: exact, by both methods, their difference and its expected size.
 
     The difference is that of the numbers which stand in the table.
     """
     statics, crank = statics_of(solution), solution.problem.drive.is_crank
-    symbol, unit = (
-        (BALANCING_MOMENT, UNITS_RU["N·m"]) if crank else (BALANCING_FORCE, UNITS_RU["N"])
-    )
+    said, say = words.sheets, words.say
+    symbol = say.symbol(BALANCING_MOMENT if crank else BALANCING_FORCE)
+    unit = say.units["N·m" if crank else "N"]
 
     def column(head: str, texts: Sequence[str], *, sense: bool) -> TableColumn:
         cells = []
         for text in texts:
             size = text.removeprefix("-") if sense else text
             turning = 0 if not float(text) else (-1 if text.startswith("-") else 1)
-            cells.append(Cell(russian(size), turning if sense else None))
+            cells.append(Cell(say.number(size), turning if sense else None))
         return TableColumn(head, tuple(cells), unit=unit)
 
     def chosen(values: Reals) -> list[float]:
@@ -110,8 +117,8 @@ def _balance_columns(solution: Solution, indices: Sequence[int]) -> list[TableCo
     decimals = max(len(text.partition(".")[2]) for text in both)
     apart = [float(two) - float(one) for one, two in zip(plans, lever, strict=True)]
     differences = [f"{half_up(value, decimals) + 0.0:.{decimals}f}" for value in apart]
-    columns.append(column("планы сил", plans, sense=crank))
-    columns.append(column("рычаг", lever, sense=crank))
+    columns.append(column(said.cycle_plans, plans, sense=crank))
+    columns.append(column(said.cycle_lever, lever, sense=crank))
     columns.append(column("Δ", differences, sense=False))
     columns.append(column("σ_{Δ}", alike(chosen(sigma), 2), sense=False))
     return columns

@@ -20,8 +20,9 @@ from planmethod.note.narrate.forces.lever_lines import lever_lines
 from planmethod.note.narrate.forces.moment_lines import moment_lines
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.narrate.letters import direction_text
+from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import wording
+from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import ForcePlan, Share
 from planmethod.plans.model import Known, PlanKind
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
@@ -47,9 +48,6 @@ from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscript
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
-NOT_TO_SCALE = "Стрелки сил на схемах не в масштабе"
-APART = "Векторы на одной прямой разнесены"
-
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 
 
@@ -66,6 +64,7 @@ class PlanViewed(Viewed):
 
     reading: ForceReading
     number: int
+    say: Notation
 
     def view(self, items: Sequence[Item], corner: complex) -> View:
         """Return what is told of the plan whose items were placed at a corner."""
@@ -82,7 +81,7 @@ class PlanViewed(Viewed):
             reading.scale.per_mm,
             tuple(
                 Span(
-                    plain_text(edge.symbol),
+                    plain_text(self.say.symbol(edge.symbol)),
                     reading.index if len(self.solution.positions) > 1 else None,
                     shift + reading.end(edge.tail),
                     shift + reading.end(edge.head),
@@ -103,7 +102,8 @@ def _scheme(
 ) -> Scaled:
     solution, kind = reading.solution, PlanKind.POSITION
     scale = solution.scales[kind]
-    told = [scale_inscription(scale, solution.problem.scales.convention), *said]
+    say = manner.words.say
+    told = [scale_inscription(scale, solution.problem.scales.convention, say), *said]
     block = _named(picture, title, told, manner)
     return Scaled(block, solution, kind, (reading.index,), kind.value, scale)
 
@@ -111,20 +111,22 @@ def _scheme(
 def loads_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
     """Return the scheme with all loads."""
     reading = _reading(solution, indices, manner)
-    title = manner.entry.title or "Схема нагружения механизма"
-    return _scheme(reading, loads_picture(reading, manner.letter), title, manner, NOT_TO_SCALE)
+    said, picture = manner.words.sheets, loads_picture(reading, manner.letter, manner.words.say)
+    return _scheme(reading, picture, manner.entry.title or said.loads, manner, said.not_to_scale)
 
 
 def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
     """Return a structural group, or the driver, cut free with all that acts on it."""
     reading, number = _reading(solution, indices, manner), manner.entry.number
-    title = plan_title(reading, reading.plans[number])
-    picture: Block = cut_picture(reading, number, manner.letter)
-    inner = inner_picture(reading, number, manner.letter)
+    words = manner.words
+    title = plan_title(reading, reading.plans[number], words)
+    picture: Block = cut_picture(reading, number, manner.letter, words.say)
+    inner = inner_picture(reading, number, manner.letter, words.say)
     if inner is not None:
         link, apart_from = inner
-        said = Line(typeset(f"Звено {link}", manner.text(manner.sizes.text)))
-        beside = Column([apart_from, said], gap=3.0, align="centre")
+        said = words.sheets.cut_link.format(link=link)
+        below = Line(typeset(said, manner.text(manner.sizes.text)))
+        beside = Column([apart_from, below], gap=3.0, align="centre")
         picture = Row([picture, beside], gap=10.0, align="centre")
     return _scheme(reading, picture, title, manner)
 
@@ -132,33 +134,36 @@ def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> View
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return a force plan; of forces that are all nothing its name alone."""
     reading, number = _reading(solution, indices, manner), manner.entry.number
-    links = link_names(reading.plans[number].links)
-    whose = "группы звеньев" if len(reading.plans[number].links) > 1 else "звена"
-    title = f"План сил {whose} {links}"
+    links, words = reading.plans[number].links, manner.words
+    whose = words.sheets.plan_of_group if len(links) > 1 else words.sheets.plan_of_link
+    title = whose.format(links=link_names(links))
     if not drawn_edges(reading, number):
-        return heading(f"{title} не строится", manner.text(manner.sizes.text))
-    said = [scale_inscription(reading.scale, solution.problem.scales.convention)]
+        none = words.sheets.plan_none.format(title=title)
+        return heading(none, manner.text(manner.sizes.text))
+    said = [scale_inscription(reading.scale, solution.problem.scales.convention, words.say)]
     if any(apart(reading, number)):
-        said.append(APART)
+        said.append(words.sheets.apart)
     ellipses = vertex_ellipses(reading, number) if manner.extras.errors else NO_ELLIPSES
-    said += told_ellipses([ellipses], solution.profile) if manner.extras.errors else []
-    picture = polygon_picture(reading, number, manner.letter, ellipses)
+    said += told_ellipses([ellipses], solution.profile, words) if manner.extras.errors else []
+    picture = polygon_picture(reading, number, manner.letter, words.say, ellipses)
     block = _named(picture, title, said, manner)
-    return PlanViewed(block, solution, PlanKind.POSITION, (reading.index,), reading, number)
+    indices = (reading.index,)
+    return PlanViewed(block, solution, PlanKind.POSITION, indices, reading, number, words.say)
 
 
 def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the Zhukovsky lever; of a driver that stands there is none."""
     reading = _reading(solution, indices, manner)
-    title = manner.entry.title or "Рычаг Жуковского"
+    words = manner.words
+    title = manner.entry.title or words.sheets.lever
     if reading.statics.hung is None:
         return heading(title, manner.title, underline=True)  # why not is told beside it
     scale = solution.own_scale(PlanKind.VELOCITY, reading.index)
     said = [
-        "План скоростей повёрнут на 90° против часовой стрелки",
-        scale_inscription(scale, solution.problem.scales.convention),
+        words.sheets.lever_turned,
+        scale_inscription(scale, solution.problem.scales.convention, words.say),
     ]
-    block = _named(lever_picture(reading, manner.letter), title, said, manner)
+    block = _named(lever_picture(reading, manner.letter, words.say), title, said, manner)
     kind = PlanKind.VELOCITY
     return Scaled(block, solution, kind, (reading.index,), kind.value, scale)
 
@@ -169,21 +174,22 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" with masses and loads, "Определить", and the computed loads."""
     reading = _reading(solution, indices, manner)
-    loads, words = load_lines(reading), wording("ru")
+    words, said = manner.words, manner.words.sheets
+    loads = load_lines(reading, words.say)
     return stated(
-        statement(reading),
-        f"Определить: {wanted(reading)}.",
+        statement(reading, words),
+        said.wanted.format(wanted=wanted(reading, words.say)),
         manner,
-        *([f"Силы тяжести и инерции: {unbroken(loads)}."] if loads else []),
-        *shift_lines(reading.statics, words),
-        *kept_lines(reading.statics, words),
+        *([said.computed_loads.format(loads=unbroken(loads))] if loads else []),
+        *shift_lines(reading.statics, words.note),
+        *kept_lines(reading.statics, words.note),
     )
 
 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the equations of a force plan: moments with arms, forces, what the plan gives."""
     reading = _reading(solution, indices, manner)
-    plan = reading.plans[manner.entry.number]
+    plan, say = reading.plans[manner.entry.number], manner.words.say
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     before = [one for one in plan.moments if one.force is not None]
     after = [one for one in plan.moments if one.force is None]
@@ -191,38 +197,41 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         [
             formula_block(line, height, width=width)
             for one in some
-            for line in moment_lines(reading, one)
+            for line in moment_lines(reading, one, say)
         ]
         for some in (before, after)
     ]
     balances: list[Block] = []
     for balance in plan.balances:
         terms = [
-            (edge.symbol, edge.known, direction_text(edge.direction))
+            (say.symbol(edge.symbol), edge.known, direction_text(edge.direction))
             for edge in balance.edges
             if edge.known is not Known.BOTH or not reading.is_none(edge)
         ]
         head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
         balances.append(balance_block(head, terms, height, width=width))
-    found = paragraph(_closing(reading, plan), height, width=width)
+    found = paragraph(_closing(reading, plan, manner.words), height, width=width)
     blocks = [*moments[0], *balances, found, *moments[1]]
-    blocks += [formula_block(line, height, width=width) for line in place_lines(reading, plan)]
+    blocks += [formula_block(line, height, width=width) for line in place_lines(reading, plan, say)]
     return Column(blocks, gap=3.0)
 
 
-def _closing(reading: ForceReading, plan: ForcePlan) -> str:
+def _closing(reading: ForceReading, plan: ForcePlan, words: Language) -> str:
     """Return what a force plan gives; of one whose forces are all nothing, that there is none."""
     if drawn_edges(reading, reading.plans.index(plan)):
-        return f"Из плана сил: {unbroken(closing_lines(reading, plan))}."
-    zeros = " = ".join(edge.symbol for edge in plan.reactions if edge.share is Share.WHOLE)
-    return f"Все силы равны нулю, план не строится: {zeros} = 0."
+        found = unbroken(closing_lines(reading, plan, words.say))
+        return words.sheets.from_plan.format(found=found)
+    wholes = (edge for edge in plan.reactions if edge.share is Share.WHOLE)
+    zeros = " = ".join(words.say.symbol(edge.symbol) for edge in wholes)
+    return words.sheets.all_zero.format(zeros=zeros)
 
 
 def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the equation of the lever, and how far it is from the force plans."""
     reading = _reading(solution, indices, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    lines = [formula_block(line, height, width=width) for line in lever_lines(reading)]
+    told = lever_lines(reading, manner.words)
+    lines = [formula_block(line, height, width=width) for line in told]
     title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
     return Column([*title, *lines], gap=3.0)
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import RUSSIAN, alike, russian, significant
+from planmethod.note.numbers import Notation, alike
+from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.layout.block import Block
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
@@ -13,16 +14,15 @@ from planmethod.render.symbols import angle_of
 from planmethod.solved.forces.guides import Guided, guides
 from planmethod.solved.forces.reading import ForceReading
 
-_TITLE = "Реакции на краях ползунов"
 _NONE = "—"
 
 
-def angle_text(force: complex) -> str:
+def angle_text(force: complex, say: Notation) -> str:
     """Return the angle of a force from +x, degrees in [0, 360)."""
-    return russian(f"{round(angle_of(force), 1) % 360.0 + 0.0:.1f}")
+    return say.number(f"{round(angle_of(force), 1) % 360.0 + 0.0:.1f}")
 
 
-def place_columns(reading: ForceReading) -> list[TableColumn]:
+def place_columns(reading: ForceReading, say: Notation) -> list[TableColumn]:
     """Return the distance l of each reaction from its joint, m; the moment of one without a force.
 
     There are cells for all reactions in their order, and no columns where nothing stands in them.
@@ -31,9 +31,13 @@ def place_columns(reading: ForceReading) -> list[TableColumn]:
     found = [guided_at(reading, number) for number in numbers]
     columns = []
     if any(one is not None and one.b is not None for one in found):
-        columns.append(TableColumn("l_{ij}, м", tuple(map(_distance, found))))
+        columns.append(
+            TableColumn(f"l_{{ij}}, {say.units['m']}", tuple(_distance(one, say) for one in found))
+        )
     if any(is_couple(one) for one in found):
-        columns.append(TableColumn("M_{ij}, Н·м", tuple(map(_moment, found))))
+        columns.append(
+            TableColumn(f"M_{{ij}}, {say.units['N·m']}", tuple(_moment(one, say) for one in found))
+        )
     return columns
 
 
@@ -44,10 +48,10 @@ def guided_at(reading: ForceReading, number: int) -> Guided | None:
     return one if one is not None and one.number == number else None
 
 
-def _distance(one: Guided | None) -> str:
+def _distance(one: Guided | None, say: Notation) -> str:
     if one is None or one.b is None:
         return _NONE
-    return russian(significant(abs(one.b))) if one.b else "0"
+    return say.found(abs(one.b)) if one.b else "0"
 
 
 def is_couple(one: Guided | None) -> bool:
@@ -55,30 +59,36 @@ def is_couple(one: Guided | None) -> bool:
     return one is not None and one.is_none and not one.is_no_couple
 
 
-def _moment(one: Guided | None) -> Cell:
+def _moment(one: Guided | None, say: Notation) -> Cell:
     if one is None or not is_couple(one):
         return Cell(_NONE)
     moment = float(one.contact.joint.moment[one.reading.index])
-    return Cell(russian(significant(abs(moment))), 1 if moment > 0 else -1)
+    return Cell(say.found(abs(moment)), 1 if moment > 0 else -1)
 
 
-def edges_table(reading: ForceReading, height: float, width: float) -> Block | None:
+def edges_table(
+    reading: ForceReading, height: float, width: float, words: Language
+) -> Block | None:
     """Return the table of the reactions at the edges of sliders; None where there are none."""
     found = [guided_at(reading, number) for number in reading.statics.contacts]
     bearing = [one for one in found if one is not None and one.edges]
     if not bearing:
         return None
     pairs = tuple(f"{point_name(one.contact.joint.joint)} ({one.on}–{one.by})" for one in bearing)
-    lengths = tuple(RUSSIAN.short(one.contact.length or 0.0) for one in bearing)
-    columns = [TableColumn("Пара", pairs), TableColumn("a_{ij}, м", lengths)]
+    said, say = words.sheets, words.say
+    lengths = tuple(say.short(one.contact.length or 0.0) for one in bearing)
+    columns = [
+        TableColumn(said.joint, pairs),
+        TableColumn(f"a_{{ij}}, {say.units['m']}", lengths),
+    ]
     for number, primes in enumerate(("'", "''")):
-        columns += _edge_columns(primes, [one.edges[number].force for one in bearing])
-    return table_block(columns, height, width=width, units="none", title=_TITLE)
+        columns += _edge_columns(primes, [one.edges[number].force for one in bearing], say)
+    return table_block(columns, height, width=width, units="none", title=said.reactions_edges)
 
 
-def _edge_columns(primes: str, forces: Sequence[complex]) -> list[TableColumn]:
-    sizes = tuple(map(russian, alike([abs(force) for force in forces])))
+def _edge_columns(primes: str, forces: Sequence[complex], say: Notation) -> list[TableColumn]:
+    sizes = tuple(map(say.number, alike([abs(force) for force in forces])))
     return [
-        TableColumn(f"F^{{{primes}}}_{{ij}}, Н", sizes),
-        TableColumn(f"φ^{{{primes}}}_{{ij}}, °", tuple(map(angle_text, forces))),
+        TableColumn(f"F^{{{primes}}}_{{ij}}, {say.units['N']}", sizes),
+        TableColumn(f"φ^{{{primes}}}_{{ij}}, °", tuple(angle_text(force, say) for force in forces)),
     ]

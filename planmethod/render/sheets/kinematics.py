@@ -9,6 +9,8 @@ from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
 from planmethod.paper import Format
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame.frame import paper_format, sheet_frame
@@ -100,6 +102,7 @@ def _drawn(
         drawing.extend(sheet_frame(fmt, told, furniture, sheet=number).items)
         drawing.extend(page.items)
         drawing.views.extend(page.views)
+        drawing.is_cut_down, *_ = page.tried
         sheets.append(drawing)
     return sheets
 
@@ -117,7 +120,7 @@ def kinematics_sheets(
     sigma: bool = False,
     layout: str | Path | Composition | None = None,
 ) -> list[Drawing]:
-    """Draw the kinematic analysis: one sheet for each dozen of positions.
+    """Draw the kinematic analysis in the language of ``problem.sheet``, a dozen positions a sheet.
 
     Parameters
     ----------
@@ -156,11 +159,12 @@ def kinematics_sheets(
         )
     if layout is None:
         layout = "one-position" if len(asked) == 1 else "many-positions"
-    made = layout if isinstance(layout, Composition) else composition(layout)
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    made = layout if isinstance(layout, Composition) else composition(layout, words.lang)
     _check_positions(made, len(asked))
     paper = paper or problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)
-    extras = Extras(errors, sigma)
+    extras = Extras(words, errors, sigma)
     papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
     task = _Task(problem, made, tuple(asked), ruler, profile, extras)
     with using(lettering(problem.sheet.lettering or "B")):

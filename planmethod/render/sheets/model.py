@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.solved.scaling import AS_HIGH, Box, Views
@@ -149,8 +150,12 @@ class Composition:
 
 @dataclass(frozen=True, slots=True)
 class Extras:
-    """What a sheet shows of the drafting errors: ellipses around points, sigmas in the table."""
+    """What is asked of all blocks of a sheet: its language, and what it shows of drafting errors.
 
+    ``errors`` are ellipses around points, ``sigma`` stands in the tables.
+    """
+
+    words: Language
     errors: bool = False
     sigma: bool = False
 
@@ -166,8 +171,13 @@ class Manner:
     entry: Entry
     sizes: Sizes
     inside: float
-    extras: Extras = Extras()
+    extras: Extras
     level: int = 0
+
+    @property
+    def words(self) -> Language:
+        """Language of the sheet."""
+        return self.extras.words
 
     @property
     def letter(self) -> float:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.numbers import russian
+from planmethod.note.numbers import Notation
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
 from planmethod.note.tables.sigmas import DRAWN, marked
+from planmethod.note.wording import Language
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.tables import Cell, TableColumn
 from planmethod.render.sheets.guides import guided_at, is_couple
@@ -25,18 +26,18 @@ from planmethod.solved.forces.reading import ForceReading
 NO_ERROR = "—"
 
 
-def sigma_cell(reading: ForceReading, label: str | None) -> str:
+def sigma_cell(reading: ForceReading, label: str | None, say: Notation) -> str:
     """Return the error of a quantity in the position, with its mark; a dash of none."""
     if label is None or label not in drawn_forces(reading.statics).items:
         return NO_ERROR
     sigma, mark = marked(drawn_forces(reading.statics), label, reading.index)
-    return russian(sigma_text(sigma)) + mark
+    return say.number(sigma_text(sigma)) + mark
 
 
-def read_text(reading: ForceReading, label: str) -> str:
+def read_text(reading: ForceReading, label: str, say: Notation) -> str:
     """Return what was read on the drawing, to the place of its error, without its sign."""
     sigma, _ = marked(drawn_forces(reading.statics), label, reading.index)
-    return russian(rounded_to(abs(read_value(reading, label)), sigma))
+    return say.number(rounded_to(abs(read_value(reading, label)), sigma))
 
 
 def read_value(reading: ForceReading, label: str) -> float:
@@ -53,57 +54,66 @@ def sizes_as_long(reading: ForceReading, texts: Sequence[str]) -> list[str]:
     ]
 
 
-def size_columns(reading: ForceReading) -> list[TableColumn]:
+def size_columns(reading: ForceReading, words: Language) -> list[TableColumn]:
     """Return the columns of what was read of the sizes of the reactions, and of its errors."""
     labels = [size_label(one) for one in reading.statics.reactions]
+    say, unit = words.say, words.say.units["N"]
     return [
-        TableColumn("снято, Н", tuple(read_text(reading, label) for label in labels)),
-        TableColumn("±σ, Н", tuple(sigma_cell(reading, label) for label in labels)),
+        TableColumn(
+            f"{words.sheets.read}, {unit}", tuple(read_text(reading, one, say) for one in labels)
+        ),
+        TableColumn(f"±σ, {unit}", tuple(sigma_cell(reading, one, say) for one in labels)),
     ]
 
 
-def angle_column(reading: ForceReading, none: Sequence[bool]) -> TableColumn:
+def angle_column(reading: ForceReading, none: Sequence[bool], say: Notation) -> TableColumn:
     """Return the column of the errors of the directions; ``none`` tells which have no direction."""
     pairs = zip(reading.statics.reactions, none, strict=True)
     labels = [None if nil else angle_label(one) for one, nil in pairs]
-    return TableColumn("±σ, °", tuple(sigma_cell(reading, label) for label in labels))
+    return TableColumn("±σ, °", tuple(sigma_cell(reading, label, say) for label in labels))
 
 
-def moment_column(reading: ForceReading) -> TableColumn:
+def moment_column(reading: ForceReading, say: Notation) -> TableColumn:
     """Return the column of the errors of the moments that stand in the table: without a force."""
     found = [guided_at(reading, k) for k in range(len(reading.statics.reactions))]
     pairs = zip(reading.statics.reactions, found, strict=True)
     labels = [moment_label(one) if is_couple(guided) else None for one, guided in pairs]
-    return TableColumn("±σ, Н·м", tuple(sigma_cell(reading, label) for label in labels))
+    unit = say.units["N·m"]
+    return TableColumn(f"±σ, {unit}", tuple(sigma_cell(reading, label, say) for label in labels))
 
 
-def balance_columns(reading: ForceReading, columns: Sequence[TableColumn]) -> list[TableColumn]:
+def balance_columns(
+    reading: ForceReading, columns: Sequence[TableColumn], words: Language
+) -> list[TableColumn]:
     """Return the table of the balances with a row of errors.
 
     ``columns``: exact, by the force plans, by the lever, and the discrepancy in per cent of the
     force plans, in which its error is, too.
     """
+    say = words.say
     exact, plans, lever, share = columns
-    found = [_with_error(reading, *pair) for pair in ((plans, BALANCE), (lever, LEVER))]
+    found = [_with_error(reading, *pair, say) for pair in ((plans, BALANCE), (lever, LEVER))]
     off = NO_ERROR
     if share.cells[0].text != NO_ERROR:
         sigma, mark = marked(drawn_forces(reading.statics), DIFFERENCE, reading.index)
         part = 100.0 * sigma / abs(read_value(reading, BALANCE))
-        off = russian(sigma_text(part)) + mark
+        off = say.number(sigma_text(part)) + mark
     return [
-        TableColumn("", ("значение", "±σ")),
+        TableColumn("", (words.sheets.value, "±σ")),
         TableColumn(exact.head, (exact.cells[0], _like(exact, NO_ERROR))),
         *found,
         TableColumn(share.head, (share.cells[0], off)),
     ]
 
 
-def _with_error(reading: ForceReading, column: TableColumn, label: str) -> TableColumn:
+def _with_error(
+    reading: ForceReading, column: TableColumn, label: str, say: Notation
+) -> TableColumn:
     """Return the column of a balance to the place of its error, and the error."""
     value = column.cells[0]
     if label in drawn_forces(reading.statics).items:
-        value = Cell(read_text(reading, label), value.sense)
-    return TableColumn(column.head, (value, _like(column, sigma_cell(reading, label))))
+        value = Cell(read_text(reading, label, say), value.sense)
+    return TableColumn(column.head, (value, _like(column, sigma_cell(reading, label, say))))
 
 
 def _like(column: TableColumn, text: str) -> Cell:
@@ -112,12 +122,15 @@ def _like(column: TableColumn, text: str) -> Cell:
 
 
 def with_note(
-    reading: ForceReading, tables: Column, columns: Sequence[TableColumn], height: float
+    reading: ForceReading,
+    tables: Column,
+    columns: Sequence[TableColumn],
+    height: float,
+    words: Language,
 ) -> Block:
     """Return tables and what the errors in their columns are."""
     cells = (cell.text for column in columns for cell in column.cells)
-    draws = (
-        drawn_forces(reading.statics).draws if any(text.endswith(DRAWN) for text in cells) else None
-    )
-    told = errors_text(reading.solution.profile.name, draws)
+    drawn = any(text.endswith(DRAWN) for text in cells)
+    draws = drawn_forces(reading.statics).draws if drawn else None
+    told = errors_text(reading.solution.profile.name, draws, words)
     return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from planmethod.note.narrate.forces.lever_lines import both_balances, difference
 from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import RUSSIAN, UNITS_RU, alike, russian
+from planmethod.note.numbers import alike
+from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column
@@ -26,8 +27,6 @@ from planmethod.render.sheets.views import shown_position
 from planmethod.solved.forces.reading import NOTHING, ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
-EXACT = " (точные значения)"
-
 
 def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the table of reactions, and the balancing moment by both methods."""
@@ -40,41 +39,43 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     sizes = [abs(complex(one.force[index])) for one in reactions]
     none = [size <= NOTHING * reading.peak for size in sizes]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
-    sigma = manner.extras.sigma
+    sigma, words = manner.extras.sigma, manner.words
+    said, say = words.sheets, words.say
     shown = sizes_as_long(reading, shown) if sigma else shown
-    angles = [angle_text(complex(one.force[index])) for one in reactions]
+    angles = [angle_text(complex(one.force[index]), say) for one in reactions]
     columns = [
         TableColumn(
-            "Пара", tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
+            said.joint, tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
         ),
         TableColumn("F_{ij}", tuple(reaction_symbol(one.on, one.by) for one in reactions)),
-        TableColumn("F_{ij}, Н", tuple(map(russian, shown))),
-        *(size_columns(reading) if sigma else []),
+        TableColumn(f"F_{{ij}}, {say.units['N']}", tuple(map(say.number, shown))),
+        *(size_columns(reading, words) if sigma else []),
         TableColumn(
             "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
         ),
-        *([angle_column(reading, none)] if sigma else []),
+        *([angle_column(reading, none, say)] if sigma else []),
     ]
-    places = place_columns(reading)
+    places = place_columns(reading, say)
     if sigma and any(column.head.startswith("M_") for column in places):
-        places.append(moment_column(reading))
+        places.append(moment_column(reading, say))
     columns += places
-    title = manner.entry.title or ("Реакции в кинематических парах" + ("" if sigma else EXACT))
+    title = manner.entry.title or (said.reactions if sigma else said.reactions_exact)
     table = table_block(columns, height, width=width, units="none", title=title)
-    edges = edges_table(reading, height, width)
+    edges = edges_table(reading, height, width, words)
     further = [] if edges is None else [edges]
-    balances = _balances(reading)
+    balances = _balances(reading, words)
     if sigma:
-        balances = balance_columns(reading, balances)
+        balances = balance_columns(reading, balances, words)
     below = table_block(balances, height, width=width, units="none")
     tables = Column([table, *further, below], gap=4.0)
-    return with_note(reading, tables, [*columns, *balances], height) if sigma else tables
+    return with_note(reading, tables, [*columns, *balances], height, words) if sigma else tables
 
 
-def _balances(reading: ForceReading) -> list[TableColumn]:
+def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
     """Return the columns of what balances the driver, by both methods."""
-    symbol = reading.balancing_symbol
-    unit = UNITS_RU["N·m" if reading.statics.driving.force is None else "N"]
+    said, say = words.sheets, words.say
+    symbol = say.symbol(reading.balancing_symbol)
+    unit = say.units["N·m" if reading.statics.driving.force is None else "N"]
     exact = float(reading.statics.balance[reading.index])
     plans, lever = both_balances(reading)
     share = difference(reading)
@@ -83,13 +84,11 @@ def _balances(reading: ForceReading) -> list[TableColumn]:
     def cell(value: float | None) -> Cell:
         if value is None:
             return Cell("—")
-        return Cell(
-            RUSSIAN.found(abs(value)), (1 if value > 0 else -1) if sense and value else None
-        )
+        return Cell(say.found(abs(value)), (1 if value > 0 else -1) if sense and value else None)
 
     return [
         TableColumn(f"{symbol}, {unit}", (cell(exact),)),
-        TableColumn("по планам сил", (cell(plans),)),
-        TableColumn("по рычагу", (cell(lever),)),
-        TableColumn("расхождение, %", (Cell("—" if share is None else russian(f"{share:.1f}")),)),
+        TableColumn(said.by_plans, (cell(plans),)),
+        TableColumn(said.by_lever, (cell(lever),)),
+        TableColumn(said.difference, (Cell("—" if share is None else say.number(f"{share:.1f}")),)),
     ]

@@ -6,10 +6,11 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from planmethod.note.narrate.given import asked_links, asked_points, number, solution_peak
-from planmethod.note.numbers import UNITS_RU, alike, is_nothing, russian
+from planmethod.note.narrate.given import asked_links, asked_points, solution_peak
+from planmethod.note.numbers import Notation, alike, is_nothing
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
 from planmethod.note.tables.sigmas import DRAWN, label_of, marked
+from planmethod.note.wording import Language
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
@@ -20,32 +21,35 @@ from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
-def position_text(solution: Solution, index: int) -> str:
+def position_text(solution: Solution, index: int, say: Notation) -> str:
     """Return a driver position as the sheet writes it: an angle within one turn, two decimals."""
     value = float(solution.positions[index])
     if not solution.problem.drive.is_crank:
-        return number(value)
-    return number(round(value % 360.0, 2) % 360.0)
+        return say.given(value)
+    return say.given(round(value % 360.0, 2) % 360.0)
 
 
 def _sense(value: float) -> int:
     return 0 if value == 0 else (1 if value > 0 else -1)
 
 
-def _sigma_rows(solution: Solution, symbol: str, name: str, index: int) -> tuple[Cell, Cell]:
+def _sigma_rows(
+    solution: Solution, symbol: str, name: str, index: int, say: Notation
+) -> tuple[Cell, Cell]:
     """Return what was read on the drawing, to the place of its error, and the error."""
     read = float(solution.read_off(label_of(symbol, name))[index])
     sigma, mark = marked(drafting_of(solution), label_of(symbol, name), index)
     turns = symbol in "ωε"
     return (
-        Cell(russian(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
-        Cell(russian(sigma_text(sigma)) + mark, 0 if turns else None),
+        Cell(say.number(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
+        Cell(say.number(sigma_text(sigma)) + mark, 0 if turns else None),
     )
 
 
 def result_columns(
     solution: Solution,
     indices: Sequence[int],
+    words: Language,
     *,
     sigma: bool = False,
     kinds: Collection[str] = (),
@@ -56,7 +60,7 @@ def result_columns(
     With ``sigma`` a single position has rows for what was read and for its error, and the values
     of many have their errors beside them.
     """
-    alone = len(solution.positions) == 1
+    alone, said, say = len(solution.positions) == 1, words.sheets, words.say
 
     def column(symbol: str, name: str, unit: str, numbers: Reals) -> TableColumn:
         peak = solution_peak(solution, symbol)
@@ -69,13 +73,13 @@ def result_columns(
             errors = [marked(drafting_of(solution), label_of(symbol, name), i) for i in indices]
         cells = []
         for text, value, (error, mark) in zip(texts, shown, errors, strict=True):
-            written = russian(as_long(text, abs(value), error))
+            written = say.number(as_long(text, abs(value), error))
             if error and not alone:
-                written += f" ± {russian(sigma_text(error))}{mark}"
+                written += f" ± {say.number(sigma_text(error))}{mark}"
             cells.append(Cell(written, _sense(value) if turns else None))
         if sigma and alone:
-            cells += _sigma_rows(solution, symbol, name, indices[0])
-        return TableColumn(f"{symbol}_{{{name}}}", tuple(cells), unit=UNITS_RU[unit])
+            cells += _sigma_rows(solution, symbol, name, indices[0], say)
+        return TableColumn(f"{symbol}_{{{name}}}", tuple(cells), unit=say.units[unit])
 
     points, links = asked_points(solution), asked_links(solution)
     motions = [solution.points[name] for name in points]
@@ -91,13 +95,15 @@ def result_columns(
             pairs = zip(names, values, strict=True)
             columns += [column(symbol, name, unit, numbers) for name, numbers in pairs]
     if sigma and alone:
-        columns.insert(0, TableColumn("", ("точно", "снято", "±σ")))
+        columns.insert(0, TableColumn("", (said.exact, said.read, "±σ")))
     if not alone:
         drive = solution.problem.drive
-        symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", "м")
-        asked = tuple(Cell(position_text(solution, i)) for i in indices)
+        symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", say.units["m"])
+        asked = tuple(Cell(position_text(solution, i, say)) for i in indices)
         columns.insert(0, TableColumn(symbol, asked, unit=unit))
-        columns.insert(0, TableColumn("№", tuple(Cell(str(i)) for i in indices), least=8.0))
+        columns.insert(
+            0, TableColumn(words.note.number, tuple(Cell(str(i)) for i in indices), least=8.0)
+        )
     return columns
 
 
@@ -108,10 +114,11 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
     height = manner.text(size if len(indices) == 1 else min(size, 3.5))
     room = manner.inside - 2 * EDGE
     width = min(max(STAMP_WIDTH, manner.width(room)), room)
-    title = "Результаты (точные значения)"
+    words, said = manner.words, manner.words.sheets
+    title = said.results_exact
     if sigma:
-        title = "Результаты" if alone else "Результаты (точные значения ± погрешность построения σ)"
-    columns = result_columns(solution, indices, sigma=sigma, kinds=manner.entry.columns)
+        title = said.results if alone else said.results_sigma
+    columns = result_columns(solution, indices, words, sigma=sigma, kinds=manner.entry.columns)
     table = table_block(
         columns,
         height,
@@ -123,14 +130,12 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
         return table
     cells = (cell for column in columns for cell in column.cells)
     drawn = any(cell.text.endswith(DRAWN) for cell in cells)
-    told = errors_text(solution.profile.name, drafting_of(solution).draws if drawn else None)
+    told = errors_text(solution.profile.name, drafting_of(solution).draws if drawn else None, words)
     return Column([table, paragraph(told, min(height, 3.5), table.width)], gap=3.0)
 
 
-def errors_text(profile: str, draws: int | None) -> str:
+def errors_text(profile: str, draws: int | None, words: Language) -> str:
     """Return what the errors of a table are; of how many sheets some are that have the mark."""
-    from planmethod.note.wording import wording
-
-    words = wording("ru")
-    said = f"±σ — погрешность построения (СКО), {words.profiles.get(profile, profile)}."
-    return said if draws is None else f"{said} {words.drawn_note.format(count=draws)}"
+    note = words.note
+    said = words.sheets.sigma_note.format(profile=note.profiles.get(profile, profile))
+    return said if draws is None else f"{said} {note.drawn_note.format(count=draws)}"

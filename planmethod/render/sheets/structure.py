@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from math import ceil
 
 from planmethod.errors import LayoutError
-from planmethod.mechanism.model import Mechanism
+from planmethod.languages import LANGUAGES
 from planmethod.mechanism.structure import Structure
+from planmethod.note.wording import Language, language
 from planmethod.problem.model import Problem
 from planmethod.render.frame.clearance import is_clear
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
@@ -32,8 +33,6 @@ from planmethod.render.sheets.structure_texts import (
     link_columns,
     pair_columns,
 )
-
-TITLE = "Структурный анализ механизма"
 
 PAPERS = ("A3", "A2", "A1")
 """Formats tried in turn when none is asked for."""
@@ -119,7 +118,8 @@ def structure_sheet(
     LayoutError
         When everything fits no format, or not the asked one.
     """
-    texts = merged(problem.stamp, {"title": TITLE}, fields or {})
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    texts = merged(problem.stamp, {"title": words.structure.title}, fields or {})
     paper = paper or problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)
     names = (paper_format(paper).name,) if paper else PAPERS
@@ -128,7 +128,7 @@ def structure_sheet(
             fmt = paper_format(name)
             items = sheet_frame(fmt, texts, furniture).items
             manner = MANNERS.get(fmt.like, MANNERS["A1"])
-            placed = _compose(problem, structure, manner, furniture.room(fmt))
+            placed = _compose(problem, structure, manner, furniture.room(fmt), words)
             if placed is not None:
                 shown, views = placed
                 return Drawing(fmt.width, fmt.height, texts["title"], [*items, *shown], views)
@@ -141,7 +141,7 @@ def structure_sheet(
 
 
 def _compose(
-    problem: Problem, structure: Structure, manner: Manner, room: Room
+    problem: Problem, structure: Structure, manner: Manner, room: Room, words: Language
 ) -> tuple[list[Item], list[View]] | None:
     """Return the items inside the frame and the view, or None when they do not fit.
 
@@ -160,12 +160,14 @@ def _compose(
                 return block, top
         return None
 
-    told = begun(lambda top: _told(problem, structure, manner, manner.column, top - low), right)
+    told = begun(
+        lambda top: _told(problem, structure, manner, manner.column, top - low, words), right
+    )
     if told is None:
         return None
     width = right - EDGE - GAP - left
     shown = begun(
-        lambda top: _shown(problem, structure, manner, width, top - inner[1] - EDGE), left
+        lambda top: _shown(problem, structure, manner, width, top - inner[1] - EDGE, words), left
     )
     if shown is None:
         return None
@@ -179,14 +181,21 @@ def _compose(
 
 
 def _told(
-    problem: Problem, structure: Structure, manner: Manner, width: float, height: float
+    problem: Problem,
+    structure: Structure,
+    manner: Manner,
+    width: float,
+    height: float,
+    words: Language,
 ) -> Block | None:
     """Return tables and formulas, in rows as high as the room allows."""
+    mechanism, said = problem.mechanism, words.structure
     for row in manner.rows:
+        lines = formulas(mechanism, structure, words)
         blocks = [
-            _table(pair_columns(problem.mechanism), "Кинематические пары", manner, width, row),
-            _table(link_columns(problem.mechanism), "Звенья механизма", manner, width, row),
-            _formulas(problem.mechanism, structure, manner, width, 0.55 * row),
+            _table(pair_columns(mechanism, words), said.pairs, manner, width, row),
+            _table(link_columns(mechanism, words), said.links, manner, width, row),
+            _formulas(lines, manner, width, 0.55 * row, said.formulas),
         ]
         spare = height - sum(block.height for block in blocks)
         if spare >= GAP * (len(blocks) - 1):
@@ -205,27 +214,28 @@ def _title(text: str, manner: Manner) -> Block:
     return Line(typeset(text, manner.title))
 
 
-def _formulas(
-    mechanism: Mechanism, structure: Structure, manner: Manner, width: float, gap: float
-) -> Block:
-    lines: list[Block] = [_title("Структурные формулы", manner)]
-    lines += [
-        formula_block(line, manner.text, width=width) for line in formulas(mechanism, structure)
-    ]
-    return Column(lines, gap=gap)
+def _formulas(lines: Iterable[str], manner: Manner, width: float, gap: float, title: str) -> Block:
+    blocks: list[Block] = [_title(title, manner)]
+    blocks += [formula_block(line, manner.text, width=width) for line in lines]
+    return Column(blocks, gap=gap)
 
 
 # The left column: scheme and groups ------------------------------------------------------------
 
 
 def _shown(
-    problem: Problem, structure: Structure, manner: Manner, width: float, height: float
+    problem: Problem,
+    structure: Structure,
+    manner: Manner,
+    width: float,
+    height: float,
+    words: Language,
 ) -> Block | None:
     """Return the scheme and the grid of groups, which fill the column together."""
     mechanism = problem.mechanism
     sense = -1 if problem.drive.rate < 0 else 1
-    head = _title("Структурная схема механизма", manner)
-    below = _title("Первичный механизм и структурные группы", manner)
+    head = _title(words.structure.scheme, manner)
+    below = _title(words.structure.parts, manner)
     count = 1 + len(structure.groups)
     most = max(1, int((width + GAP) / (manner.cell + GAP)))
     rows = ceil(count / min(most, count))
@@ -248,8 +258,8 @@ def _shown(
             )
             for group in structure.groups
         ]
-        told: list[Block] = [_caption(driver_caption(mechanism), manner, cell)]
-        told += [_caption(group_caption(group), manner, cell) for group in structure.groups]
+        told: list[Block] = [_caption(driver_caption(mechanism, words), manner, cell)]
+        told += [_caption(group_caption(group, words), manner, cell) for group in structure.groups]
         grid = _grid(pictures, told, across, cell)
         room = height - head.height - below.height - grid.height - 3 * GAP
         share = LEAST_SHARE if tall == manner.views[-1] else GOOD_SHARE

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from planmethod.note.narrate.calculation import calculation
 from planmethod.note.narrate.given import given, wanted
-from planmethod.plans.model import PlanKind
 from planmethod.render.layout.block import Block, Column, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
 from planmethod.render.sheets.model import Manner
@@ -15,23 +14,17 @@ from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
 
-TITLES = {
-    PlanKind.VELOCITY: ("Уравнения скоростей", "Расчёт скоростей"),
-    PlanKind.ACCELERATION: ("Уравнения ускорений", "Расчёт ускорений"),
-}
-"""Headings of the equations and of the calculation of a plan."""
-
 
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return "Дано" and "Определить"."""
-    facts = given(solution.problem, list(solution.positions))
-    return stated(facts, f"Определить: {wanted(solution)}.", manner)
+    facts = given(solution.problem, manner.words, list(solution.positions))
+    return stated(facts, manner.words.sheets.wanted.format(wanted=wanted(solution)), manner)
 
 
 def stated(facts: Sequence[str], asked: str, manner: Manner, *more: str) -> Column:
     """Return "Дано" with its facts, what is asked, and further paragraphs."""
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    texts = [f"Дано: {unbroken(facts)}.", asked, *more]
+    texts = [manner.words.note.given.format(given=unbroken(facts)), asked, *more]
     lines: list[Block] = [paragraph(text, height, width=width) for text in texts]
     if manner.entry.title:
         lines.insert(0, heading(manner.entry.title, height, width=width))
@@ -50,7 +43,9 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     plan = solution.construction.plan(kind)
     size = manner.text(manner.sizes.text)
     height, width = max(3.5, min(5.0, size)), manner.width(manner.sizes.column)
-    blocks: list[Block] = [heading(manner.entry.title or TITLES[kind][0], size)]
+    blocks: list[Block] = [
+        heading(manner.entry.title or manner.words.sheets.equations[kind.value], size)
+    ]
     blocks += [equation_block(e, height, width=width) for e in plan.equations]
     return Column(blocks, gap=4.0)
 
@@ -61,10 +56,11 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
     assert kind is not None
     index = shown_position(solution, indices, manner)
     height = manner.text(min(3.5, manner.sizes.text))
-    title = manner.entry.title or TITLES[kind][1]
+    said = manner.words.sheets
+    title = manner.entry.title or said.calculation[kind.value]
     if len(solution.positions) > 1:
-        title += f" (положение {index})"
-    lines = calculation(solution, kind, index)
+        title = said.of_position.format(title=title, number=index)
+    lines = calculation(solution, kind, index, manner.words)
     return Column([heading(title, height), *(formula_block(x, height) for x in lines)], gap=2.2)
 
 

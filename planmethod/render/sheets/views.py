@@ -6,9 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from planmethod.construct.scale import Scale
-from planmethod.note.narrate.given import number
 from planmethod.note.narrate.letters import shown_letters
-from planmethod.note.numbers import UNITS_RU, is_nothing
+from planmethod.note.numbers import Notation, is_nothing
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
@@ -23,13 +22,6 @@ from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.solved.solution import Solution
 
-TITLES = {
-    PlanKind.POSITION: ("План положения механизма", "Планы положений механизма"),
-    PlanKind.VELOCITY: ("План скоростей", "Планы скоростей"),
-    PlanKind.ACCELERATION: ("План ускорений", "Планы ускорений"),
-}
-"""Names of views: of one position, of many."""
-
 PER_ROW = {2: 2, 3: 3, 4: 4, 5: 5}
 """Plans in a row by their number; of more there are six."""
 
@@ -37,14 +29,14 @@ CAPTION = 3.5
 """Height of the letters of one of many plans, and of its caption, mm."""
 
 
-def scale_inscription(scale: Scale, convention: Convention) -> str:
+def scale_inscription(scale: Scale, convention: Convention, say: Notation) -> str:
     """Return the inscription under a view: ``μ_v = 0,05 (м/с)/мм`` or ``μ_v = 20 мм/(м/с)``."""
     letter = scale.symbol.removeprefix("mu_")
-    unit = UNITS_RU[scale.unit]
+    unit, mm = say.units[scale.unit], say.units["mm"]
     grouped = f"({unit})" if "/" in unit or "·" in unit else unit
     if convention is Convention.MM_PER_UNIT:
-        return f"μ_{{{letter}}} = {number(1.0 / scale.per_mm)} мм/{grouped}"
-    return f"μ_{{{letter}}} = {number(scale.per_mm)} {grouped}/мм"
+        return f"μ_{{{letter}}} = {say.given(1.0 / scale.per_mm)} {mm}/{grouped}"
+    return f"μ_{{{letter}}} = {say.given(scale.per_mm)} {grouped}/{mm}"
 
 
 @dataclass(frozen=True)
@@ -154,7 +146,8 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
     if manner.entry.position is not None:
         indices = (manner.entry.position,)
     if len(solution.positions) > 1:
-        picture = plan_grid(solution, kind, indices, per_row=manner.entry.per_row, errors=errors)
+        step, say = manner.entry.per_row, manner.words.say
+        picture = plan_grid(solution, kind, indices, say, per_row=step, errors=errors)
     else:
         picture = plan_picture(
             solution, kind, indices[0], letter_height=manner.letter, errors=errors
@@ -187,10 +180,12 @@ def named_view(
     ellipses: Sequence[int],
 ) -> Viewed:
     """Return a picture with its name and scale; ``ellipses`` are the positions that have them."""
-    one, many = TITLES[kind]
+    words = manner.words
+    one, many = words.sheets.views[kind.value]
     title = manner.entry.title or (one if _is_alone(solution, kind, manner) else many)
-    said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention)]
-    said += ellipse_inscription(solution, kind, ellipses) if manner.extras.errors else []
+    convention = solution.problem.scales.convention
+    said = [scale_inscription(solution.scales[kind], convention, words.say)]
+    said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
     height = manner.text(manner.sizes.text)
     block = named(picture, title, [Line(typeset(text, height)) for text in said], manner)
     return Viewed(block, solution, kind, tuple(indices))
@@ -206,6 +201,7 @@ def plan_grid(
     solution: Solution,
     kind: PlanKind,
     indices: Sequence[int],
+    say: Notation,
     *,
     per_row: int | None = None,
     errors: bool = False,
@@ -215,12 +211,13 @@ def plan_grid(
     cells: list[Block] = []
     convention = solution.problem.scales.convention
     for i in indices:
-        value = position_text(solution, i)
-        said = f"{i}: φ_{{{drive.link}}} = {value}°" if drive.is_crank else f"{i}: s = {value} м"
+        value = position_text(solution, i, say)
+        name, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", f" {say.units['m']}")
+        said = f"{i}: {name} = {value}{unit}"
         own = solution.own_scale(kind, i)
         caption: Block = Line(typeset(said, CAPTION))
         if own != solution.scales[kind]:
-            scale = Line(typeset(scale_inscription(own, convention), CAPTION))
+            scale = Line(typeset(scale_inscription(own, convention, say), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
         picture = plan_picture(solution, kind, i, letter_height=CAPTION, errors=errors)
         cells.append(Column([picture, caption], gap=3.0, align="centre"))

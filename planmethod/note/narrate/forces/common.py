@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 import numpy as np
 
+from planmethod.note import wording
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
-from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import given, plain_text
-from planmethod.note.wording import force_wording
 from planmethod.plans.forces.polygons import Edge
 from planmethod.solved.forces.reading import ForceReading
 
 QUARTERS = {0.0: "way_right", 90.0: "way_up", 180.0: "way_left", 270.0: "way_down"}
-_BALANCING = re.compile(r"((?<=M_)\{|(?<=F_)\{|(?<=h_)\{F)ур\}")
 STRAIGHT = 1e-6
 """Degrees by which a way is off the vertical or the horizontal that is told as such."""
 
@@ -28,8 +25,8 @@ class Telling:
         self.reading, self.solution, self.say = reading, reading.solution, say
         self.names: Names = say.names
         self.words = say.words
-        self.said = force_wording(say.words)
-        self.notation = Notation(say.words.decimal, say.words.units)
+        language = wording.language(say.words.lang)
+        self.said, self.notation = language.forces, language.say
 
     def sense(self, value: float) -> str:
         """Return the sense of a moment."""
@@ -39,13 +36,9 @@ class Telling:
         """Return the exact value in brackets."""
         return self.say.exactly(abs(value))
 
-    def called(self, rich: str) -> str:
-        """Return rich text with the index of the balancing moment and force in the language."""
-        return _BALANCING.sub(rf"\1{self.said.balancing}}}", rich)
-
     def plain(self, rich: str) -> str:
-        """Return rich text of the force analysis as plain."""
-        return plain_text(self.called(rich))
+        """Return rich text of the force analysis, or a symbol, as plain."""
+        return plain_text(self.notation.symbol(rich))
 
     def found(self, value: float) -> str:
         """Return a computed number."""

@@ -9,8 +9,9 @@ from __future__ import annotations
 import re
 
 from planmethod.note.narrate.forces.resultants import shift_symbol
-from planmethod.note.narrate.given import given, number
-from planmethod.note.numbers import MINUS, RUSSIAN, UNITS_RU, Notation
+from planmethod.note.narrate.given import given
+from planmethod.note.numbers import MINUS, Notation
+from planmethod.note.wording import Language
 from planmethod.plans.forces.board import Given
 from planmethod.plans.forces.loads import Applied, LoadKind, Shift
 from planmethod.plans.forces.polygons import Edge, ForcePlan, reaction_symbol
@@ -34,43 +35,45 @@ def link_names(links: tuple[str, ...]) -> str:
     return "–".join(links)
 
 
-def plan_title(reading: ForceReading, plan: ForcePlan) -> str:
+def plan_title(reading: ForceReading, plan: ForcePlan, words: Language) -> str:
     """Return what is cut free: ``Группа звеньев 4–5``, ``Начальное звено 1``."""
-    if plan.links == (reading.solution.problem.drive.link,):
-        return f"Начальное звено {plan.links[0]}"
-    return f"Группа звеньев {link_names(plan.links)}"
+    is_driver = plan.links == (reading.solution.problem.drive.link,)
+    title = words.sheets.cut_driver if is_driver else words.sheets.cut_group
+    return title.format(links=link_names(plan.links))
 
 
 # Given -------------------------------------------------------------------------------------------
 
 
-def statement(reading: ForceReading) -> list[str]:
+def statement(reading: ForceReading, words: Language) -> list[str]:
     """Return what is given: the mechanism, masses, moments of inertia, external loads."""
-    problem, index = reading.solution.problem, reading.index
+    problem, index, say = reading.solution.problem, reading.index, words.say
     dynamics = problem.dynamics
     assert dynamics is not None
-    lines = given(problem, [float(reading.solution.positions[index])])
-    lines += mass_lines(dynamics)
+    lines = given(problem, words, [float(reading.solution.positions[index])])
+    lines += mass_lines(dynamics, say)
     for contact in reading.statics.contacts.values():
         if contact.length is not None:
             letter = reaction_symbol(contact.joint.on, contact.joint.by, letter="a")
-            lines.append(f"{letter} = {number(contact.length)} м")
+            lines.append(f"{letter} = {say.given(contact.length)} {say.units['m']}")
     for one in _external(reading):
         size = abs(complex(one.force[index])) if one.point else abs(float(one.couple[index]))
         if size:
-            unit = RUSSIAN.units["N" if one.point else "N·m"]
-            lines.append(f"{one.name} = {RUSSIAN.short(size)} {unit}")
+            unit = say.units["N" if one.point else "N·m"]
+            lines.append(f"{one.name} = {say.short(size)} {unit}")
     return lines
 
 
-def mass_lines(dynamics: Dynamics) -> list[str]:
+def mass_lines(dynamics: Dynamics, say: Notation) -> list[str]:
     """Return the masses, the moments of inertia and the acceleration of free fall."""
-    masses = dynamics.masses.items()
-    lines = [f"m_{{{link}}} = {number(mass.mass)} кг" for link, mass in masses if mass.mass]
+    masses, units = dynamics.masses.items(), say.units
+    lines = [
+        f"m_{{{link}}} = {say.given(mass.mass)} {units['kg']}" for link, mass in masses if mass.mass
+    ]
     for link, mass in masses:
         if mass.inertia:
-            lines.append(f"J_{{S{link}}} = {RUSSIAN.short(mass.inertia)} кг·м^{{2}}")
-    return [*lines, f"g = {number(dynamics.gravity)} {UNITS_RU['m/s²']}"]
+            lines.append(f"J_{{S{link}}} = {say.short(mass.inertia)} {units['kg·m²']}")
+    return [*lines, f"g = {say.given(dynamics.gravity)} {units['m/s²']}"]
 
 
 def _external(reading: ForceReading) -> list[Applied]:
@@ -78,7 +81,7 @@ def _external(reading: ForceReading) -> list[Applied]:
     return [one for one in loads if one.kind is LoadKind.EXTERNAL]
 
 
-def wanted(reading: ForceReading) -> str:
+def wanted(reading: ForceReading, say: Notation) -> str:
     """Return what is to be found, as one line of symbols."""
     statics = reading.statics
     symbols = [reaction_symbol(joint.on, joint.by) for joint in statics.reactions]
@@ -87,10 +90,10 @@ def wanted(reading: ForceReading) -> str:
         is_none = abs(statics.reactions[k].force[reading.index]) <= NOTHING * reading.peak
         letter = "M" if is_none else "l"
         symbols.append(reaction_symbol(contact.joint.on, contact.joint.by, letter=letter))
-    return ", ".join([*symbols, reading.balancing_symbol])
+    return ", ".join([*symbols, say.symbol(reading.balancing_symbol)])
 
 
-def load_lines(reading: ForceReading) -> list[str]:
+def load_lines(reading: ForceReading, say: Notation) -> list[str]:
     """Return the weights and the inertia forces and couples with their formulas.
 
     A force of inertia that stands for its couple as well has the couple and its shift beside it.
@@ -100,16 +103,14 @@ def load_lines(reading: ForceReading) -> list[str]:
         one = load.applied
         if one.kind is LoadKind.EXTERNAL or not (one.force[index] or one.couple[index]):
             continue
-        lines.append(load_formula(reading, one, abs(reading.read_load(load))))
+        lines.append(load_formula(reading, one, abs(reading.read_load(load)), say))
         shift = board.shifts.get(one.link) if one.kind is LoadKind.INERTIA else None
         if shift is not None and shift.moment.couple[index]:
-            lines += shift_formulas(reading, load, shift)
+            lines += shift_formulas(reading, load, shift, say)
     return lines
 
 
-def shift_formulas(
-    reading: ForceReading, force: Given, shift: Shift, say: Notation = RUSSIAN
-) -> list[str]:
+def shift_formulas(reading: ForceReading, force: Given, shift: Shift, say: Notation) -> list[str]:
     """Return the couple that a shifted force of inertia stands for, and the shift, by the hand."""
     size, moment = abs(reading.read_load(force)), abs(reading.read_number(shift.couple))
     head = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.applied.name}"
@@ -119,7 +120,7 @@ def shift_formulas(
     return [load_formula(reading, shift.moment, moment, say), told]
 
 
-def load_formula(reading: ForceReading, one: Applied, size: float, say: Notation = RUSSIAN) -> str:
+def load_formula(reading: ForceReading, one: Applied, size: float, say: Notation) -> str:
     """Return a weight, an inertia force or couple with its formula; ``size`` as the hand has it."""
     dynamics = reading.solution.problem.dynamics
     assert dynamics is not None
@@ -152,23 +153,24 @@ def signed_sum(terms: list[tuple[float, str]]) -> str:
 # Found -------------------------------------------------------------------------------------------
 
 
-def closing_lines(reading: ForceReading, plan: ForcePlan) -> list[str]:
+def closing_lines(reading: ForceReading, plan: ForcePlan, say: Notation) -> list[str]:
     """Return what the force plan of some links gives: segments in mm, forces in N."""
-    return [closing_formula(reading, edge) for edge in plan.reactions]
+    return [closing_formula(reading, edge, say) for edge in plan.reactions]
 
 
-def closing_formula(reading: ForceReading, edge: Edge, say: Notation = RUSSIAN) -> str:
+def closing_formula(reading: ForceReading, edge: Edge, say: Notation) -> str:
     """Return a force read off its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
+    symbol = say.symbol(edge.symbol)
     if reading.is_none(edge):
-        return f"{edge.symbol} = 0"
+        return f"{symbol} = 0"
     length = reading.length(edge)
     if not length:
-        return f"{edge.symbol} ≈ 0"
+        return f"{symbol} ≈ 0"
     size = f"{say.found(length * reading.scale.per_mm)} {say.units['N']}"
-    return f"{edge.symbol} = {scaled(say.ruled(length), reading, say)} = {size}"
+    return f"{symbol} = {scaled(say.ruled(length), reading, say)} = {size}"
 
 
-def scaled(segment: str, reading: ForceReading, say: Notation = RUSSIAN) -> str:
+def scaled(segment: str, reading: ForceReading, say: Notation) -> str:
     """Return a segment of a force plan times the scale, or over it: ``70,0/0,01``."""
     scale = reading.scale.per_mm
     if reading.solution.problem.scales.convention is Convention.MM_PER_UNIT:

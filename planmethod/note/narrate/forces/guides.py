@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from planmethod.note.numbers import RUSSIAN, Notation
+from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.solved.forces.guides import Guided, guide_of
 from planmethod.solved.forces.reading import ForceReading
 
 
-def place_lines(reading: ForceReading, plan: ForcePlan, say: Notation = RUSSIAN) -> list[str]:
+def place_lines(reading: ForceReading, plan: ForcePlan, say: Notation) -> list[str]:
     """Return how far from its joint each guide's reaction acts, by the hand's numbers.
 
     Of a force at the edges of its slider also what acts there.
@@ -25,7 +25,7 @@ def _is_read(guided: Guided) -> bool:
     return not guided.is_none and guided.read_force > 0
 
 
-def edge_lines(guided: Guided, say: Notation = RUSSIAN) -> list[str]:
+def edge_lines(guided: Guided, say: Notation) -> list[str]:
     """Return what acts at the edges of a slider that does not reach as far as the resultant."""
     if not _is_read(guided):
         return _pair(guided, say)

@@ -136,7 +136,8 @@ class LeverVoice:
         if not self.is_force and value:
             end = self.said.directed.format(sense=self.telling.sense(value))
         size = self.telling.notation.found(abs(value))
-        result = f"{symbol} = {self._numbers()} = {size} {unit}"
+        letters = self.telling.notation.symbol(symbol)
+        result = f"{letters} = {self._numbers()} = {size} {unit}"
         equation = lever_equation(self.lever, self.telling.notation)
         return [f"{self.telling.plain(equation)},", f"{self.telling.plain(result)}{exact}{end}"]
 

@@ -8,16 +8,14 @@ import numpy as np
 
 from planmethod.note.narrate.forces.formulas import arm_symbol, signed_sum
 from planmethod.note.narrate.letters import shown_letters
-from planmethod.note.numbers import RUSSIAN, Notation
+from planmethod.note.numbers import Notation
 from planmethod.note.rounding import sigma_text
+from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.lever import HungShift, LeverReading, OnLink
 from planmethod.solved.forces.reading import ForceReading
-
-STANDS = "Начальное звено неподвижно: рычаг не строится."
-NO_WORK = "Нагрузки работы не совершают: {symbol} = 0."
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,36 +44,39 @@ def difference(reading: ForceReading) -> float | None:
     return None if balances is None else balances.share(reading.index)
 
 
-def lever_unit(reading: ForceReading, say: Notation = RUSSIAN) -> str:
+def lever_unit(reading: ForceReading, say: Notation) -> str:
     """Return the unit of what balances the driving link."""
     return say.units["N·m" if reading.statics.driving.force is None else "N"]
 
 
-def lever_lines(reading: ForceReading) -> list[str]:
+def lever_lines(reading: ForceReading, words: Language) -> list[str]:
     """Return the moments about the pole, the arms, what balances them, and the discrepancy."""
+    said, say = words.sheets, words.say
     if reading.statics.hung is None:
-        return [STANDS]
-    lever, symbol = LeverReading(reading), reading.balancing_symbol
-    unit, found = lever_unit(reading), RUSSIAN.found
+        return [said.lever_stands]
+    lever, symbol = LeverReading(reading), say.symbol(reading.balancing_symbol)
+    unit, found = lever_unit(reading, say), say.found
     if not lever.forces and not lever.couples:
-        return [NO_WORK.format(symbol=symbol)]
-    lines = [lever_equation(lever)]
-    arms = lever_arms(lever)
+        return [said.lever_no_work.format(symbol=symbol)]
+    lines = [lever_equation(lever, say)]
+    arms = lever_arms(lever, say)
     if arms:
-        lines.append(f"{'; '.join(arms)} {RUSSIAN.units['mm']}")
+        lines.append(f"{'; '.join(arms)} {say.units['mm']}")
     on_links = (*lever.couples, *lever.shifts)
-    lines += [text for text in dict.fromkeys(pair(lever, one).segment for one in on_links) if text]
-    lines += [shift_text(lever, one) for one in lever.shifts]
+    segments = (pair(lever, one, say).segment for one in on_links)
+    lines += [text for text in dict.fromkeys(segments) if text]
+    lines += [shift_text(lever, one, say) for one in lever.shifts]
     plans, value = both_balances(reading)
     assert value is not None
-    lines.append(f"{symbol} = {found(abs(value))} {unit}; по планам сил {found(abs(plans))} {unit}")
+    both = {"lever": f"{found(abs(value))} {unit}", "plans": f"{found(abs(plans))} {unit}"}
+    lines.append(said.lever_found.format(symbol=symbol, **both))
     share = difference(reading)
     if share is not None:
-        lines.append(f"Расхождение {RUSSIAN.number(f'{share:.1f}')} %")
+        lines.append(said.lever_difference.format(share=say.number(f"{share:.1f}")))
         sigma = expected(reading)
         if sigma is not None:
-            off = RUSSIAN.number(sigma_text(sigma))
-            lines.append(f"Ожидаемое СКО расхождения σ = {off} {unit}")
+            off = f"{say.number(sigma_text(sigma))} {unit}"
+            lines.append(said.lever_expected.format(sigma=off))
     return lines
 
 
@@ -87,21 +88,27 @@ def expected(reading: ForceReading) -> float | None:
     return float(sigma[reading.index])
 
 
-def lever_equation(lever: LeverReading, say: Notation = RUSSIAN) -> str:
+def lever_equation(lever: LeverReading, say: Notation) -> str:
     """Return the sum of the moments about the pole in letters, each with its sign."""
-    terms = [(one.arm, f"{one.symbol}·{arm_symbol(one.symbol)}") for one in lever.forces if one.arm]
-    terms += [(c.lever_moment, f"{c.symbol}·{pair(lever, c, say).letters}") for c in lever.couples]
+    forces = [(one.arm, say.symbol(one.symbol)) for one in lever.forces if one.arm]
+    terms = [(arm, f"{symbol}·{arm_symbol(symbol)}") for arm, symbol in forces]
+    terms += [
+        (one.lever_moment, f"{say.symbol(one.symbol)}·{pair(lever, one, say).letters}")
+        for one in lever.couples
+    ]
     return f"ΣM_{{p}} = {signed_sum(terms)} = 0"
 
 
-def lever_arms(lever: LeverReading, say: Notation = RUSSIAN) -> list[str]:
+def lever_arms(lever: LeverReading, say: Notation) -> list[str]:
     """Return the arms of the forces that have one, mm."""
     return [
-        f"{arm_symbol(one.symbol)} = {say.ruled(abs(one.arm))}" for one in lever.forces if one.arm
+        f"{arm_symbol(say.symbol(one.symbol))} = {say.ruled(abs(one.arm))}"
+        for one in lever.forces
+        if one.arm
     ]
 
 
-def pair(lever: LeverReading, one: OnLink, say: Notation = RUSSIAN) -> PairText:
+def pair(lever: LeverReading, one: OnLink, say: Notation) -> PairText:
     """Return a couple, or what else goes with ω, by the ends of its link's segment on the lever."""
     ends = _letters(lever, one)
     if ends is None or one.joints is None:
@@ -115,7 +122,7 @@ def pair(lever: LeverReading, one: OnLink, say: Notation = RUSSIAN) -> PairText:
     return PairText(f"{letters}/{length}", f"{segment}/{link}", told)
 
 
-def shift_text(lever: LeverReading, one: HungShift, say: Notation = RUSSIAN) -> str:
+def shift_text(lever: LeverReading, one: HungShift, say: Notation) -> str:
     """Return how far the point of a shifted force is from the centre of mass on the lever."""
     told = pair(lever, one, say)
     formula = f"{one.symbol}·{told.letters} = {say.found(one.shift)}·{told.numbers}"

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from planmethod.note.narrate.forces.formulas import arm_symbol, signed_sum
 from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import MINUS, RUSSIAN, Notation
+from planmethod.note.numbers import MINUS, Notation
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
@@ -43,22 +43,22 @@ class MomentText:
     value: float = 0.0
 
 
-def plan_moments(reading: ForceReading, plan: ForcePlan) -> list[str]:
+def plan_moments(reading: ForceReading, plan: ForcePlan, say: Notation) -> list[str]:
     """Return the lines of all equations of moments of a plan."""
-    return [line for equation in plan.moments for line in moment_lines(reading, equation)]
+    return [line for equation in plan.moments for line in moment_lines(reading, equation, say)]
 
 
-def moment_lines(reading: ForceReading, equation: Moments) -> list[str]:
+def moment_lines(reading: ForceReading, equation: Moments, say: Notation) -> list[str]:
     """Return an equation of moments, its arms, and what it gives; nothing where all is zero."""
-    told = moment_text(reading, equation)
+    told = moment_text(reading, equation, say)
     if told is None:
         return []
-    arms = f"{'; '.join(told.arms)} мм"
+    arms = f"{'; '.join(told.arms)} {say.units['mm']}"
     return [told.equation, *([arms] if told.arms else []), *([told.result] if told.result else [])]
 
 
 def moment_text(
-    reading: ForceReading, equation: Moments, say: Notation = RUSSIAN, head: str = ""
+    reading: ForceReading, equation: Moments, say: Notation, head: str = ""
 ) -> MomentText | None:
     """Return an equation of moments told; None where there is no couple to be found.
 
@@ -81,7 +81,7 @@ def moment_text(
     if nothing and terms.are_none:
         return None
     value = 0.0 if nothing else reading.read_number(equation.couple.moment)
-    return terms.told(head, equation.couple.symbol, value, say.units["N·m"])
+    return terms.told(head, say.symbol(equation.couple.symbol), value, say.units["N·m"])
 
 
 def _force_found(
@@ -143,7 +143,8 @@ class _Terms:
     def couple(self, couple: CoupleOn) -> None:
         """Add a couple."""
         if not self.reading.is_no_couple(couple):
-            self.couples.append((couple.symbol, self.reading.read_number(couple.moment)))
+            moment = self.reading.read_number(couple.moment)
+            self.couples.append((self.say.symbol(couple.symbol), moment))
 
     def told(
         self,

@@ -90,7 +90,7 @@ def _balances(text: Steps, telling: Telling, plan: ForcePlan) -> None:
     said = telling.said
     for balance in plan.balances:
         edges = [
-            replace(edge, symbol=telling.called(edge.symbol))
+            replace(edge, symbol=telling.notation.symbol(edge.symbol))
             for edge in balance.edges
             if edge.known is not Known.BOTH or not telling.reading.is_none(edge)
         ]

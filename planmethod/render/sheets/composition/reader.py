@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 from planmethod.errors import CompositionError, LayoutError, ProblemError
+from planmethod.languages import LANGUAGES
 from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import (
     Faults,
@@ -42,13 +43,13 @@ ARRANGES: tuple[Arrange, ...] = ("free", "row", "column")
 
 
 @cache
-def shipped(name: str) -> Composition:
-    """Return a shipped composition."""
-    return read_composition(shipped_text(name), name=name)
+def shipped(name: str, lang: str = LANGUAGES[0]) -> Composition:
+    """Return a shipped composition in a language."""
+    return read_composition(shipped_text(name, lang), name=name)
 
 
-def composition(asked: str | Path) -> Composition:
-    """Return the composition called so: a shipped one by its name, else a file.
+def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
+    """Return the composition called so: a shipped one by its name in a language, else a file.
 
     Raises
     ------
@@ -56,7 +57,7 @@ def composition(asked: str | Path) -> Composition:
         With every fault of the file: path, what was expected, what came, the next action.
     """
     if str(asked) in SHIPPED:
-        return shipped(str(asked))
+        return shipped(str(asked), lang)
     path = Path(asked)
     if path.suffix != ".toml" and not path.exists():
         guess = near(str(asked), SHIPPED)

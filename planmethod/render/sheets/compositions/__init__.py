@@ -1,15 +1,23 @@
-"""Shipped compositions (готовые компоновки): their names and texts, one TOML file each."""
+"""Shipped compositions (готовые компоновки): their names and texts, one TOML file each.
+
+Where the files have words, names of places stand, ``$homework_title``: the words are those of a
+language, `Language.layouts`.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from string import Template
+
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
 
 SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces", "forces-cycle")
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
 
-def shipped_text(name: str) -> str:
-    """Return the text of a shipped composition, commented and ready to edit.
+def shipped_text(name: str, lang: str = LANGUAGES[0]) -> str:
+    """Return the text of a shipped composition in a language, commented and ready to edit.
 
     Raises
     ------
@@ -18,11 +26,12 @@ def shipped_text(name: str) -> str:
     """
     if name not in SHIPPED:
         raise KeyError(name)
-    return (Path(__file__).parent / f"{name}.toml").read_text(encoding="utf-8")
+    text = (Path(__file__).parent / f"{name}.toml").read_text(encoding="utf-8")
+    return Template(text).substitute(language(lang).layouts)
 
 
-def about(name: str) -> str:
+def about(name: str, lang: str = LANGUAGES[0]) -> str:
     """Return what a shipped composition says of itself."""
     import tomllib
 
-    return str(tomllib.loads(shipped_text(name)).get("about", ""))
+    return str(tomllib.loads(shipped_text(name, lang)).get("about", ""))

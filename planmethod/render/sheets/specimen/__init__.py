@@ -1,7 +1,7 @@
 """Specimen sheets (листы образцов): what the drawing is made of, shown at working size.
 
-A specimen is a function that takes the fields of the title block and returns a framed sheet; to add
-one, add a line to `SPECIMENS`.
+A specimen is a function that takes the fields of the title block and a language and returns a
+framed sheet; to add one, add a line to `SPECIMENS`.
 """
 
 from __future__ import annotations
@@ -10,12 +10,13 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
+from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.specimen.lettering import lettering_sheet
 from planmethod.render.sheets.specimen.lines import lines_sheet
 from planmethod.render.sheets.specimen.symbols import symbols_sheet
 
-Specimen: TypeAlias = Callable[[Mapping[str, str]], Drawing]
+Specimen: TypeAlias = Callable[[Mapping[str, str], Language], Drawing]
 
 SPECIMENS: Mapping[str, Specimen] = MappingProxyType(
     {

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label
@@ -18,6 +20,26 @@ EDGE = 3.0
 """Between the lines of a cell and what is in it, mm."""
 
 
+class Clause(NamedTuple):
+    """Clause of a GOST; only numbers that were seen in it are given (пункт стандарта).
+
+    ``paragraph`` is a, b, c for the first ones.
+    """
+
+    number: str
+    item: str = ""
+    paragraph: str = ""
+
+    def told(self, words: SpecimenWording) -> str:
+        """Return the standard and its clause in a language."""
+        if not self.item:
+            return words.standard.format(number=self.number)
+        item = self.item
+        if self.paragraph:
+            item += f", {words.clause_letters['abc'.index(self.paragraph)]}"
+        return words.clause.format(number=self.number, item=item)
+
+
 @dataclass(frozen=True, slots=True)
 class Cell:
     """One symbol with its letters (клетка).
@@ -25,19 +47,22 @@ class Cell:
     Attributes
     ----------
     name : str
-        What it is called, Russian.
-    clause : str
-        The clause of the standard that it stands for, or whose practice it is.
+        Of what it shows in `SpecimenWording.cells`.
+    clause : Clause or None
+        The clause of the standard that it stands for; None of what is the practice of the course.
     items : tuple of Item
         The symbol in its own coordinates, mm, as it is drawn on a scheme.
     labels : tuple of Label
         Its letters; they find places about it.
+    size : str
+        What its name says in millimetres.
     """
 
     name: str
-    clause: str
+    clause: Clause | None
     items: tuple[Item, ...]
     labels: tuple[Label, ...] = ()
+    size: str = ""
 
 
 def letter(text: str, at: complex, prefer: complex = 1 + 1j, *, gap: float = 3.0) -> Label:
@@ -45,15 +70,17 @@ def letter(text: str, at: complex, prefer: complex = 1 + 1j, *, gap: float = 3.0
     return Label(typeset(text, NAME), at, prefer=prefer, gap=gap)
 
 
-def drawn_cell(cell: Cell, number: int, box: Bounds) -> list[Item]:
+def drawn_cell(cell: Cell, number: int, box: Bounds, words: SpecimenWording) -> list[Item]:
     """Return a cell in its box: number, picture in the middle, name and clause below it."""
     left, low, right, high = box
     middle, inner = (left + right) / 2, right - left - 2 * EDGE
     # Base lines are those of the grid, whatever the letters hang below them.
     base = low + EDGE + 0.3 * CLAUSE
-    items = list(typeset(cell.clause, CLAUSE).at(complex(middle, base), anchor="centre"))
+    name = words.cells[cell.name].format(size=cell.size)
+    clause = words.course if cell.clause is None else cell.clause.told(words)
+    items = list(typeset(clause, CLAUSE).at(complex(middle, base), anchor="centre"))
     base += CLAUSE + 2.5
-    for line in reversed(paragraph(cell.name, NAME, inner).inscriptions):
+    for line in reversed(paragraph(name, NAME, inner).inscriptions):
         items += line.at(complex(middle, base), anchor="centre")
         base += line_step(NAME)
     picture = lettered(cell.items, cell.labels)
@@ -65,7 +92,13 @@ def drawn_cell(cell: Cell, number: int, box: Bounds) -> list[Item]:
 
 
 def drawn_grid(
-    cells: Sequence[Cell], corner: complex, *, across: int, width: float, height: float
+    cells: Sequence[Cell],
+    corner: complex,
+    words: SpecimenWording,
+    *,
+    across: int,
+    width: float,
+    height: float,
 ) -> list[Item]:
     """Return cells in rows from an upper left corner, with the lines between them, mm."""
     items: list[Item] = []
@@ -74,7 +107,7 @@ def drawn_grid(
         row, column = divmod(k, across)
         left, high = corner.real + column * width, corner.imag - row * height
         box = (left, high - height, left + width, high)
-        items += drawn_cell(cell, k + 1, box)
+        items += drawn_cell(cell, k + 1, box, words)
         sides |= dict.fromkeys(_sides(box))
     return [*(Stroke(side, Pen.THIN, tag="grid") for side in sides), *items]
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from types import MappingProxyType
 
-from planmethod.note.numbers import russian
+from planmethod.note.wording import Language
 from planmethod.render.control.texts import GRID
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
@@ -23,8 +22,6 @@ PAPER = "A2"
 HEIGHT = 14.0
 """Height h of the letters on the grid, mm."""
 
-KINDS: Mapping[str, str] = MappingProxyType({"A": "А", "B": "Б"})
-
 ALPHABETS = (
     "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯ",
     "абвгдеёжзийклмнопрстуфхцчшщъыьэюя",
@@ -33,20 +30,14 @@ ALPHABETS = (
     "αβγδεζηθικλμνξοπρστυφχψω.,:;!?-–—+−±×·=",
     "<>≤≥≈≠√∞∠⊥∥№→∅°′″()[]{}/%&«»∑∫∂∇²³ⁿ₁₂△",
 )
-
-SAMPLES = (
-    "План скоростей механизма",
-    "v_{B} = v_{A} + v_{BA}; a^{n}_{BA} = ω^{2}_{2}·l_{AB} = 15,48^{2}·0,145 = 34,9 м/с^{2}",
-    "μ_{v} = 0,05 (м/с)/мм; φ_{1} = 245°; ∥ x–x; ⊥ AB",
-)
+"""Letters and signs that the lettering has, whatever the language of the sheet."""
 
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A measure of the letters in parts of h: its sign and name, by the standard, on the ink."""
+    """A measure of the letters in parts of h: its sign, by the standard, on the ink."""
 
     symbol: str
-    name: str
     asked: float
     found: float
 
@@ -63,30 +54,31 @@ def measured(lettering: OutlineLettering) -> list[Measured]:
         left, low, right, high = ink(text)
         return right - left - lettering.style.lean * (high - low - lettering.line)
 
-    gap = wide("НН") - 2 * wide("Н")
-    words = wide("Н Н") - 2 * wide("Н")
+    gap = wide("HH") - 2 * wide("H")
+    words = wide("H H") - 2 * wide("H")
     cap = kind.cap
     return [
-        Measured("h", "высота прописных букв", 1.0, ink("Н")[3]),
-        Measured("c", "высота строчных букв", kind.small / cap, ink("н")[3]),
-        Measured("a", "расстояние между буквами", kind.gap / cap, gap),
-        Measured("b", "шаг строк", kind.line_step / cap, lettering.line_step),
-        Measured("e", "расстояние между словами", kind.word_gap / cap, words),
-        Measured("d", "толщина линий", 1.0 / cap, ink("−")[3] - ink("−")[1]),
+        Measured("h", 1.0, ink("H")[3]),
+        Measured("c", kind.small / cap, ink("x")[3]),
+        Measured("a", kind.gap / cap, gap),
+        Measured("b", kind.line_step / cap, lettering.line_step),
+        Measured("e", kind.word_gap / cap, words),
+        Measured("d", 1.0 / cap, ink("−")[3] - ink("−")[1]),
     ]
 
 
-def lettering_sheet(fields: Mapping[str, str] = MappingProxyType({})) -> Drawing:
+def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
     """Draw the specimen of the lettering in use (образец шрифта).
 
     ``fields`` are texts of the title block that outrank those of the specimen.
     """
     used, fmt = in_use(), paper_format(PAPER)
-    slope = "с наклоном" if used.style.slanted else "без наклона"
-    title = f"Шрифт чертёжный типа {KINDS[used.style.kind]} {slope}"
-    texts = {"title": title, "material": "ГОСТ 2.304-81", **fields}
+    said = words.specimens
+    slope = said.slanted if used.style.slanted else said.upright
+    title = said.lettering.format(kind=said.kinds[used.style.kind], slope=slope)
+    texts = {"title": title, "material": said.standard.format(number="2.304-81"), **fields}
     drawing = Drawing(fmt.width, fmt.height, title)
-    items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False))
+    items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False, lang=words.lang))
     drawing.extend(items)
     left, top = inner[0] + EDGE, inner[3] - EDGE - 4.0
     d = HEIGHT * used.line
@@ -95,16 +87,17 @@ def lettering_sheet(fields: Mapping[str, str] = MappingProxyType({})) -> Drawing
     for row in ALPHABETS:
         drawing.extend(_on_grid(row, complex(left, low), inner[2] - EDGE))
         low -= step
-    words = Column([_sample(height) for height in HEIGHTS if 2.5 <= height <= 10.0], gap=10.0)
-    drawing.extend(words.place(complex(left, low + HEIGHT)))
-    table = _proportions(used)
+    heights = [height for height in HEIGHTS if 2.5 <= height <= 10.0]
+    samples = Column([_sample(said.samples, height) for height in heights], gap=10.0)
+    drawing.extend(samples.place(complex(left, low + HEIGHT)))
+    table = _proportions(used, words)
     drawing.extend(table.place(complex(inner[2] - EDGE - table.width, low + HEIGHT - 10.0)))
     return drawing
 
 
-def _sample(height: float) -> Column:
+def _sample(texts: Sequence[str], height: float) -> Column:
     """Return words and formulas of a sheet, their base lines a line step apart."""
-    lines = [typeset(text, height) for text in SAMPLES]
+    lines = [typeset(text, height) for text in texts]
     return Column([Lines(tuple(lines), line_step(height))])
 
 
@@ -139,24 +132,23 @@ def _grid(at: complex, wide: float, d: float, cap: int, tail: int) -> Iterator[I
         yield Stroke((place(0.0, k * d), place(wide, k * d)), pen, tag=GRID)
 
 
-def _proportions(lettering: OutlineLettering) -> Column:
+def _proportions(lettering: OutlineLettering, words: Language) -> Column:
     """Return the table of proportions: by the standard, and measured on the letters, mm."""
     measures = measured(lettering)
     cap = lettering.style.proportions.cap
     heights = list(islice((h for h in HEIGHTS if h >= 2.5), 5))
+    said, number = words.specimens, words.say.number
+    size, by_standard, found = said.columns_measured
     columns = [
         TableColumn("", tuple(m.symbol for m in measures), least=8.0),
-        TableColumn("Размер", tuple(m.name for m in measures)),
-        TableColumn("по ГОСТ", tuple(f"{round(m.asked * cap)}/{cap} h" for m in measures)),
-        TableColumn(
-            "измерено", tuple(russian(f"{m.found * cap:.2f}") + f"/{cap} h" for m in measures)
-        ),
+        TableColumn(size, tuple(said.measures[m.symbol] for m in measures)),
+        TableColumn(by_standard, tuple(f"{round(m.asked * cap)}/{cap} h" for m in measures)),
+        TableColumn(found, tuple(number(f"{m.found * cap:.2f}") + f"/{cap} h" for m in measures)),
     ]
     columns += [
         TableColumn(
-            f"h = {russian(f'{h:g}')}", tuple(russian(f"{m.found * h:.2f}") for m in measures)
+            f"h = {number(f'{h:g}')}", tuple(number(f"{m.found * h:.2f}") for m in measures)
         )
         for h in heights
     ]
-    title = escape("Размеры, измеренные на буквах, мм")
-    return table_block(columns, 3.5, units="none", title=title)
+    return table_block(columns, 3.5, units="none", title=escape(said.measured_title))

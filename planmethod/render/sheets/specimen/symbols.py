@@ -5,15 +5,15 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterator, Mapping
 from math import radians
-from types import MappingProxyType
 
+from planmethod.note.wording import Language
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Bounds, Drawing, Item
 from planmethod.render.ink.style import ARROW
 from planmethod.render.layout.block import Column, heading, paragraph
-from planmethod.render.sheets.specimen.cells import Cell, drawn_grid, letter
-from planmethod.render.sheets.specimen.wheels import wheel_cells
+from planmethod.render.sheets.specimen.cells import Cell, Clause, drawn_grid, letter
+from planmethod.render.sheets.specimen.wheels import GEARS, wheel_cells
 from planmethod.render.symbols import (
     SIZES,
     bearing,
@@ -40,53 +40,50 @@ from planmethod.render.symbols import (
 from planmethod.render.symbols.axes import axis_line
 
 PAPER = "A2"
-TITLE = "Условные обозначения кинематических схем"
 ACROSS, WIDTH, HEIGHT = 6, 92.0, 73.0
 """Cells in a row, and their size, mm."""
 
-COURSE = "принято в курсе ТММ"
-"""What stands for the clause of a symbol that the standard does not list."""
 
-
-def standard(item: str = "") -> str:
-    """Return the clause of the standard; only numbers that were seen in it are given."""
-    return f"ГОСТ 2.770, п. {item}" if item else "ГОСТ 2.770"
-
-
-def symbols_sheet(fields: Mapping[str, str] = MappingProxyType({})) -> Drawing:
+def symbols_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
     """Draw every symbol at working size with its name (лист условных обозначений)."""
-    texts = {"title": TITLE, "material": "ГОСТ 2.770", "scale": "1:1", **fields}
-    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False))
+    said = words.specimens
+    texts = {"title": said.symbols, "material": GEARS.told(said), "scale": "1:1", **fields}
+    items, inner, *_ = sheet_frame(PAPER, texts, Furniture(graph_26=False, lang=words.lang))
     sheet = Drawing(594.0, 420.0, texts["title"], items)
     middle = (inner[0] + inner[2]) / 2
-    head = heading(TITLE, 7.0)
+    head = heading(said.symbols, 7.0)
     sheet.extend(head.place(complex(middle - head.width / 2, inner[3] - 6.0)))
     corner = complex(middle - ACROSS * WIDTH / 2, inner[3] - 19.0)
-    sheet.extend(drawn_grid(symbol_cells(), corner, across=ACROSS, width=WIDTH, height=HEIGHT))
-    sheet.extend(_sizes(corner, inner))
+    cells = symbol_cells()
+    sheet.extend(drawn_grid(cells, corner, said, across=ACROSS, width=WIDTH, height=HEIGHT))
+    sheet.extend(_sizes(corner, inner, words))
     return sheet
 
 
-def _sizes(corner: complex, inner: Bounds) -> list[Item]:
+def _sizes(corner: complex, inner: Bounds, words: Language) -> list[Item]:
     """Return the sizes of the symbols, in the room that the grid leaves over the title block."""
     left = corner.real + 4 * WIDTH + 8.0
     high = corner.imag - 4 * HEIGHT - 7.0
 
-    def said(value: float) -> str:
-        return f"{value:g}".replace(".", ",")
+    def said(*values: float) -> str:
+        return "×".join(words.say.number(f"{value:g}") for value in values)
 
     s = SIZES
-    lines = (
-        f"Шарнир диаметром {said(s.joint)}; опора высотой {said(s.support_height)}, основание "
-        f"{said(s.base)}.",
-        f"Штриховка стойки под 45°, шаг вдоль линии {said(s.hatch_step)}.",
-        f"Ползун {said(s.slider_length)}×{said(s.slider_width)}; знак жёсткого угла "
-        f"{said(s.corner)}; стрелка {said(ARROW.length)}×{said(ARROW.width)}.",
-        f"Колесо сбоку: штрих {said(s.teeth)}, в зацеплении через {said(s.mesh)}.",
-    )
+    sizes = {
+        "joint": said(s.joint),
+        "support": said(s.support_height),
+        "base": said(s.base),
+        "hatch": said(s.hatch_step),
+        "slider": said(s.slider_length, s.slider_width),
+        "corner": said(s.corner),
+        "arrow": said(ARROW.length, ARROW.width),
+        "teeth": said(s.teeth),
+        "mesh": said(s.mesh),
+    }
+    lines = [line.format(**sizes) for line in words.specimens.sizes]
     room = Column(
         [
-            heading("Размеры обозначений, мм", 5.0),
+            heading(words.specimens.sizes_title, 5.0),
             paragraph("\n".join(lines), 3.5, inner[2] - 8.0 - left),
         ],
         gap=3.5,
@@ -113,29 +110,29 @@ def _joints() -> Iterator[Cell]:
     """Yield links, the frame and the revolute pairs."""
     a, b = -16 - 5j, 16 + 5j
     yield Cell(
-        "Звено: вал, стержень, шатун",
-        standard("1"),
+        "link",
+        Clause("2.770", "1"),
         _scheme(link(a, b), revolute(a), revolute(b)),
         (letter("A", a, 1j), letter("B", b, 1j), letter("2", 0j, 1j, gap=1.5)),
     )
-    yield Cell("Неподвижное звено (стойка)", standard("2"), _scheme(ground_line(-18, 18)))
+    yield Cell("frame", Clause("2.770", "2"), _scheme(ground_line(-18, 18)))
     tip = way(55, 24)
     yield Cell(
-        "Шарнирно-неподвижная опора",
-        COURSE,
+        "support",
+        None,
         _scheme(link(0j, tip, tag="link 1"), fixed_pivot(0j)),
         (letter("O", 0j, -1), letter("1", tip / 2, -1 + 1j, gap=1.5)),
     )
     yield Cell(
-        "Опора, повёрнутая от звена",
-        COURSE,
+        "support_turned",
+        None,
         _scheme(link(0j, way(-60, 24), tag="link 1"), fixed_pivot(0j, direction=1j)),
         (letter("O", 0j, -1), letter("1", way(-60, 12), 1 + 1j, gap=1.5)),
     )
     pair = (0j, 8 + 0j)
     yield Cell(
-        "Близкие опоры\nна общем основании",
-        COURSE,
+        "supports",
+        None,
         _scheme(
             link(pair[0], way(125, 22), tag="link 1"),
             link(pair[1], 8 + way(50, 24), tag="link 3"),
@@ -144,8 +141,8 @@ def _joints() -> Iterator[Cell]:
         (letter("A", pair[0], -1), letter("D", pair[1], 1)),
     )
     yield Cell(
-        "Вращательная пара двух звеньев",
-        standard("6, а"),
+        "revolute",
+        Clause("2.770", "6", "a"),
         _scheme(link(way(215, 24), 0j, way(-25, 22)), revolute(0j)),
         (
             letter("B", 0j, 1j),
@@ -155,8 +152,8 @@ def _joints() -> Iterator[Cell]:
     )
     arms = (way(205, 22), way(-20, 22), way(80, 18))
     yield Cell(
-        "Двойной шарнир:\nтри звена, две пары",
-        standard("6, б"),
+        "double",
+        Clause("2.770", "6", "b"),
         _scheme(*(link(0j, arm) for arm in arms), revolute(0j, count=2)),
         (
             letter("C", 0j, -1j, gap=4.2),
@@ -167,8 +164,8 @@ def _joints() -> Iterator[Cell]:
     )
     along = way(10)
     yield Cell(
-        "Шарнир на середине звена",
-        COURSE,
+        "on_link",
+        None,
         _scheme(link(-24 * along, 24 * along), link(0j, way(-75, 20)), revolute_on(0j, along)),
         (
             letter("N", 0j, 1j, gap=2.0),
@@ -182,8 +179,8 @@ def _links() -> Iterator[Cell]:
     """Yield rigid joints and links with three pairs."""
     a, b = way(180, 20), way(40, 26)
     yield Cell(
-        "Неподвижное соединение\nчастей звена",
-        standard("5, а"),
+        "rigid",
+        Clause("2.770", "5", "a"),
         _scheme(link(a, 0j, b), rigid_corner(0j, a, b), revolute(a), revolute(b)),
         (letter("A", a, 1j), letter("B", b, 1)),
     )
@@ -195,14 +192,14 @@ def _links() -> Iterator[Cell]:
     )
     joints = [item for corner in corners for item in revolute(corner)]
     yield Cell(
-        "Трёхпарное звено\nс жёсткими углами",
-        COURSE,
+        "ternary_corners",
+        None,
         _scheme(stiff_triangle(*corners, marked=True), joints),
         letters,
     )
     yield Cell(
-        "Трёхпарное звено,\nзаштрихованное",
-        COURSE,
+        "ternary_hatched",
+        None,
         _scheme(stiff_triangle(*corners, hatched=True), joints),
         letters,
     )
@@ -213,8 +210,8 @@ def _sliders() -> Iterator[Cell]:
     rod = way(32, 30)
     axis = axis_line(-29, -SIZES.slider_length / 2), axis_line(SIZES.slider_length / 2, 29)
     yield Cell(
-        "Ползун на направляющей",
-        standard("6, в"),
+        "slider",
+        Clause("2.770", "6", "c"),
         _scheme(
             *axis,
             guide_line(0j, before=13, after=13),
@@ -225,8 +222,8 @@ def _sliders() -> Iterator[Cell]:
         (letter("E", 0j, 1j, gap=5), letter("4", rod * 0.7, 1j, gap=1.5)),
     )
     yield Cell(
-        "Ползун в двусторонней\nнаправляющей",
-        standard("6, в"),
+        "slider_between",
+        Clause("2.770", "6", "c"),
         _scheme(
             *axis,
             guide_plates(0j, length=24),
@@ -238,8 +235,8 @@ def _sliders() -> Iterator[Cell]:
     )
     pin = 9j
     yield Cell(
-        "Ползун с внеосным шарниром",
-        COURSE,
+        "slider_offset",
+        None,
         _scheme(
             *axis,
             guide_line(0j, before=13, after=13),
@@ -251,8 +248,8 @@ def _sliders() -> Iterator[Cell]:
     turn = 35.0
     bar = (way(turn, -16), way(turn, 30))
     yield Cell(
-        "Камень на кулисе",
-        COURSE,
+        "stone",
+        None,
         _scheme(
             fixed_pivot(bar[0]),
             stone(8 * way(turn), angle=turn, pin=False),
@@ -269,8 +266,8 @@ def _sliders() -> Iterator[Cell]:
         ),
     )
     yield Cell(
-        "Качающийся камень:\nзвено проходит сквозь него",
-        COURSE,
+        "stone_swinging",
+        None,
         _scheme(
             fixed_pivot(0j),
             slider(0j, angle=20, factor=0.85),
@@ -285,14 +282,14 @@ def _drivers() -> Iterator[Cell]:
     """Yield cranks, rockers and the arrows of the driver."""
     pin = way(50, 15)
     yield Cell(
-        "Кривошип с траекторией пальца",
-        COURSE,
+        "crank",
+        None,
         _scheme(crank(0j, pin, path=True, tag="link 1")),
         (letter("O", 0j, 1 - 0.6j), letter("A", pin, unit(pin))),
     )
     yield Cell(
-        "Ведущее звено: вращение",
-        COURSE,
+        "driver_turning",
+        None,
         _scheme(
             crank(0j, pin * 1.4, tag="link 1"),
             turn_arrow(0j, 12, 1, middle=104, sweep=80),
@@ -300,8 +297,8 @@ def _drivers() -> Iterator[Cell]:
         (letter("ω_{1}", way(140, 12), -1, gap=1.5), letter("1", pin * 0.8, 1 - 1j, gap=1.5)),
     )
     yield Cell(
-        "Ведущее звено:\nпоступательное движение",
-        COURSE,
+        "driver_sliding",
+        None,
         _scheme(
             guide_line(0j, before=13, after=13),
             slider(0j),
@@ -312,14 +309,14 @@ def _drivers() -> Iterator[Cell]:
         (letter("v_{1}", -9 + 8j, -1, gap=1.0),),
     )
     yield Cell(
-        "Коромысло с крайними\nположениями",
-        COURSE,
+        "rocker",
+        None,
         _scheme(rocker(0j, way(85, 28), swing=(35.0, 28.0), tag="link 3")),
         (letter("D", 0j, 1), letter("C", way(85, 28), 1j)),
     )
     shaft = (-20 + 0j, 20 + 0j)
     yield Cell(
-        "Вал в подшипниках, вид сбоку",
-        standard("7, а"),
+        "shaft",
+        Clause("2.770", "7", "a"),
         _scheme(link(*shaft, tag="link 1"), bearing(-12), bearing(12)),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.render.ink.drawing import Item
-from planmethod.render.sheets.specimen.cells import Cell, letter
+from planmethod.render.sheets.specimen.cells import Cell, Clause, letter
 from planmethod.render.symbols import (
     bearing,
     before_links,
@@ -25,7 +25,7 @@ from planmethod.render.symbols.gears import (
     wheel_profile,
 )
 
-GEARS = "ГОСТ 2.770"
+GEARS = Clause("2.770")
 
 
 def wheel_cells() -> Iterator[Cell]:
@@ -42,7 +42,7 @@ def _scheme(*parts: list[Item]) -> tuple[Item, ...]:
 def _front() -> Iterator[Cell]:
     second = 22.5 + 0j
     yield Cell(
-        "Внешнее зацепление,\nвид спереди",
+        "mesh_front",
         GEARS,
         _scheme(mesh_front(0j, 9.0, second), revolute(0j), revolute(second)),
         (
@@ -53,14 +53,14 @@ def _front() -> Iterator[Cell]:
     )
     planet = 9j
     yield Cell(
-        "Внутреннее зацепление,\nвид спереди",
+        "ring_front",
         GEARS,
         _scheme(mesh_front(planet, 9.5, 0j, internal=True), revolute(planet), revolute(0j)),
         (letter("P", 18.5j, 1 - 2j, gap=2.4),),
     )
     yield Cell(
-        "Реечная передача",
-        f"{GEARS}, п. 38",
+        "rack",
+        Clause("2.770", "38"),
         _scheme(
             rack_front(-24 + 0j, 24 + 0j),
             wheel_front(13j, 13.0, touch=0j),
@@ -72,7 +72,7 @@ def _front() -> Iterator[Cell]:
 
 def _side() -> Iterator[Cell]:
     yield Cell(
-        "Внешнее зацепление,\nвид сбоку",
+        "mesh_side",
         GEARS,
         _scheme(
             link(-16 + 0j, 10 + 0j, tag="link 1"),
@@ -85,7 +85,7 @@ def _side() -> Iterator[Cell]:
         (letter("1", -6j, 1), letter("2", 27j, 1)),
     )
     yield Cell(
-        "Внутреннее зацепление,\nвид сбоку",
+        "ring_side",
         GEARS,
         _scheme(
             link(-28 + 0j, -8 + 0j, tag="link 2"),
@@ -100,7 +100,7 @@ def _side() -> Iterator[Cell]:
     sun, planet, ring = 8.0, 6.0, 20.0
     pin = 1j * (sun + planet)
     yield Cell(
-        "Планетарный ряд\nс неподвижным колесом 3",
+        "planetary",
         GEARS,
         _scheme(
             axis_line(0j, 12 + 0j),
@@ -126,7 +126,7 @@ def _cam() -> Cell:
     nose, base, lift = 0.95, 8.0, 6.0
     at = rest_on_cam(0j, 1j, base=base, lift=lift, nose=nose)
     return Cell(
-        "Кулачок с роликовым\nтолкателем",
+        "cam",
         GEARS,
         _scheme(
             link(at, at + 20j, tag="link 2"),

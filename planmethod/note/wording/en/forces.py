@@ -2,9 +2,8 @@
 
 from planmethod.note.wording.force_model import ForceWording
 
-FORCE_EN = ForceWording(
+FORCES = ForceWording(
     lang="en",
-    balancing="b",
     title_loads="Forces on the links",
     scale="We take the scale of the force plans {scale}, one for all of them.",
     of_link="Link {link}:",

@@ -1,21 +1,12 @@
 """Sentences in Russian (русский каталог)."""
 
 from planmethod.note.wording.model import Wording
+from planmethod.note.wording.ru.numbers import NOTATION, UNITS
 
-RU = Wording(
+NOTE = Wording(
     lang="ru",
-    decimal=",",
-    units={
-        "m": "м",
-        "mm": "мм",
-        "m/s": "м/с",
-        "m/s²": "м/с²",
-        "N": "Н",
-        "N·m": "Н·м",
-        "1/s": "с⁻¹",
-        "1/s²": "с⁻²",
-        "deg": "°",
-    },
+    decimal=NOTATION.decimal,
+    units=UNITS,
     ccw="против часовой стрелки",
     cw="по часовой стрелке",
     left="слева",
@@ -31,6 +22,11 @@ RU = Wording(
     position_slider="Положение {number} из {count}: {symbol} = {value} м",
     formula="Формула строения: {formula}",
     given="Дано: {given}.",
+    given_count=" ({count} полож.)",
+    given_left="{point} слева от {line}",
+    given_right="{point} справа от {line}",
+    given_through="{guide} через {point}",
+    given_guide="∠(направляющая звена {link}, {line})",
     scales="Масштабы",
     scales_text="Принимаем масштабные коэффициенты: {scales}.",
     ruler="Отрезки откладываем точно, а снимаем линейкой с ценой деления {ruler} мм; в скобках "

@@ -1,21 +1,12 @@
 """Sentences in English (английский каталог)."""
 
+from planmethod.note.wording.en.numbers import NOTATION, UNITS
 from planmethod.note.wording.model import Wording
 
-EN = Wording(
+NOTE = Wording(
     lang="en",
-    decimal=".",
-    units={
-        "m": "m",
-        "mm": "mm",
-        "m/s": "m/s",
-        "m/s²": "m/s²",
-        "N": "N",
-        "N·m": "N·m",
-        "1/s": "s⁻¹",
-        "1/s²": "s⁻²",
-        "deg": "°",
-    },
+    decimal=NOTATION.decimal,
+    units=UNITS,
     ccw="counter-clockwise",
     cw="clockwise",
     left="left",
@@ -31,6 +22,11 @@ EN = Wording(
     position_slider="Position {number} of {count}: {symbol} = {value} m",
     formula="Structural formula: {formula}",
     given="Given: {given}.",
+    given_count=" ({count} positions)",
+    given_left="{point} to the left of {line}",
+    given_right="{point} to the right of {line}",
+    given_through="{guide} through {point}",
+    given_guide="∠(guide of link {link}, {line})",
     scales="Scales",
     scales_text="We take the scales {scales}.",
     ruler="Segments are laid off exactly and read with a ruler of {ruler} mm divisions; what "

@@ -2,9 +2,8 @@
 
 from planmethod.note.wording.force_model import ForceWording
 
-FORCE_RU = ForceWording(
+FORCES = ForceWording(
     lang="ru",
-    balancing="ур",
     title_loads="Силы, действующие на звенья",
     scale="Принимаем масштаб планов сил {scale}, один для всех планов.",
     of_link="Звено {link}:",

@@ -1,0 +1,27 @@
+"""What a language must be able to say of the audit of sources (слова сверки источников)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AuditWording:
+    """What the document of the audit says in one language.
+
+    ``verdicts`` and ``counted`` are by the values of `planmethod.note.audit.audit.Verdict`,
+    ``whys`` by those of `planmethod.note.audit.quantities.Why`.
+    """
+
+    title: str
+    intro: tuple[str, ...]
+    problem: str
+    source: str
+    values: str
+    nothing: str
+    summary: str
+    columns: tuple[str, ...]
+    verdicts: Mapping[str, str]
+    counted: Mapping[str, str]
+    whys: Mapping[str, str]

@@ -1,0 +1,28 @@
+"""English (английский язык)."""
+
+from planmethod.note.wording.en.audit import AUDIT
+from planmethod.note.wording.en.control import CONTROL
+from planmethod.note.wording.en.forces import FORCES
+from planmethod.note.wording.en.frame import FRAME
+from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.en.note import NOTE
+from planmethod.note.wording.en.numbers import NOTATION
+from planmethod.note.wording.en.sheets import SHEETS
+from planmethod.note.wording.en.specimens import SPECIMENS
+from planmethod.note.wording.en.structure import STRUCTURE
+from planmethod.note.wording.language import Language
+
+LANGUAGE = Language(
+    lang="en",
+    say=NOTATION,
+    note=NOTE,
+    forces=FORCES,
+    sheets=SHEETS,
+    structure=STRUCTURE,
+    frame=FRAME,
+    control=CONTROL,
+    specimens=SPECIMENS,
+    audit=AUDIT,
+    layouts=LAYOUTS,
+    families=FAMILIES,
+)

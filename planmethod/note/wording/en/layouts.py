@@ -1,0 +1,74 @@
+"""Words of shipped layouts and ready problem files in English (компоновки по-английски)."""
+
+from types import MappingProxyType
+
+LAYOUTS = MappingProxyType(
+    {
+        "coursework_head": "Sheet of a course project: twelve positions on A1.\n# On the left the "
+        "scheme in all positions, the statement and the equations; on the right the velocity\n# "
+        "plans in two rows of six, below them the acceleration plans, the table over the title "
+        "block.",
+        "coursework_about": "course project: twelve positions on one A1 sheet",
+        "coursework_scheme": "Position plans of the mechanism",
+        "coursework_results": "Results by positions",
+        "cycle_head": "Force analysis over the cycle: reactions and balancing moment in all "
+        "positions.\n# The problem file needs [dynamics] and [[loads]], and several positions.",
+        "cycle_about": "force analysis over the cycle: diagrams of reactions and balancing "
+        "moment, polar diagrams, table by positions",
+        "cycle_title": "Force analysis over the cycle",
+        "forces_head": "Sheet 2 of a course work: forces in one position. Groups are cut free "
+        "from the last to the first.\n# The problem file needs [dynamics] and [[loads]]; of "
+        "several positions each has its sheet.",
+        "forces_about": "force analysis: loads, groups and force plans, Zhukovsky lever, table of "
+        "reactions; one position",
+        "forces_title": "Force analysis of the mechanism",
+        "forces_each": "These three blocks are drawn for every group and for the driving link.",
+        "forces_reactions": "not narrower than the title block",
+        "homework_head": "Sheet of a homework: one A2 sheet in the order of the textbook.\n# On "
+        "the left the scheme and the statement, beside them the velocity plan with its equations, "
+        "below\n# the acceleration plan with equations and calculation; the results over the "
+        "title block.",
+        "homework_about": "homework: one A2 sheet in the order of the textbook, one position",
+        "homework_stamp": "title in the title block; without it that of the problem file",
+        "homework_title": "Kinematic analysis of the mechanism",
+        "homework_scheme": "Scheme of the mechanism",
+        "homework_results": "Table of results",
+        "many_head": "Many positions: up to twelve on a sheet. So planmethod sheet draws several "
+        "positions.\n# What each key means: docs/layout.md.",
+        "many_about": "many positions: scheme, equations, plans in rows, table by positions",
+        "many_sizes": "Without [sizes] the letters are as high as in the layout one-position.",
+        "many_scheme": "all positions thin, one of them in full",
+        "one_head": "One position: everything on one sheet. So planmethod sheet draws when no "
+        "layout is named.\n# What each key means: docs/layout.md. A layout of your own: "
+        "planmethod layouts one-position my.toml,\n# edit it, then planmethod sheet --layout "
+        "my.toml PROBLEM.toml.",
+        "one_about": "one position: scheme and statement, plans with equations and calculation, "
+        "table of results",
+        "one_formats": "in this order, until all fits; --paper outranks it",
+        "one_per_sheet": "positions on a sheet, if there are several",
+        "one_grow": "true: draw the plans larger where the sheet has room",
+        "one_sizes": "Height of the letters, mm (GOST 2.304: 2.5, 3.5, 5, 7, 10...), and the "
+        "width that texts are set to.\n# letter: letters on scheme and plans; title: names of the "
+        "views; text: everything else.",
+        "one_blocks": "Blocks in the order in which they are read. Blocks of one group stand "
+        "together.",
+        "one_statement": "what is given and what to find",
+        "one_height": "smaller where it does not fit otherwise",
+        "one_droppable": "and left out where there is no room",
+        "one_results": "the last block stands over the title block",
+        "one_width": "no wider than this part of the sheet",
+    }
+)
+"""By the places of the files in `planmethod.render.sheets.compositions`."""
+
+FAMILIES = MappingProxyType(
+    {
+        "slider-crank": "slider-crank mechanism",
+        "four-bar": "four-bar linkage",
+        "slotted-link": "slotted-link mechanism with a rotating slotted link",
+        "swinging-block": "mechanism with a swinging cylinder (stone)",
+        "sine": "sine mechanism (Scotch yoke)",
+        "six-link": "six-link mechanism with a slotted link and a slider",
+        "driving-slider": "mechanism with a driving slider",
+    }
+)

@@ -1,0 +1,54 @@
+"""What a language is made of: numbers and units, and the words of every subject (язык)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from planmethod.note.numbers import Notation
+from planmethod.note.wording.audit_model import AuditWording
+from planmethod.note.wording.control_model import ControlWording
+from planmethod.note.wording.force_model import ForceWording
+from planmethod.note.wording.frame_model import FrameWording
+from planmethod.note.wording.model import Wording
+from planmethod.note.wording.sheet_model import SheetWording
+from planmethod.note.wording.specimen_model import SpecimenWording
+from planmethod.note.wording.structure_model import StructureWording
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Language:
+    """A language, handed down to all that write in it (язык).
+
+    Attributes
+    ----------
+    lang : str
+        Its name, that of its folder.
+    say : Notation
+        Numbers, units, symbols.
+    note, forces : Wording, ForceWording
+        Protocol and tables, and those of the force analysis.
+    sheets, structure, frame : SheetWording, StructureWording, FrameWording
+        Sheets of the plans, the structural sheet, frame and title block.
+    control : ControlWording
+        The norm control.
+    specimens : SpecimenWording
+    audit : AuditWording
+    layouts : mapping
+        Names and comments of the shipped layouts, by the places of their files.
+    families : mapping
+        What the families of ready problem files are.
+    """
+
+    lang: str
+    say: Notation
+    note: Wording
+    forces: ForceWording
+    sheets: SheetWording
+    structure: StructureWording
+    frame: FrameWording
+    control: ControlWording
+    specimens: SpecimenWording
+    audit: AuditWording
+    layouts: Mapping[str, str]
+    families: Mapping[str, str]

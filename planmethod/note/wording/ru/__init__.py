@@ -1,0 +1,28 @@
+"""Russian (русский язык)."""
+
+from planmethod.note.wording.language import Language
+from planmethod.note.wording.ru.audit import AUDIT
+from planmethod.note.wording.ru.control import CONTROL
+from planmethod.note.wording.ru.forces import FORCES
+from planmethod.note.wording.ru.frame import FRAME
+from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.ru.note import NOTE
+from planmethod.note.wording.ru.numbers import NOTATION
+from planmethod.note.wording.ru.sheets import SHEETS
+from planmethod.note.wording.ru.specimens import SPECIMENS
+from planmethod.note.wording.ru.structure import STRUCTURE
+
+LANGUAGE = Language(
+    lang="ru",
+    say=NOTATION,
+    note=NOTE,
+    forces=FORCES,
+    sheets=SHEETS,
+    structure=STRUCTURE,
+    frame=FRAME,
+    control=CONTROL,
+    specimens=SPECIMENS,
+    audit=AUDIT,
+    layouts=LAYOUTS,
+    families=FAMILIES,
+)

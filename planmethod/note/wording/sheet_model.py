@@ -1,0 +1,90 @@
+"""What a language must be able to say on the sheets of the plans (слова листов)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SheetWording:
+    """Names of views and tables and sentences of the sheets in one language, rich text.
+
+    As in `Wording`, every field is a template of `str.format`.
+    """
+
+    # Names of the views, by the kind of plan: of one position, of many
+    views: Mapping[str, tuple[str, str]]
+
+    # Texts of the plans; equations and calculation by the kind of plan
+    equations: Mapping[str, str]
+    calculation: Mapping[str, str]
+    of_position: str
+    wanted: str
+
+    # Table of results
+    results: str
+    results_exact: str
+    results_sigma: str
+    exact: str
+    read: str
+    value: str
+    sigma_note: str
+
+    # Ellipses of the drafting error
+    ellipses: str
+    ellipses_enlarged: str
+    ellipses_thin: str
+    ellipses_strained: str
+    ellipses_large: str
+    ellipses_undefined: str
+
+    # Force analysis of one position
+    loads: str
+    not_to_scale: str
+    cut_group: str
+    cut_driver: str
+    cut_link: str
+    plan_of_group: str
+    plan_of_link: str
+    plan_none: str
+    apart: str
+    lever: str
+    lever_turned: str
+    lever_stands: str
+    lever_no_work: str
+    lever_found: str
+    lever_difference: str
+    lever_expected: str
+    computed_loads: str
+    from_plan: str
+    all_zero: str
+
+    # Tables of reactions
+    reactions: str
+    reactions_exact: str
+    reactions_edges: str
+    joint: str
+    by_plans: str
+    by_lever: str
+    difference: str
+
+    # Force analysis over the cycle
+    wanted_cycle: str
+    load_table: str
+    balance_moment: str
+    balance_force: str
+    legend_exact: str
+    legend_plans: str
+    legend_lever: str
+    chords: str
+    reactions_of_group: str
+    reactions_of_driver: str
+    hodographs: str
+    of_joint: str
+    of_joints: str
+    largest_at: str
+    cycle_reactions: str
+    cycle_plans: str
+    cycle_lever: str
+    cycle_note: str

@@ -1,0 +1,117 @@
+"""Sheets in English: nothing Russian but what the file says, no fault; in Russian no English."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+from worked import problem_of
+
+from planmethod.mechanism.structure import analyse
+from planmethod.note.wording import LANGUAGES, language
+from planmethod.problem import loads as parsed
+from planmethod.problem import template
+from planmethod.problem.model import Problem
+from planmethod.render.control.remarks import Severity
+from planmethod.render.control.sheet import inspect
+from planmethod.render.ink.drawing import Drawing, Text
+from planmethod.render.sheets.compositions import SHIPPED
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.specimen import SPECIMENS
+from planmethod.render.sheets.structure import structure_sheet
+
+CYRILLIC = re.compile("[\u0400-\u04ff]")
+
+TURN = tuple(range(0, 360, 60))
+CASES = [
+    *((name, "linkages/ex3", (20.0,)) for name in ("one-position", "homework")),
+    ("many-positions", "press/press-stone", TURN),
+    ("coursework-12", "linkages/ex1", TURN),
+    *(("forces", name, None) for name in ("levers/six-link", "levers/task12", "press/press")),
+    ("forces-cycle", "levers/task12", TURN),
+    ("forces-cycle", "press/press", TURN),
+]
+
+
+def bare(problem: Problem, lang: str) -> Problem:
+    """Return a problem without texts of its own, in a language."""
+    return replace(
+        problem, title="", stamp={}, sheet=replace(problem.sheet, lang=lang, side_columns=True)
+    )
+
+
+def texts(drawing: Drawing) -> Iterator[str]:
+    return (item.text for item in drawing.items if isinstance(item, Text))
+
+
+def is_english(drawing: Drawing) -> bool:
+    return not any(map(CYRILLIC.search, texts(drawing)))
+
+
+@pytest.mark.parametrize(("layout", "name", "positions"), CASES)
+def test_a_sheet_in_english_has_no_russian_and_no_fault(
+    layout: str, name: str, positions: tuple[float, ...] | None
+) -> None:
+    problem = bare(problem_of(name), "en")
+    for sigma in (False, True):
+        made = kinematics_sheets(
+            problem, positions=positions, layout=layout, errors=sigma, sigma=sigma
+        )
+        for drawing in made:
+            assert is_english(drawing), sorted(filter(CYRILLIC.search, texts(drawing)))
+            # But for indices that name two links, such as the 2,3 of a sum.
+            assert not [text for text in texts(drawing) if re.search(r"\d,\d.|.\d,\d", text)]
+            faults = [one for one in inspect(drawing) if one.severity is Severity.ERROR]
+            assert faults == []
+
+
+def test_every_shipped_layout_is_among_the_cases() -> None:
+    assert {layout for layout, *_ in CASES} == set(SHIPPED)
+
+
+@pytest.mark.parametrize("loads", ["gravity = false", "[dynamics.links.2]\nmass = 2"])
+def test_nothing_russian_is_said_where_nothing_moves_or_acts(loads: str) -> None:
+    text = template("six-link").replace("omega = 20", "omega = 0")
+    problem = bare(parsed(f"{text}[dynamics]\n{loads}\n", name="six-link"), "en")
+    (sheet,) = kinematics_sheets(problem, layout="forces")
+    assert is_english(sheet)
+    assert "there is no lever" in " ".join(texts(sheet))
+
+
+@pytest.mark.parametrize("name", ["linkages/ex3", "press/press", "levers/task12"])
+def test_the_structural_sheet_in_english(name: str) -> None:
+    problem = bare(problem_of(name), "en")
+    drawing = structure_sheet(problem, analyse(problem.mechanism))
+    assert is_english(drawing)
+    assert inspect(drawing) == []
+
+
+@pytest.mark.parametrize("name", SPECIMENS)
+def test_a_specimen_in_english(name: str) -> None:
+    told = [text for text in texts(SPECIMENS[name]({}, language("en"))) if CYRILLIC.search(text)]
+    assert all(len(text) == 1 for text in told)  # the letters that are shown themselves
+    assert (told != []) is (name == "lettering")
+
+
+@pytest.mark.parametrize(("layout", "name", "positions"), CASES)
+def test_a_sheet_in_russian_has_no_english_word(
+    layout: str, name: str, positions: tuple[float, ...] | None
+) -> None:
+    for drawing in kinematics_sheets(
+        bare(problem_of(name), "ru"), positions=positions, layout=layout, errors=True, sigma=True
+    ):
+        assert not [text for text in texts(drawing) if re.search(r"\b(?!const)[A-Za-z]{4,}", text)]
+
+
+def test_the_numbers_are_the_same_in_every_language() -> None:
+    """But for the sign of decimals."""
+    problem = problem_of("linkages/ex3")
+    found = []
+    for lang in LANGUAGES:
+        (drawing,) = kinematics_sheets(bare(problem, lang), layout="homework", sigma=True)
+        told = " ".join(texts(drawing)).replace(language(lang).say.decimal, ".")
+        found.append(Counter(re.findall(r"\d+\.\d+", told)))
+    assert all(one == found[0] != Counter() for one in found)
