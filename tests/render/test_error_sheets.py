@@ -19,7 +19,7 @@ from planmethod.render.ink.drawing import Drawing, Stroke
 from planmethod.render.pictures.ellipses import TAG
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.results import result_columns
-from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.errors.motion import Drafting, drafting_of
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 
@@ -90,7 +90,12 @@ def test_nothing_of_it_without_the_options(
     positions = MANY[name] if many else None
     plain = kinematics_sheets(problem_of(name), positions=positions)
     same_ruler = replace(PROFILES["coarse"], ruler=PROFILES["board"].ruler)
-    monkeypatch.setattr(Solution, "drafting", property(lambda _: pytest.fail("asked")))
+    once = Solution.once
+    monkeypatch.setattr(
+        Solution,
+        "once",
+        lambda s, make: pytest.fail("asked") if make is Drafting else once(s, make),
+    )
     again = kinematics_sheets(problem_of(name), positions=positions, profile=same_ruler)
     assert [sheet.items for sheet in plain] == [sheet.items for sheet in again]
 
