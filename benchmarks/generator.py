@@ -324,7 +324,7 @@ class _Drawing:
     # Rule of assembly
 
     def _write_rule(self, point: str, mirror: complex, known: list[str]) -> None:
-        """Say which closing is meant in words that are true of it and less so of the other one."""
+        """Say which closing is meant in words that are true of it and not of the other one."""
         draft, rng = self.draft, self.rng
         z = draft.place[point]
         phrases: list[str | complex] = []
@@ -333,7 +333,8 @@ class _Drawing:
         known = [name for name in known if name != point]
         for name in known:
             for words, turn in ways:
-                if (gap * turn).real > 0.05 and ((z - draft.place[name]) * turn).real > 0.02:
+                here = ((z - draft.place[name]) * turn).real
+                if 0.02 < here < (gap * turn).real - 0.02:
                     phrases.append(f"{words} {name}")
         lines: list[str | complex] = []
         for start in known:
@@ -343,9 +344,9 @@ class _Drawing:
                     continue
                 here = ((z - draft.place[start]) / along).imag * abs(along)
                 more = (gap / along).imag * abs(along)
-                if here > 0.02 and more > 0.05:
+                if 0.02 < here < more - 0.02:
                     lines.append(f"left of {start}{end}")
-                elif here < -0.02 and more < -0.05:
+                elif -0.02 > here > more + 0.02:
                     lines.append(f"right of {start}{end}")
         off = z + cmath.rect(0.1 * abs(gap), rng.uniform(-math.pi, math.pi))
         near: list[str | complex] = [off] if abs(gap) > 0.05 else []

@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import io
 import sys
+import warnings
 from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import Any
@@ -64,6 +65,8 @@ def main() -> None:
             stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
     # A command lives a fraction of a second and makes few cycles: the search costs a twentieth.
     gc.set_threshold(100_000)
+    if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
+        warnings.simplefilter("ignore")
     try:
         cli()
     except SystemExit as end:

@@ -112,6 +112,16 @@ def warn(problem: Problem, said: str) -> None:
     click.echo(f"Warning: {problem.name}: {said}", err=True)
 
 
+def tell_changes(problem: Problem, phi: Positions | None) -> None:
+    """Tell of change points between the positions of a problem that is solved elsewhere."""
+    from planmethod.solved.selfcheck import changed_branches
+    from planmethod.solved.solution import Solution
+
+    way = None if phi is None else [float(phi.min()), float(phi.max())]
+    for said in changed_branches(Solution(problem, positions=way)):
+        warn(problem, said)
+
+
 def solution_of(
     problem: Problem,
     phi: Positions | None,
@@ -131,10 +141,12 @@ def solution_of(
     forces : bool
         The forces must exist, too, where there are loads.
     """
-    from planmethod.solved.selfcheck import verify, warnings
+    from planmethod.solved.selfcheck import changed_branches, verify, warnings
     from planmethod.solved.solution import Solution
 
     solution = Solution(problem, positions=None if phi is None else phi.tolist(), profile=hand)
+    for said in changed_branches(solution):
+        warn(problem, said)
     try:
         verify(solution)
         if forces and problem.dynamics is not None:

@@ -9,7 +9,7 @@ import click
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.output import write_drawings, write_set
-from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.commands.problems import each, finish, guarded, stem, tell_changes
 from planmethod.options import (
     Positions,
     drawn_by,
@@ -102,6 +102,7 @@ def sheet(
 
         def draw(problem: Problem) -> None:
             problem = settled(problem)
+            tell_changes(problem, phi)
             written(problem, drawn(problem), formats)
 
         finish(each(problems, variant, all_variants, draw))
@@ -111,6 +112,7 @@ def sheet(
 
     def gather(problem: Problem) -> None:
         problem = settled(problem)
+        tell_changes(problem, phi)
         whole.append((problem, drawn(problem, before=sum(len(some) for _, some in whole))))
 
     code = each(problems, variant, all_variants, gather)

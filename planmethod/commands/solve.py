@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from planmethod.commands.output import bar, is_narrow, is_terminal, put_parts
-from planmethod.commands.problems import each, finish, guarded, solution_of, stem, warn
+from planmethod.commands.problems import (
+    each,
+    finish,
+    guarded,
+    solution_of,
+    stem,
+    tell_changes,
+    warn,
+)
 from planmethod.errors import AssemblyError, ExitCode
 from planmethod.options import (
     MOST_POSITIONS,
@@ -137,6 +145,7 @@ def solve(
 
     def compute(problem: Problem) -> None:
         if swept:
+            tell_changes(problem, phi)
             if csv_file is None and npz_file is None:
                 _refuse_long(len(_asked(problem, phi)))
             made = _sweep(problem, phi, ask, partial)
@@ -236,6 +245,7 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
         return solved_table(
             solution_of(problem, phi, drawn_by("board", ruler), hint=HINT, forces=True)
         )
+    tell_changes(problem, phi)
     looked = examine(problem, positions, forces=problem.dynamics is not None)
     _tell(problem, looked.gaps, looked.doubts, partial)
     return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)

@@ -90,7 +90,8 @@ def reach(
             slope[i] = _part(row, way)
         lifted[name] = Dual(row, slope)
     trace = evaluate(program, lifted, Duals())
-    return {name: _reach(as_dual(plain(value))) for name, value in trace.value.items()}
+    with np.errstate(all="ignore"):  # a line of no length, which nothing hangs on
+        return {name: _reach(as_dual(plain(value))) for name, value in trace.value.items()}
 
 
 def _reach(value: Dual) -> Reals:

@@ -90,19 +90,24 @@ class Pencil:
         sigma = self.profile.point
         return self.error(out, sigma) + self.error(out, sigma) * 1j
 
+    def _across(self, along: Number) -> Number:
+        """Return the normal of a line, of length 1; 0 where it has no direction, and needs none."""
+        size = abs(along)
+        return self.unless_zero(size, along * 1j / self.nonzero(size), along * 0.0)
+
     def given(self, out: str, point: Number) -> Number:
         """Return a given point as it is pricked."""
         return point if out in self.free else point + self._spot(out)
 
     def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
         """Return a line as the ruler lies at its two points."""
-        across = along * 1j / self.nonzero(abs(along))
+        across = self._across(along)
         one, two = self.error(out, self.profile.point), self.error(out, self.profile.point)
         return tail + across * one, along + across * (two - one)
 
     def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
         """Return a line as the set square draws it."""
-        across = along * 1j / self.nonzero(abs(along))
+        across = self._across(along)
         turn = self.error(out, math.radians(self.profile.parallel))
         return through + across * self.error(out, self.profile.point), along + along * (turn * 1j)
 

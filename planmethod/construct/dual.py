@@ -63,7 +63,7 @@ class Dual:
 
     def __abs__(self) -> Dual:
         size = np.abs(self.value)
-        unit = np.conjugate(self.value) / np.where(size == 0, np.nan, size)
+        unit = np.conjugate(self.value) / np.where(size == 0, 1.0, size)
         if self.slope is None:
             return Dual(size)
         # |x| has no slope at 0: what it can change by at most is the slope's own size.

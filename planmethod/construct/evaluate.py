@@ -97,16 +97,17 @@ def apply(
             across = _cross(u, v)
             sine = abs(across) / ar.nonzero(abs(u) * abs(v))
             return ar.pricked(out, p + u * (_cross(q - p, v) / ar.nonzero(across))), sine
-        case MeetLineCircle(out, line, c, r, way):
+        case MeetLineCircle(out, line, c, r, way, branch):
             p, u = env[line]
             centre, radius = ar.arc(out, env[c], env[r])
             u = u / ar.nonzero(abs(u))
             to_centre = centre - p
             room = _half_chord(abs(_cross(u, to_centre)), radius)
             # Counted along the line from its own point: what lies on a guide stays on it exactly.
-            reach = (u.conjugate() * to_centre).real + way.value * ar.root(room)
+            half = ar.root(room) if branch is None else ar.root(room) * env[branch]
+            reach = (u.conjugate() * to_centre).real + way.value * half
             return ar.pricked(out, p + u * reach), room / (radius * radius)
-        case MeetCircles(out, c1, r1, c2, r2, side):
+        case MeetCircles(out, c1, r1, c2, r2, side, branch):
             (p, one), (q, two) = ar.arc(out, env[c1], env[r1]), ar.arc(out, env[c2], env[r2])
             d = q - p
             span = abs(d)
@@ -119,7 +120,8 @@ def apply(
             wide = ((span + (big - small)) / divisor) * ((span + (big + small)) / divisor)
             room = _half_chord(gap, small) * wide / 4
             unit = d / divisor
-            point = p + unit * (leg + 1j * side.value * ar.root(room))
+            half = ar.root(room) if branch is None else ar.root(room) * env[branch]
+            point = p + unit * (leg + 1j * side.value * half)
             return ar.pricked(out, point), room / (one * one)
         case Touch(out, c, r, s, side):
             (centre, radius), source = ar.arc(out, env[c], env[r]), env[s]

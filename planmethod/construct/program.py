@@ -167,11 +167,17 @@ class Builder:
         return name
 
     def meet_line_circle(
-        self, out: str, line: LineName, centre: PointName, radius: NumberName, way: Way
+        self,
+        out: str,
+        line: LineName,
+        centre: PointName,
+        radius: NumberName,
+        way: Way,
+        branch: NumberName | None = None,
     ) -> PointName:
         """Intersect a line and an arc."""
         name = PointName(out)
-        self.steps.append(MeetLineCircle(name, line, centre, radius, way))
+        self.steps.append(MeetLineCircle(name, line, centre, radius, way, branch))
         return name
 
     def meet_circles(
@@ -182,10 +188,12 @@ class Builder:
         centre2: PointName,
         radius2: NumberName,
         side: Side,
+        branch: NumberName | None = None,
     ) -> PointName:
         """Intersect two arcs."""
         name = PointName(out)
-        self.steps.append(MeetCircles(name, centre1, radius1, centre2, radius2, side))
+        step = MeetCircles(name, centre1, radius1, centre2, radius2, side, branch)
+        self.steps.append(step)
         return name
 
     def touch(

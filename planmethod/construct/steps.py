@@ -104,18 +104,25 @@ class MeetLines:
 
 @dataclass(frozen=True, slots=True)
 class MeetLineCircle:
-    """Intersection of a line and an arc, the forward or the backward one (засечка на прямой)."""
+    """Intersection of a line and an arc, the forward or the backward one (засечка на прямой).
+
+    ``branch``, where there is one, is +1, or -1 where the other one is meant.
+    """
 
     out: PointName
     line: LineName
     centre: PointName
     radius: NumberName
     way: Way
+    branch: NumberName | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class MeetCircles:
-    """Intersection of two arcs on a side of the line of centres (засечки)."""
+    """Intersection of two arcs on a side of the line of centres (засечки).
+
+    ``branch``, where there is one, is +1, or -1 where the other side is meant.
+    """
 
     out: PointName
     centre1: PointName
@@ -123,6 +130,7 @@ class MeetCircles:
     centre2: PointName
     radius2: NumberName
     side: Side
+    branch: NumberName | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,16 +42,26 @@ _HALF = 4e-15
 """Share of a value by which it may be short of a half."""
 
 
-def trimmed(value: float, digits: int = 6) -> str:
-    """Return a given number as the problem writes it: no more digits than it has."""
-    text = significant(value, digits)
+def trimmed(value: float, digits: int | None = None) -> str:
+    """Return a given number as the problem writes it: no more digits than it has.
+
+    Without ``digits``: all that it has, to ten; six of a number that has more, zeros among them.
+    """
+    text = significant(value, digits or 6)
+    if digits is None and math.isfinite(value):
+        longer = (significant(value, n) for n in range(6, 11))
+        text = next((t for t in longer if abs(float(t) - value) <= 1e-12 * abs(value)), "")
+        if not text:
+            return significant(value, 6)
     if "e" in text or "." not in text:
         return text
     return text.rstrip("0").rstrip(".")
 
 
 def rich_number(text: str, decimal: str) -> str:
-    """Return a plain number as rich text: decimal sign, minus sign, power of ten."""
+    """Return a plain number as rich text: decimal sign, minus sign, power of ten, dash of NaN."""
+    if text.endswith(("nan", "inf")):
+        return "—"
     mantissa, e, power = text.partition("e")
     mantissa = mantissa.replace(".", decimal).replace("-", MINUS)
     if not e:

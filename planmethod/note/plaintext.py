@@ -52,7 +52,7 @@ def found(value: float, words: Wording) -> str:
     return spoken(significant(value), words)
 
 
-def given(value: float, words: Wording, digits: int = 6) -> str:
+def given(value: float, words: Wording, digits: int | None = None) -> str:
     """Return a given number, no more digits than it has."""
     return spoken(trimmed(value, digits), words)
 

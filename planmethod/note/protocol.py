@@ -134,6 +134,7 @@ class _Writer(Steps):
             told = [line if line.endswith((".", ",", ";")) else f"{line}." for line in told]
             self.item(told, more=measured and isinstance(step, Compute) and bool(told))
             measured = isinstance(step, MeasureAlong) or (measured and isinstance(step, Compute))
+        self.item(self.narrator.undrawn(section.steps))
         if read:
             closed = [*(f"{line};" for line in read[:-1]), f"{read[-1]}."]
             self.item([words.read_off, *closed])

@@ -9,6 +9,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, NumberName, PointName, Side, Way
 from planmethod.mechanism.model import FRAME
@@ -20,8 +23,42 @@ TINY = 1e-12
 FAR = 10.0
 """Distance from the origin, in sizes of a mechanism, from which places are counted from its own."""
 
-Choice = Mapping[tuple[str, ...], int]
-"""Closing of each group that has two, by its links: +1 or -1."""
+
+@dataclass(frozen=True, slots=True)
+class Closing:
+    """In which of its two ways a group closes (способ сборки).
+
+    Attributes
+    ----------
+    side : int
+        +1 or -1, in all positions unless it changes.
+    parallel : bool
+        The group closes a parallelogram, on no side of its line of centres for good.
+    start : float
+        Driver position that ``side`` belongs to, degrees or m.
+    changes : tuple of float
+        Change points: driver positions in which a motion that goes on smoothly changes sides.
+    turn : float
+        After which the changes come again: 360 of a crank; of a slider out of all reach.
+    """
+
+    side: int = 1
+    parallel: bool = False
+    start: float = 0.0
+    changes: tuple[float, ...] = ()
+    turn: float = 1e12
+
+    def branch(self, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Return +1 where the side is the first one, else -1; it depends on the position alone."""
+        passed = np.zeros(np.shape(positions))
+        for change in self.changes:
+            for sign, place in ((1, positions), (-1, np.asarray(self.start))):
+                passed += sign * np.floor((place - change) / self.turn)
+        return np.where(passed % 2 == 0, 1.0, -1.0)
+
+
+Choice = Mapping[tuple[str, ...], Closing]
+"""Closing of each group that has two, by its links."""
 
 
 def degrees(angle: complex) -> float:
@@ -61,6 +98,8 @@ class Draft:
         Values of the Known numbers in their own units; the scales are added by the reading.
     places : dict
         Places of the Given points, m, counted from ``origin``.
+    branches : dict
+        Closings by the Known number that tells in each position which of their sides is meant.
     origin : complex, m
         Zero, but for a mechanism that stands far from the origin of its file: coordinates counted
         from a place of its own keep the digits of its links.
@@ -77,6 +116,7 @@ class Draft:
     b: Builder = field(default_factory=Builder)
     numbers: dict[str, float] = field(default_factory=dict)
     places: dict[str, complex] = field(default_factory=dict)
+    branches: dict[str, Closing] = field(default_factory=dict)
     placed: dict[str, list[str]] = field(default_factory=dict)
     axes: dict[str, LineName] = field(default_factory=dict)
     mu_l: NumberName = field(init=False)
@@ -108,6 +148,14 @@ class Draft:
             self.numbers[name] = value
             return self.b.known(name)
         return NumberName(name)
+
+    def branch(self, point: str, closing: Closing) -> NumberName | None:
+        """Return the number that tells a point's side in each position; None if it stays."""
+        if not closing.changes:
+            return None
+        name = f"branch_{point}"
+        self.branches[name] = closing
+        return self.b.known(name)
 
     def length(self, link: str, p: str, q: str) -> NumberName:
         """Return the given distance of two points of a link, m."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
@@ -265,12 +266,7 @@ def _read_rule(
     faults: Faults, path: str, point: str, value: object, known: list[str]
 ) -> Rule | None:
     if isinstance(value, Mapping):
-        given = read_keys(faults, path, value, keys.NEAR)
-        if "near" not in given:
-            faults.add(f"{path}.near", "missing", f"For example: {point} = {{ near = [0.1, 0.2] }}")
-            return None
-        at = read_place(faults, f"{path}.near", given["near"])
-        return None if at is None else Rule(point, Where.NEAR, at=at)
+        return _read_rule_table(faults, path, point, value, known)
     want = '"right of D", "left of CB", "above D" or { near = [x, y] }'
     if not isinstance(value, str) or len(value) > 80:
         faults.add(path, f"expected {want}, got {show(value)}")
@@ -304,6 +300,37 @@ def _read_rule(
         faults.add(path, f"the line {name} goes through {point} itself")
         return None
     return Rule(point, _LINE_WORDS[side], line)
+
+
+def _read_rule_table(
+    faults: Faults, path: str, point: str, value: Mapping[str, object], known: list[str]
+) -> Rule | None:
+    given = read_keys(faults, path, value, keys.RULE)
+    keep = given.get("keep")
+    if "keep" in given and keep not in keys.KEEP:
+        wanted = " or ".join(f'"{word}"' for word in keys.KEEP)
+        faults.add(f"{path}.keep", f"expected {wanted}, got {show(keep)}")
+        return None
+    first = [key for key in ("near", "rule") if key in given]
+    if keep == "parallel":
+        if first:
+            faults.add(f"{path}.{first[0]}", "a parallelogram has one closing", "Delete this key.")
+            return None
+        return Rule(point, Where.PARALLEL)
+    if len(first) != 1:
+        said = "give near or rule, not both" if first else "missing"
+        faults.add(f"{path}.near", said, f"For example: {point} = {{ near = [0.1, 0.2] }}")
+        return None
+    if "rule" in given:
+        phrase = given["rule"]
+        if isinstance(phrase, Mapping):
+            faults.add(f"{path}.rule", f"expected a phrase, got {show(phrase)}")
+            return None
+        found = _read_rule(faults, f"{path}.rule", point, phrase, known)
+    else:
+        at = read_place(faults, f"{path}.near", given["near"])
+        found = None if at is None else Rule(point, Where.NEAR, at=at)
+    return None if found is None else replace(found, continuous=keep is not None)
 
 
 def read_scales(faults: Faults, table: object) -> Scales:

@@ -6,7 +6,15 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, Table, read_flag, read_keys, read_number, read_table
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    is_number,
+    read_flag,
+    read_keys,
+    read_number,
+    read_table,
+)
 from planmethod.problem.forces import Scene, read_loads
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import GRAVITY, Dynamics, Mass
@@ -112,8 +120,7 @@ def _read_mass(faults: Faults, path: str, body: Table, link: LinkText, scene: Sc
 
 
 def _read_amount(faults: Faults, path: str, value: object, what: str) -> float | None:
-    number = read_number(faults, path, value, what, low=-1e12, high=1e12)
-    if number is not None and number < 0:
-        faults.add(path, f"expected {what}, 0 or greater, got {number:g}")
+    if is_number(value) and value < 0:
+        faults.add(path, f"expected {what}, 0 or greater, got {value:g}")
         return None
-    return number
+    return read_number(faults, path, value, what, low=0.0, high=1e12)

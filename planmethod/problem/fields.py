@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, TypeGuard
 
 from planmethod.errors import Fault
 from planmethod.problem.names import (
@@ -74,7 +74,7 @@ def show(value: object) -> str:
     return "a date or time"
 
 
-def is_number(value: object) -> bool:
+def is_number(value: object) -> TypeGuard[int | float]:
     """Whether a TOML value is a number (a boolean is not)."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
@@ -113,7 +113,6 @@ def read_number(
     if not is_number(value):
         faults.add(path, f"expected {what}, got {show(value)}", _unquoted(value))
         return None
-    assert isinstance(value, int | float)
     try:
         number = float(value)
     except OverflowError:

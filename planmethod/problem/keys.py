@@ -37,7 +37,8 @@ CRANK = ("phi", "omega", "n", "epsilon")
 SLIDER = ("s", "v", "a")
 DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")
-NEAR = ("near",)
+RULE = ("near", "rule", "keep")
+KEEP = ("parallel", "continuous")
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP = (
     "organisation",
@@ -96,7 +97,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "point": POINT,
     "driver": DRIVER,
     "span": SPAN,
-    "near": NEAR,
+    "rule": RULE,
     "scales": SCALES,
     "stamp": STAMP,
     "sheet": SHEET,

@@ -86,6 +86,7 @@ class Where(Enum):
     LEFT_OF = "left of"
     RIGHT_OF = "right of"
     NEAR = "near"
+    PARALLEL = "parallel"
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,13 +94,16 @@ class Rule:
     """Assembly rule of a point (способ сборки).
 
     ``right|left|above|below`` compare with one point (``refs`` has one name), ``left of`` and
-    ``right of`` with a directed line (two names), ``near`` with a place ``at`` in metres.
+    ``right of`` with a directed line (two names), ``near`` with a place ``at`` in metres;
+    ``parallel`` asks for a parallelogram. A rule that is ``continuous`` is true of the first
+    position; in the others the motion goes on from there, through change points too.
     """
 
     point: str
     where: Where
     refs: tuple[str, ...] = ()
     at: complex = 0j
+    continuous: bool = False
 
 
 @dataclass(frozen=True, slots=True)

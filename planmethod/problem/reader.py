@@ -267,7 +267,8 @@ def _read_slides(
         host = hosts[slider]
         turn = turns.get(host)
         body = bodies.get(host) or _stand_in(links[host])
-        free = host != FRAME and host not in hosts and body.axis is None
+        # A mark laid off along the own axis names that axis, and the line is still it.
+        free = host != FRAME and host not in hosts and not links[host].lengths
         slide = read_slide(
             faults,
             links[slider],

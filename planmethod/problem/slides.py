@@ -181,7 +181,7 @@ def read_slide(
     turn : float or None, degrees
         Direction of the host's own axis from +x when the host only translates, else None.
     bare : bool
-        Whether this line is itself the host's own axis.
+        Whether this line is itself the host's own axis, unless a mark and an angle say otherwise.
     """
     assert link.slides is not None
     length = None
@@ -237,7 +237,8 @@ def _read_line(
     through = _read_through(faults, path, given, body, owner)
     if "through" not in given:
         return None
-    angle = _read_slide_angle(faults, path, given, host, turn=turn, bare=bare)
+    marked = body.axis is not None
+    angle = _read_slide_angle(faults, path, given, host, turn=turn, bare=bare, marked=marked)
     if through is None or angle is None or len(faults) != before:
         return None
     return Slide(link.name, host, pin, body.points[through], angle, offset, through, through)
@@ -257,7 +258,14 @@ def _read_through(faults: Faults, path: str, given: Table, body: Body, owner: st
 
 
 def _read_slide_angle(
-    faults: Faults, path: str, given: Table, host: str, *, turn: float | None, bare: bool
+    faults: Faults,
+    path: str,
+    given: Table,
+    host: str,
+    *,
+    turn: float | None,
+    bare: bool,
+    marked: bool,
 ) -> float | None:
     """Angle of the line from the host's own axis, degrees."""
     if "angle" not in given:
@@ -269,7 +277,7 @@ def _read_slide_angle(
     angle = read_angle(faults, f"{path}.angle", given["angle"])
     if angle is None:
         return None
-    if bare and angle != 0:
+    if bare and not marked and angle != 0:
         faults.add(
             f"{path}.angle",
             f"expected 0 or nothing, got {angle:g}",

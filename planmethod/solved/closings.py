@@ -1,14 +1,16 @@
 """Which of the two closings of a group is meant (способ сборки групп).
 
 A rule compares the two candidate places of its point; the side it picks at the first asked
-position of the file that can be assembled holds for every position. So a position computed alone
-and the same one in a batch agree, and no closing depends on the one before it.
+position of the file that can be assembled holds for every position, or tells which branch of the
+motion is kept. So a position computed alone and the same one in a batch agree, and no closing
+depends on the one before it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import assert_never
 
 import numpy as np
@@ -22,10 +24,13 @@ from planmethod.errors import AssemblyError, Fault, ProblemError
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import draw_positions
-from planmethod.plans.draft import Draft
-from planmethod.plans.motion.position import has_two_closings, inner_point
+from planmethod.plans.draft import Closing, Draft
+from planmethod.plans.motion.position import has_two_closings, inner_point, parallelogram
 from planmethod.problem.model import Problem, Rule, Where
+from planmethod.solved.changes import changes
 from planmethod.solved.impossible import explain
+
+TURN = 360.0
 
 TIE = 1e-9
 """Share of the mechanism's size below which two closings are the same."""
@@ -38,6 +43,7 @@ def drive_data(
     drive = problem.drive
     data: dict[str, complex | float | npt.NDArray[np.float64]] = dict(draft.numbers)
     data.update(draft.places)
+    data.update({name: one.branch(positions) for name, one in draft.branches.items()})
     data.update(mu_l=1.0, mu_v=1.0, mu_a=1.0)
     if drive.is_crank:
         data["phi"] = positions
@@ -48,20 +54,20 @@ def drive_data(
     return data
 
 
-def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, ...], int]:
-    """Return the closing (+1 or -1) of every group that has two.
+def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, ...], Closing]:
+    """Return the closing of every group that has two.
 
     Raises
     ------
     ProblemError
-        When a group that needs a rule has none, or a rule is about a point it cannot move; all
-        such faults at once.
+        When a group that needs a rule has none, a rule is about a point it cannot move, or one
+        cannot be kept; all such faults at once. When both closings satisfy a rule.
     AssemblyError
         When a group closes at no asked position, or neither closing satisfies its rule.
     """
     positions = np.asarray(problem.drive.positions, dtype=float)
     rules = {rule.point: rule for rule in problem.assembly}
-    choice: dict[tuple[str, ...], int] = {}
+    choice: dict[tuple[str, ...], Closing] = {}
     faults: list[Fault] = []
     used: set[str] = set()
     done: list[AssurGroup] = []
@@ -73,14 +79,23 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
         done.append(group)
         if not has_two_closings(group):
             continue
-        both = [_try(problem, done, {**choice, group.links: sign}, positions) for sign in (1, -1)]
-        late = [_late(rule, both[0][0]) for rule in mine]
+        choice[group.links] = Closing()
+        both = [
+            _try(problem, done, {**choice, group.links: Closing(sign)}, positions)
+            for sign in (1, -1)
+        ]
+        late = [_late(rule, both[0][0]) for rule in mine] + [
+            _unkept(problem, rule, group) for rule in mine
+        ]
         if any(late):
-            choice[group.links] = 1
             faults += [fault for fault in late if fault is not None]
+        elif any(rule.where is Where.PARALLEL for rule in mine):
+            choice[group.links] = Closing(parallel=True)
         elif mine:
-            signs = [_judge(problem, rule, both, positions) for rule in mine]
-            choice[group.links] = signs[0]
+            judged = [_judge(problem, rule, both, positions) for rule in mine]
+            choice[group.links] = judged[0]
+            if any(rule.continuous for rule in mine):
+                choice[group.links] = _going_on(problem, both[0], group, judged[0])
             faults += [
                 Fault(
                     f"assembly.{rule.point}",
@@ -88,13 +103,10 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
                     f"{', '.join(group.links)}",
                     "Keep the one that is meant",
                 )
-                for rule, sign in zip(mine, signs, strict=True)
-                if sign != signs[0]
+                for rule, closing in zip(mine, judged, strict=True)
+                if closing.side != judged[0].side
             ]
-        elif group.signature == "RPR":
-            choice[group.links] = 1
-        else:
-            choice[group.links] = 1
+        elif group.signature != "RPR":
             faults.append(_missing(group, both))
     for rule in problem.assembly:
         if rule.point not in used:
@@ -122,10 +134,55 @@ def _late(rule: Rule, draft: Draft) -> Fault | None:
     )
 
 
+def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
+    """Return the fault of a rule that asks to keep what its group cannot keep."""
+    path, links = f"assembly.{rule.point}.keep", ", ".join(group.links)
+    if rule.continuous and group.signature == "RPR":
+        return Fault(
+            path,
+            f"links {links} close by a slotted link, which keeps its side",
+            'Leave keep = "continuous" out',
+        )
+    if rule.where is not Where.PARALLEL:
+        return None
+    found = parallelogram(problem, group) if group.signature == "RRR" else None
+    if found is None:
+        return Fault(
+            path,
+            f"links {links} are no two sides of a quadrilateral of four joints",
+            'Leave keep = "parallel" out, and say which closing is meant',
+        )
+    if found.is_one:
+        return None
+    said = "; ".join(
+        f"{one} = {a:.10g} and {two} = {b:.10g} m"
+        for (one, a), (two, b) in (found.sides[:2], found.sides[2:])
+    )
+    return Fault(
+        path,
+        f"the opposite sides of a parallelogram are equal, and here {said}",
+        'Correct the lengths, or say keep = "continuous" with the closing that is meant',
+    )
+
+
+def _going_on(
+    problem: Problem, tried: tuple[Draft, Program, Trace], group: AssurGroup, closing: Closing
+) -> Closing:
+    """Return a closing that changes sides where the motion goes through a change point."""
+    draft, program, _ = tried
+    low, high = closing.start, closing.start + TURN
+    if not problem.drive.is_crank:
+        way = sum(abs(length) for _, _, length in problem.lengths)
+        low, high = closing.start - way, closing.start + way
+    found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high)
+    turn = TURN if problem.drive.is_crank else closing.turn
+    return replace(closing, changes=found, turn=turn)
+
+
 def _try(
     problem: Problem,
     groups: list[AssurGroup],
-    choice: Mapping[tuple[str, ...], int],
+    choice: Mapping[tuple[str, ...], Closing],
     positions: npt.NDArray[np.float64],
 ) -> tuple[Draft, Program, Trace]:
     draft = draw_positions(problem, groups, choice)
@@ -155,6 +212,8 @@ def _score(rule: Rule, draft: Draft, trace: Trace) -> npt.NDArray[np.float64]:
             return np.asarray(left if rule.where is Where.LEFT_OF else -left)
         case Where.NEAR:
             return np.asarray(-abs(p - (rule.at - draft.origin)))
+        case Where.PARALLEL:
+            return np.full(np.shape(p), np.nan)  # which of the sides it is changes with the crank
         case _:
             assert_never(rule.where)
 
@@ -164,6 +223,8 @@ def _said(rule: Rule) -> str:
     match rule.where:
         case Where.NEAR:
             return f"{rule.point} near [{rule.at.real:g}, {rule.at.imag:g}]"
+        case Where.PARALLEL:
+            return f"{rule.point} keep parallel"
         case Where.ABOVE | Where.BELOW:
             words = rule.where.value
         case _:
@@ -176,7 +237,8 @@ def _judge(
     rule: Rule,
     both: list[tuple[Draft, Program, Trace]],
     positions: npt.NDArray[np.float64],
-) -> int:
+) -> Closing:
+    """Return the side that a rule asks for in the first position that tells the closings apart."""
     scores = [
         np.broadcast_to(_score(rule, draft, trace), positions.shape) for draft, _, trace in both
     ]
@@ -192,13 +254,13 @@ def _judge(
     distinct = able[apart[able] > TIE * size]
     if not distinct.size:
         raise AssemblyError(
-            f"{problem.name}: at {name} = {positions[able[0]]:g} both closings put {rule.point} at "
-            "one place: the mechanism stands in a dead position, from which it may go on either "
+            f"{problem.name}: at {name} = {positions[able[0]]:.12g} both closings put {rule.point} "
+            "at one place: the mechanism stands in a dead position, from which it may go on either "
             "way. Ask another position."
         )
     first = int(distinct[0])
     plus, minus = float(scores[0][first]), float(scores[1][first])
-    where = f"{name} = {positions[first]:g}"
+    where = f"{name} = {positions[first]:.12g}"
     said = _said(rule)
     if abs(plus - minus) <= TIE * size:
         raise ProblemError(
@@ -212,13 +274,55 @@ def _judge(
                 )
             ],
         )
-    sign = 1 if plus > minus else -1
+    if rule.where is not Where.NEAR and min(plus, minus) > TIE * size:
+        raise ProblemError(problem.name, [_ambiguous(rule, both, first, where)])
     if rule.where is not Where.NEAR and max(plus, minus) <= 0:
         raise AssemblyError(
             f"'{said}' holds for neither closing at {where}: they miss it by {-plus:.6g} m and "
             f"{-minus:.6g} m. Check the lengths or the rule assembly.{rule.point}."
         )
-    return sign
+    return Closing(1 if plus > minus else -1, start=float(positions[first]))
+
+
+def _ambiguous(
+    rule: Rule, both: list[tuple[Draft, Program, Trace]], index: int, where: str
+) -> Fault:
+    """Return the fault of a rule that both closings satisfy, with one that tells them apart."""
+
+    def at(trace: Trace, name: str) -> complex:
+        value = np.ravel(np.asarray(trace.value[PointName(name)], dtype=complex))
+        return complex(value[index if value.size > 1 else 0])
+
+    (draft, _, one), (_, _, two) = both
+    c, d = at(one, rule.point), at(two, rule.point)
+    still = [p for p in sorted(draft.points()) if at(one, p) == at(two, p)]
+    ways = (("right of", "left of", 1), ("above", "below", -1j))
+    told = [
+        (min(sides), f"{more} {p}", f"{less} {p}")
+        for p in still
+        for first, second, turn in ways
+        for more, less, sign in ((first, second, turn), (second, first, -turn))
+        if min(sides := (((c - at(one, p)) * sign).real, ((at(one, p) - d) * sign).real)) > 0
+    ]
+    # No point is between them: a line through two points may be.
+    told = told or [
+        (min(sides), f"left of {p}{q}", f"right of {p}{q}")
+        for p in still
+        for q in still
+        if (along := at(one, q) - at(one, p))
+        and min(sides := (((c - at(one, p)) / along).imag, -((d - at(one, p)) / along).imag)) > 0
+    ]
+    places = [f"({z.real:.4g}, {z.imag:.4g})" for z in (c + draft.origin, d + draft.origin)]
+    near = [
+        f"{{ near = [{z.real:.4g}, {z.imag:.4g}] }}" for z in (c + draft.origin, d + draft.origin)
+    ]
+    _, *words = max(told, key=lambda pair: pair[0], default=(0.0, *near))
+    return Fault(
+        f"assembly.{rule.point}",
+        f"'{_said(rule)}' holds for both closings at {where}: with {rule.point} at {places[0]} and "
+        f"at {places[1]} m",
+        f"Say '{words[0]}' for the first or '{words[1]}' for the second",
+    )
 
 
 def _at(trace: Trace, point: str, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:

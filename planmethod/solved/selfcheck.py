@@ -6,7 +6,11 @@ import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, PlanMethodError
+from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.motion.position import inner_point, parallelogram
+from planmethod.solved.changes import changes
+from planmethod.solved.closings import TURN, drive_data
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import error_bound
@@ -22,6 +26,9 @@ MOST_NAMED = 5
 
 NEAR = 1e-3
 """Margin below which a position is called next to a dead one."""
+
+AT = 1e-7
+"""How well a change point is found, in parts of the driver's way."""
 
 LIMIT = 1e-7
 """Largest closing error, as a share of the largest value of its kind in the position."""
@@ -51,6 +58,55 @@ def warnings(solution: Solution) -> list[str]:
             f"so are {len(doubtful) - len(named)} more of {len(estimate)} positions, less badly."
         )
     return said
+
+
+def changed_branches(solution: Solution) -> list[str]:
+    """Return what a user should know of change points between the positions: a sentence a group.
+
+    The way goes from the first position of the file, where the closings are chosen, to all asked
+    ones. A group that keeps a parallelogram or goes on continuously has nothing to be told of.
+    """
+    drive, draft = solution.problem.drive, solution.construction.draft
+    way = np.append(solution.positions, drive.positions[0])
+    low, high = float(way.min()), float(way.max())
+    said = []
+    for group in solution.structure.groups if high > low else ():
+        closing = draft.choice.get(group.links)
+        if closing is None or closing.parallel or closing.changes:
+            continue
+        high = min(high, low + TURN) if drive.is_crank else high
+        found = changes(
+            draft,
+            solution.construction.program,
+            lambda s: drive_data(solution.problem, draft, s),
+            group,
+            low,
+            high,
+        )
+        # What is asked last, the motion comes to and does not pass.
+        slack = AT * (high - low)
+        passed = [place for place in found if low + slack < place < high - slack]
+        if passed:
+            said.append(_change(solution, group, passed))
+    return said
+
+
+def _change(solution: Solution, group: AssurGroup, found: list[float]) -> str:
+    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
+    places = " and ".join(dict.fromkeys(f"{round(place, 4) + 0.0:.10g}" for place in found))
+    text = (
+        f"links {', '.join(group.links)} pass a change point at {name} = {places} {unit}, from "
+        "which the mechanism may go on either way: the side that was chosen in the first position "
+        "is kept, so that one branch of the motion passes into another there."
+    )
+    if group.signature == "RPR":
+        return text
+    c = inner_point(group)
+    ways = [f'{c} = {{ near = [x, y], keep = "continuous" }} for the motion that goes on smoothly']
+    quadrilateral = parallelogram(solution.problem, group) if group.signature == "RRR" else None
+    if quadrilateral is not None and quadrilateral.is_one:
+        ways.insert(0, f'{c} = {{ keep = "parallel" }} for the parallelogram')
+    return f"{text} Say in [assembly] {', '.join(ways)}."
 
 
 def _place(solution: Solution, i: int) -> str:

@@ -421,7 +421,8 @@ def test_doubts_of_a_large_table_are_told_together() -> None:
     phi = f"60:120:{60 / BLOCK},{near}"
     result = run("solve", "dead.toml", "--phi", phi, "--csv", "t.csv")
     assert result.exit_code == 0, result.output
-    lines = result.stderr.splitlines()
+    change, *lines = result.stderr.splitlines()
+    assert "pass a change point at phi = 180 deg" in change
     assert len(lines) == 6
     for line in lines[:5]:
         number = int(line.partition("position ")[2].split()[0])

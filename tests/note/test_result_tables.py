@@ -2,12 +2,14 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 
 import numpy as np
 import pytest
 from told import LANGUAGES, assert_readable, drawn, worked
-from worked import SIX
+from worked import SIX, problem_of
 
+from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import WIDTH, columns_text, pad, plain_text, table, width
 from planmethod.note.records.spreadsheet import csv_rows
 from planmethod.note.tables.results import result_tables
@@ -116,3 +118,23 @@ def test_wide_tables_are_cut_and_keep_their_leading_columns() -> None:
     lines = columns_text(columns, 1)
     assert all(width(line) <= WIDTH for line in lines)
     assert sum(line.startswith("№") for line in lines) > 1
+
+
+@pytest.mark.parametrize(
+    ("value", "told"),
+    [
+        (89.999999, "89.999999"),
+        (0.1 + 0.2, "0.3"),
+        (-45.0, "-45"),
+        (360 / 7, "51.4286"),
+        (89.99999912345, "90.0000"),  # not 90, and as near to it as six digits say
+        (math.nan, "—"),
+    ],
+)
+def test_a_given_number_has_the_digits_that_it_was_given_with(value: float, told: str) -> None:
+    assert trimmed(value) == told
+
+
+def test_a_position_is_told_as_it_was_asked() -> None:
+    solution = Solution(problem_of("linkages/ex1"), positions=[89.999999])
+    assert "φ₁ = 89,999999°" in result_tables(solution)

@@ -131,8 +131,6 @@ UPPER, LOWER = 0.2826 + 0.2761j, 0.1674 - 0.1895j
         ("right of BD", LOWER),
         ("right of DB", UPPER),
         ("above A", UPPER),
-        ("left of D", LOWER),  # both are: the further one
-        ("right of A", UPPER),  # both are: the further one
     ],
 )
 def test_a_rule_in_words_chooses_a_closing(rule: str, wanted: complex) -> None:
@@ -219,11 +217,46 @@ def test_points_of_the_frame_and_the_driver_have_one_place(point: str, other: st
 
 
 def test_a_rule_of_the_first_position_holds_for_all() -> None:
-    """At phi = 250 the upper closing is to the left of the lower one; the side stays."""
-    several = Solution(four_bar('C = "right of A"', phi=[60, 170, 250]))
+    """At phi = 250 the upper closing is to the left of G, the lower one is not; the side stays."""
+    text = FOUR_BAR.replace("D = [0.4, 0.0]", "D = [0.4, 0.0]\nG = [0.2, 0.0]")
+    given = {"rule": 'C = "right of G"', "bc": 0.3, "dc": 0.3}
+    several = Solution(loads(text.format(**given, phi=[60, 170, 250]), name="four-bar"))
     assert (several.points["C"].place.imag > 0).all()
-    asked = Solution(four_bar('C = "right of A"'), positions=[250.0])
+    assert several.points["C"].place[2].real < 0.2
+    asked = Solution(loads(text.format(**given, phi=60), name="four-bar"), positions=[250.0])
     assert asked.points["C"].place[0] == several.points["C"].place[2]
+
+
+@pytest.mark.parametrize(
+    ("rule", "first", "second"),
+    [
+        ("left of D", "above A", "below A"),
+        ("right of A", "above A", "below A"),
+        ("right of B", "above A", "below A"),
+    ],
+)
+def test_a_rule_that_both_closings_satisfy_is_refused_with_one_that_tells(
+    rule: str, first: str, second: str
+) -> None:
+    assert faulty(four_bar(f'C = "{rule}"')) == [
+        f"assembly.C: 'C {rule}' holds for both closings at phi = 60: with C at (0.2826, 0.2761) "
+        f"and at (0.1674, -0.1895) m. Say '{first}' for the first or '{second}' for the second"
+    ]
+    assert place(four_bar(f'C = "{first}"'), "C") == pytest.approx(UPPER, abs=1e-4)
+    assert place(four_bar(f'C = "{second}"'), "C") == pytest.approx(LOWER, abs=1e-4)
+
+
+def test_where_no_point_is_between_two_closings_a_line_or_a_place_tells_them() -> None:
+    """Both closings are right of and above every fixed point and B: a line parts them."""
+    text = FOUR_BAR.replace("D = [0.4, 0.0]", "D = [-0.1, -0.06]")
+    problem = loads(text.format(rule='C = "right of A"', bc=0.1, dc=0.31, phi=30), name="four-bar")
+    (said,) = faulty(problem)
+    told = re.search(r"Say '(.*)' for the first or '(.*)' for the second", said)
+    assert told is not None
+    for rule, place_of_it in zip(told.groups(), re.findall(r"\((\S+), (\S+)\)", said), strict=True):
+        x, y = map(float, place_of_it)
+        chosen = loads(text.format(rule=f'C = "{rule}"', bc=0.1, dc=0.31, phi=30), name="four-bar")
+        assert place(chosen, "C") == pytest.approx(complex(x, y), abs=1e-4)
 
 
 def test_the_first_position_that_closes_decides() -> None:
@@ -442,7 +475,7 @@ def test_the_same_links_with_another_driver_fall_into_dyads() -> None:
         .replace("phi = 60", "phi = 250")
         .replace("BP = 0.3", "BP = 0.5")
     )
-    text = text.replace('P = "right of B"', 'R = "below Q"\nB = "above A"')
+    text = text.replace('P = "right of B"', 'R = "left of Q"\nB = "above A"')
     solution = Solution(loads(text, name="third"))
     assert [g.signature for g in solution.structure.groups] == ["RRR", "RRR"]
     assert solution.structure.class_number == 2

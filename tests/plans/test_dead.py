@@ -80,9 +80,9 @@ def test_the_closing_is_told_by_the_first_position_that_can() -> None:
 
 def test_rules_of_one_group_must_agree() -> None:
     with pytest.raises(ProblemError) as caught:
-        parallelogram("50", 'E = "below A"')
+        parallelogram("50", "E = { near = [0.19, -0.1] }")
     (fault,) = caught.value.faults
     assert str(fault) == (
-        "assembly.E: 'E below A' and 'C left of BD' ask for different closings of links 2, 3. "
-        "Keep the one that is meant"
+        "assembly.E: 'E near [0.19, -0.1]' and 'C left of BD' ask for different closings of links "
+        "2, 3. Keep the one that is meant"
     )

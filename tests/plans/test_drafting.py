@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
+from inspect import signature
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,13 +18,15 @@ from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Builder, Program
 from planmethod.plans.model import PlanKind
-from planmethod.problem import load
+from planmethod.problem import load, loads
 from planmethod.solved.errors.drawing import ItemKind
 from planmethod.solved.errors.motion import Drafting, drafting_of
-from planmethod.solved.errors.spread import SHORT, UnknownItemError
+from planmethod.solved.errors.spread import DRAWS, SHORT, STRAINED, UnknownItemError
 from planmethod.solved.solution import Solution
 
-DRAWS = 4000
+ROOT = Path(__file__).parents[2]
+DOCS = (ROOT / "docs" / "drafting-errors.md").read_text("utf-8")
+CASES = ROOT / "tests" / "data" / "cases"
 
 
 @cache
@@ -248,3 +253,67 @@ def test_ellipse_of_a_point_of_a_plan() -> None:
     read = math.hypot(solution.profile.measure, solution.profile.ruler / math.sqrt(12))
     sigma = drafting_of(solution).spreads["velocity.p-e"].sigma[0]
     assert math.sqrt(unit @ matrix @ unit + read**2) == pytest.approx(sigma, rel=1e-9)
+
+
+# The numbers are documented -----------------------------------------------------------------------
+
+
+def rows_of(heading: str) -> list[list[str]]:
+    """Return the rows of the table below a heading of the documentation, without markup."""
+    part = DOCS.partition(f"## {heading}\n")[2].partition("\n## ")[0]
+    rows = [re.split(r"\s*\|\s*", line)[1:-1] for line in part.splitlines() if line[:1] == "|"]
+    return rows[2:]
+
+
+def test_the_documented_profiles_are_those_of_the_code() -> None:
+    told = {
+        row[0].strip("`"): Profile(row[0].strip("`"), *map(float, row[1:6]))
+        for row in rows_of("Profiles")
+    }
+    assert told == PROFILES
+
+
+class Told(Counted):
+    """A pencil that notes by which of its numbers each stroke errs."""
+
+    def __init__(self) -> None:
+        super().__init__(Profile("told", 2.0, 3.0, 5.0, math.degrees(7.0), 11.0))
+        self.by: list[str] = []
+
+    def error(self, out: str, sigma: float) -> float:
+        names = {2.0: "point", 3.0: "lay_off", 5.0: "measure", 7.0: "parallel"}
+        self.by.append(names[round(sigma, 12)])
+        return 0.0
+
+    def rounded(self, out: str, length: float) -> float:
+        self.by.append("ruler")
+        return length
+
+
+def test_the_documented_strokes_err_by_what_they_do() -> None:
+    for _, name, errors in rows_of("Strokes"):
+        pencil = Told()
+        stroke = getattr(pencil, name.strip("`"))
+        stroke("x", *[1.0] * (len(signature(stroke).parameters) - 1))
+        assert sorted(pencil.by) == sorted(re.findall(r"`(\w+)`", errors)), name
+    assert f"not {1 / STRAINED:g} times".replace("10", "ten") in DOCS
+    assert f"shorter than {SHORT:g} of its sigmas" in DOCS
+    assert f"of {DRAWS} random drawings" in DOCS
+
+
+# Nothing is lost where nothing is drawn -----------------------------------------------------------
+
+
+def test_sigma_exists_wherever_the_exact_value_does() -> None:
+    """S3 stands at its own pivot: a line through both has no direction, and nothing needs it."""
+    solution = Solution(load(CASES / "point-at-pivot.toml"))
+    for errors in (solution.drafting, solution.statics.drawn):
+        for label, spread in errors.spreads.items():
+            assert np.isfinite(spread.sigma).all(), label
+            if not label.endswith(("S3", "CS3")) and "s3" not in label:
+                assert not spread.drawn.any(), label
+    text = (CASES / "point-at-pivot.toml").read_text("utf-8")
+    text = text.replace('S3 = { from = "C", at = 0 }\n', "").replace('["C", "S3"]', '["C"]')
+    pivot = Solution(loads(text.replace('centre = "S3"', 'centre = "C"'), name="pivot"))
+    for label, spread in pivot.statics.drawn.spreads.items():
+        assert spread.sigma == pytest.approx(solution.statics.drawn.spreads[label].sigma), label

@@ -70,7 +70,7 @@ FAULTS = {
     ),
     "mass huge": (
         "[dynamics.links.3]\nmass = 1e300\n",
-        ["dynamics.links.3.mass: expected a mass in kg from -1e+12 to 1e+12, got 1e+300. Check "
+        ["dynamics.links.3.mass: expected a mass in kg from 0 to 1e+12, got 1e+300. Check "
          "the unit: the file is in SI units and degrees."],
     ),
     "inertia negative": (

@@ -157,7 +157,7 @@ SCHEMA_TABLES = {
     "point": SCHEMA["$defs"]["pointForm"]["properties"],
     "driver": SCHEMA["$defs"]["driver"]["properties"],
     "span": SCHEMA["$defs"]["span"]["properties"],
-    "near": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
+    "rule": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
     "scales": SCHEMA["$defs"]["scales"]["properties"],
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
     "sheet": SCHEMA["$defs"]["sheet"]["properties"],

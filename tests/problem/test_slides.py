@@ -133,6 +133,15 @@ def test_a_point_straight_along_the_line_gives_the_axis_letters() -> None:
     assert loads(text, name="rocker").bodies["3"].axis == ("S", "C")
 
 
+def test_a_mark_on_a_swinging_block_leaves_the_line_its_own_axis() -> None:
+    mark = '["C", "S"]\nS = { from = "C", at = 0.05 }'
+    text = ROCKER.replace("POINTS", mark)
+    said = text.replace('through = "C"', 'through = "C", angle = 0')
+    assert rocker(mark) == loads(said, name="rocker")
+    turned = loads(text.replace('through = "C"', 'through = "C", angle = 30'), name="rocker")
+    assert turned.slides["2"].angle == 30
+
+
 def test_a_second_slider_on_a_swinging_block_is_turned_from_the_first() -> None:
     text = (
         ROCKER.replace("POINTS", '["C"]')

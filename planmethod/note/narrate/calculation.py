@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from planmethod.construct.steps import Compute, NumberName, PointName, Similar
 from planmethod.note.narrate.letters import mark, segment
 from planmethod.note.wording import Language
@@ -102,6 +104,8 @@ class Calculation:
     def _vector(self, vector: Vector) -> str:
         ends = (vector.tail, vector.head)
         letters, mm = self._letters(*ends), self._read(*ends)
+        if not math.isfinite(mm):
+            return f"{vector.symbol} {self.words.sheets.unreadable}"
         source = self._source(vector)
         if source is not None:
             value = f"{self._found(self.mu * mm)} {self.unit}"
@@ -197,6 +201,8 @@ class Calculation:
         whole = self._read(step.plan_b, step.plan_c)
         found, given = (self._letters(step.plan_b, p) for p in (step.out, step.plan_c))
         ratio = f"{mark(b, s)}/{mark(b, c)}"
+        if not (lengths[1] and math.isfinite(whole)):
+            return f"{found} = {given}·{ratio} {self.words.sheets.unreadable}"
         numbers = f"{self._mm(whole)}·{self._mm(lengths[0])}/{self._mm(lengths[1])}"
         result = f"{self._mm(whole * lengths[0] / lengths[1])} {self.words.say.units['mm']}"
         return f"{found} = {given}·{ratio} = {numbers} = {result}"
@@ -218,6 +224,8 @@ class Calculation:
             lines.append(self._measured_arm(arm, mark(read.joint, read.place), metres))
         if not value:
             lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} = 0")
+        elif not math.isfinite(value):
+            lines.append(f"{letter}_{{{link}}} = {symbol}/{arm} {self.words.sheets.unreadable}")
         else:
             sense = self.words.note.ccw if value > 0 else self.words.note.cw
             numbers = f"{self._found(component)}/{self._given(round(metres, 9))}"

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from planmethod.construct.steps import Compute, LineName, NumberName, PointName
+from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import found, given, plain_text
 from planmethod.plans.model import FACTS, PlanKind, Vector
@@ -38,6 +38,12 @@ class Formulas:
     def exact(self, name: NumberName) -> float:
         """Return a number without the error of reading."""
         return float(self.solution.paper.number(name)[self.index])
+
+    def readable(self, name: Name) -> bool:
+        """Tell whether the hand has a value: not where it divides by what the ruler reads as 0."""
+        value = self.solution.by_hand.value[name]
+        parts = [np.ravel(part) for part in (value if isinstance(value, tuple) else (value,))]
+        return all(np.isfinite(part[self.index if part.size > 1 else 0]) for part in parts)
 
     def place(self, point: PointName) -> complex:
         """Return a point of the exact drawing, mm."""
@@ -138,6 +144,9 @@ class Formulas:
         symbol = self.names.symbol(step.out)
         powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
         exact = self.exactly(abs(self.exact(step.out)))
+        if not self.readable(step.out):
+            told = f"{found(abs(self.exact(step.out)), self.words)} {self.unit(FACTS[kind].unit)}"
+            return self.words.unreadable_value.format(symbol=symbol, exact=told)
         return self.formula(
             symbol, self.product(powers), abs(self.number(step.out)), FACTS[kind].unit, exact
         )

@@ -12,7 +12,6 @@ from planmethod.construct.steps import (
     Name,
     NumberName,
     PointName,
-    Side,
     Touch,
 )
 from planmethod.note.narrate.formulas import NOTHING, Formulas
@@ -110,8 +109,11 @@ class PositionVoice:
         side = (words.to_left if angle > 0 else words.to_right).format(base=base)
         return words.at_angle.format(angle=given(abs(angle), words), base=base), side
 
-    def _side(self, side: Side) -> str:
-        return self.words.left if side is Side.LEFT else self.words.right
+    def _sign(self, step: MeetCircles | MeetLineCircle) -> float:
+        return 1.0 if step.branch is None else self.say.number(step.branch)
+
+    def _side(self, side: float) -> str:
+        return self.words.left if side > 0 else self.words.right
 
     def two_arcs(self, step: MeetCircles) -> list[str]:
         """Tell the meeting of two arcs."""
@@ -120,14 +122,14 @@ class PositionVoice:
             first=self._length(step.radius1),
             two=self.names.point(step.centre2),
             second=self._length(step.radius2),
-            side=self._side(step.side),
+            side=self._side(step.side.value * self._sign(step)),
             point=self.names.point(step.out),
         )
         return [text]
 
     def arc_and_line(self, step: MeetLineCircle) -> list[str]:
         """Tell the meeting of an arc and a line."""
-        course = self.say.course(step.line) * step.way.value
+        course = self.say.course(step.line) * step.way.value * self._sign(step)
         words = self.words
         if abs(course.real) >= abs(course.imag):
             which = words.rightmost if course.real > 0 else words.leftmost
@@ -148,7 +150,7 @@ class PositionVoice:
             centre=self.names.point(step.centre),
             radius=self._length(step.radius),
             source=self.names.point(step.source),
-            side=self._side(step.side),
+            side=self._side(step.side.value),
             point=self.names.point(step.out),
         )
         return [text]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import assert_never
 
@@ -74,6 +75,8 @@ class Narrator:
 
     def tell(self, step: Step) -> list[str]:
         """Return the lines that tell a step; none when another step tells it."""
+        if not self.say.readable(step.out) and not self.is_reading(step):
+            return self._unreadable(step)
         match step:
             case Given() | Known():
                 return []
@@ -100,6 +103,33 @@ class Narrator:
                 return []  # of force plans only: ForceVoice tells them with the forces they carry
             case _:
                 assert_never(step)
+
+    def _unreadable(self, step: Step) -> list[str]:
+        """Tell a step that divides by what the ruler reads as 0; none of those that follow."""
+        if not self._can(step):
+            return []
+        if isinstance(step, Compute):
+            below = [name for name, power in step.powers if power < 0]
+            zero = ", ".join(self.names.symbol(n) for n in below if self.say.number(n) == 0)
+            said = {"symbol": self.names.symbol(step.out), "divisor": zero}
+        else:
+            assert isinstance(step, Similar), step  # no other step divides by what is read
+            divisor = self.names.segment(step.link_b, step.link_c)
+            said = {"symbol": self.names.point(step.out), "divisor": divisor}
+        return [self.words.unreadable.format(**said)]
+
+    def _can(self, step: Step) -> bool:
+        """Tell whether the hand has all that a step uses."""
+        return all(self.say.readable(name) for name, _ in operands(step))
+
+    def undrawn(self, steps: Iterable[Step]) -> list[str]:
+        """Return which points of a plan cannot be drawn, for what they hang on is not readable."""
+        points = [
+            self.names.point(PointName(step.out))
+            for step in steps
+            if step.out in self.names.letters and not self._can(step)
+        ]
+        return [self.words.unreadable_points.format(points=", ".join(points))] if points else []
 
     def _line(self, step: Join | Parallel | Perpendicular | AtAngle) -> list[str]:
         words, names = self.words, self.names

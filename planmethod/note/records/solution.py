@@ -58,7 +58,7 @@ def _segments(
     return {
         segment.name: {
             "exact": plain(segment.exact[index]),
-            "read": plain(segment.read[index]),
+            "read": finite_or_none(segment.read[index]),
             "sigma": finite_or_none(spreads[f"{kind.value}.{segment.name}"].sigma[index]),
         }
         for segment in segments

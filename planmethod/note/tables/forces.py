@@ -66,7 +66,7 @@ def _drawn(
     size, moment = size_label(joint), moment_label(joint)
     prismatic = moment in drawn.items
     return {
-        "read": plain(drawn.read(size)[index]),
+        "read": finite_or_none(drawn.read(size)[index]),
         "sigma": _sigma(drawn, size, index),
         "sigma_angle_deg": None if still else _sigma(drawn, angle_label(joint), index),
         "read_moment": finite_or_none(drawn.read(moment)[index]) if prismatic else 0.0,
@@ -137,10 +137,10 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             "difference": lever - balance,
             "sigma": finite_or_none(drawn.discrepancy_sigma[index]),
             "hand": {
-                "plans": plans,
-                "lever": hung,
+                "plans": finite_or_none(plans),
+                "lever": finite_or_none(hung),
                 "sigma_lever": _sigma(drawn, LEVER, index),
-                "difference": hung - plans,
+                "difference": finite_or_none(hung - plans),
             },
         }
     return record

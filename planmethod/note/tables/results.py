@@ -251,7 +251,7 @@ def _joined(segment: Segment) -> str:
 
 def _lengths(segment: Segment, words: Wording, i: int) -> list[str]:
     exact, read = float(segment.exact[i]), float(segment.read[i])
-    return [fixed(exact, words), given(read, words)]
+    return [fixed(exact, words), given(read, words, 6)]
 
 
 def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:

@@ -102,6 +102,7 @@ class ForceWording:
 
     # Lever
     title_lever: str
+    unreadable: str
     stands: str
     turned: str
     hung: str

@@ -110,6 +110,9 @@ class Wording:
     shared_turning: str
     turning: str
     turning_zero: str
+    unreadable: str
+    unreadable_value: str
+    unreadable_points: str
     similar_on: str
     similar_beyond: str
     similar_same: str

@@ -30,6 +30,7 @@ class SheetWording:
     read: str
     value: str
     sigma_note: str
+    unreadable: str
 
     # Ellipses of the drafting error
     ellipses: str

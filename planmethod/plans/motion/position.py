@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from planmethod.construct.steps import LineName, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Prismatic, Revolute
-from planmethod.plans.draft import Draft, side, way
-from planmethod.problem.model import Slide
+from planmethod.plans.draft import Closing, Draft, side, way
+from planmethod.problem.model import Problem, Slide
+
+EQUAL = 1e-9
+"""Share of a length by which the opposite sides of a parallelogram may differ."""
 
 
 def slide_of(draft: Draft, joint: Prismatic | Revolute) -> Slide:
@@ -60,14 +65,16 @@ def place_group(draft: Draft, group: AssurGroup) -> None:
             f"{', '.join(group.links)}) cannot be built by arcs and lines alone: only dyads "
             "(class II) are. Choose another driving link, so that the mechanism falls into dyads."
         )
-    sign = draft.choice.get(group.links, 1)
+    closing = draft.choice.get(group.links, Closing())
     match group.signature:
+        case "RRR" if closing.parallel:
+            _place_parallel(draft, group)
         case "RRR":
-            _place_rrr(draft, group, sign)
+            _place_rrr(draft, group, closing)
         case "RRP":
-            _place_rrp(draft, group, sign)
+            _place_rrp(draft, group, closing)
         case "RPR":
-            _place_rpr(draft, group, sign)
+            _place_rpr(draft, group, closing.side)
         case "PRP":
             _place_prp(draft, group)
         case "RPP":
@@ -99,7 +106,7 @@ def split(group: AssurGroup) -> tuple[Lead, Lead]:
     return first, second
 
 
-def _place_rrr(draft: Draft, group: AssurGroup, sign: int) -> None:
+def _place_rrr(draft: Draft, group: AssurGroup, closing: Closing) -> None:
     c = inner_point(group)
     one, two = group.leads
     p, q = lead_point(one), lead_point(two)
@@ -109,19 +116,88 @@ def _place_rrr(draft: Draft, group: AssurGroup, sign: int) -> None:
         draft.drawn(draft.length(one.link, p, c)),
         PointName(q),
         draft.drawn(draft.length(two.link, q, c)),
-        side(sign),
+        side(closing.side),
+        draft.branch(c, closing),
     )
     draft.mark_placed(c)
 
 
-def _place_rrp(draft: Draft, group: AssurGroup, sign: int) -> None:
+def _place_parallel(draft: Draft, group: AssurGroup) -> None:
+    """Draw the fourth corner of a parallelogram with the set square: no arcs that may touch."""
+    c = inner_point(group)
+    found = parallelogram(draft.problem, group)
+    assert found is not None and found.is_one
+    line = draft.b.parallel(
+        PointName(found.far), draft.b.join(PointName(found.corner), PointName(found.near))
+    )
+    length = draft.drawn(draft.length(found.link, found.far, c))
+    draft.b.lay_off(c, PointName(found.far), line, length)
+    draft.mark_placed(c)
+
+
+@dataclass(frozen=True, slots=True)
+class Quadrilateral:
+    """A dyad RRR and the corner across it: corner, near, its inner joint, far (четырёхзвенник).
+
+    Attributes
+    ----------
+    corner, near, far : str
+        The dyad's outer joints ``near`` and ``far`` each share a body with the corner.
+    link : str
+        Link of the dyad from ``far`` to its inner joint.
+    sides : tuple of (str, float)
+        Names and lengths in order around, m: corner-near, far-inner, corner-far, near-inner.
+    """
+
+    corner: str
+    near: str
+    far: str
+    link: str
+    sides: tuple[tuple[str, float], ...]
+
+    @property
+    def is_one(self) -> bool:
+        """True where opposite sides are equal: a parallelogram."""
+        (_, a), (_, b), (_, c), (_, d) = self.sides
+        return abs(a - b) <= EQUAL * a and abs(c - d) <= EQUAL * c
+
+
+def parallelogram(problem: Problem, group: AssurGroup) -> Quadrilateral | None:
+    """Return the quadrilateral that a dyad RRR closes, a parallelogram if one can be found.
+
+    None where its outer joints share no corner.
+    """
+    one, two = group.leads
+    near, far, c = lead_point(one), lead_point(two), inner_point(group)
+    found = None
+    bodies = [body.points for link, body in problem.bodies.items() if link not in group.links]
+    for first in (points for points in bodies if near in points):
+        for other in (points for points in bodies if far in points and points is not first):
+            for corner in (p for p in first if p in other and p not in (near, far)):
+                sides = tuple(
+                    (p + q, abs(points[q] - points[p]))
+                    for points, p, q in (
+                        (first, corner, near),
+                        (problem.bodies[two.link].points, far, c),
+                        (other, corner, far),
+                        (problem.bodies[one.link].points, near, c),
+                    )
+                )
+                found = Quadrilateral(corner, near, far, two.link, sides)
+                if found.is_one:
+                    return found
+    return found
+
+
+def _place_rrp(draft: Draft, group: AssurGroup, closing: Closing) -> None:
     c = inner_point(group)
     revolute, prismatic = split(group)
     slide = slide_of(draft, prismatic.joint)
     p = lead_point(revolute)
     radius = draft.drawn(draft.length(revolute.link, p, c))
     track = draft.path(slide, prismatic.to, c)
-    draft.b.meet_line_circle(c, track.line, PointName(p), radius, way(sign))
+    branch = draft.branch(c, closing)
+    draft.b.meet_line_circle(c, track.line, PointName(p), radius, way(closing.side), branch)
     at = draft.mark_placed(c)
     draft.turn_with(slide, prismatic.to, at)
 

@@ -30,7 +30,7 @@ def position_text(solution: Solution, index: int, say: Notation) -> str:
 
 
 def _sense(value: float) -> int:
-    return 0 if value == 0 else (1 if value > 0 else -1)
+    return (value > 0) - (value < 0)
 
 
 def _sigma_rows(

@@ -5,6 +5,7 @@ The errors of position and acceleration plans go on into the force plans: it is 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -53,9 +54,10 @@ class Balances:
     lever: Reals
 
     def share(self, index: int) -> float | None:
-        """Return how far the lever is from the force plans, per cent; None where those give 0."""
+        """Return how far the lever is from the force plans, per cent; None of 0 or of nothing."""
         plans, lever = float(self.plans[index]), float(self.lever[index])
-        return 100.0 * abs(lever - plans) / abs(plans) if plans else None
+        share = 100.0 * abs(lever - plans) / abs(plans) if plans else math.nan
+        return share if math.isfinite(share) else None
 
 
 class DrawnForces(Errors):

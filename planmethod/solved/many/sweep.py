@@ -65,6 +65,8 @@ class Sweep:
         Every known number of the motion and its value, SI and degrees.
     forces : bool
         Forces are among the results.
+    branches : dict
+        Closings that go on through change points, by the number that tells their side.
     loads : LoadColumns or None
         Loads that must be told for every position.
     steps : int
@@ -104,9 +106,10 @@ class Sweep:
         self.constants: dict[str, complex | float] = {
             name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
             for name, value in data.items()
-            if name != self.driver
+            if name != self.driver and name not in results.draft.branches
         }
         hidden = ("mu_", FACTS[PlanKind.FORCE].prefix)
+        self.branches = results.draft.branches
         self.parameters: dict[str, float] = {
             name: value
             for name, value in self.constants.items()
@@ -115,7 +118,7 @@ class Sweep:
         self._check(varied)
         self.varied = tuple(varied)
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
-        given = () if self.loads is None else self.loads.names
+        given = (*self.branches, *(() if self.loads is None else self.loads.names))
         written = write(self.program, fixed, (self.driver, *self.varied, *given))
         self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved)
         self._refs, self._written = refs, written
@@ -147,6 +150,10 @@ class Sweep:
         if unknown:
             known = ", ".join(sorted(self.parameters))
             raise SweepError(f"no parameter {', '.join(unknown)} to vary. Known: {known}.")
+        if varied and self.branches:
+            raise SweepError(
+                'parameters move the change points of keep = "continuous": sweep every value alone'
+            )
         if varied and self.forces:
             raise SweepError(
                 "parameters are varied for results of the motion only: ask for no forces, or sweep "
@@ -219,10 +226,11 @@ class Sweep:
         return out
 
     def _loaded(self, positions: Array) -> list[Array]:
-        """Return the columns of the loads that differ from position to position."""
-        if self.loads is None:
-            return []
-        return [column.astype(self._blocks.dtype) for column in self.loads.at(positions)]
+        """Return the columns of branches and loads that differ from position to position."""
+        columns = [closing.branch(positions) for closing in self.branches.values()]
+        if self.loads is not None:
+            columns += self.loads.at(positions)
+        return [column.astype(self._blocks.dtype) for column in columns]
 
     def _shape(
         self, angle: Array, extra: list[Array], out: Array | None, failed: Array | None
@@ -296,6 +304,7 @@ class Sweep:
             return f"Position {number} is not a number ({position})."
         at = np.array([position], dtype=float)
         data: dict[str, Any] = {**self.constants, self.driver: at}
+        data.update({name: closing.branch(at) for name, closing in self.branches.items()})
         if self.loads is not None:
             data.update(zip(self.loads.names, self.loads.at(at), strict=True))
         trace = evaluate(self.program, data, Float64())
@@ -329,6 +338,8 @@ def sweep_variants(
     if any(sweep.forces for sweep in each):
         raise SweepError("variants are swept together without forces: sweep each alone")
     for other in each[1:]:
+        if other.branches != first.branches:
+            raise SweepError("the variants do not have the same change points: sweep each alone")
         if other.program != first.program:
             raise SweepError(
                 f"{_named(other.problem)} is not built by the same steps as "

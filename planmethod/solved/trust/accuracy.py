@@ -112,13 +112,14 @@ def examine(
     data = {**solution.data(), **results.numbers}
     trace = evaluate(program, data, Float64())
     fails = failing(program, trace, len(positions))
-    spans = {} if closely else reach(program, data, SCALES)
+    exact = SCALES | solution.construction.draft.branches.keys()
+    spans = {} if closely else reach(program, data, exact)
     referee = Precise(digits)
     found = []
     for i, position in enumerate(positions):
         here = {name: _entry(value, i) for name, value in data.items()}
         if closely:
-            right = measured_reach(program, here, referee, SCALES)
+            right = measured_reach(program, here, referee, exact)
         else:
             read = evaluate(program, {n: referee.lift(v) for n, v in here.items()}, referee)
             right = {

@@ -87,7 +87,8 @@ def _extent(solution: Solution) -> float:
 def _relative_reach(
     solution: Solution, results: Sequence[Quantity], chosen: npt.NDArray[np.intp]
 ) -> Reals:
-    found = reach(solution.construction.program, solution.data(chosen=chosen), SCALES)
+    exact = SCALES | solution.construction.draft.branches.keys()
+    found = reach(solution.construction.program, solution.data(chosen=chosen), exact)
     worst = np.ones(len(chosen))
     largest = dict.fromkeys(JUDGED, np.zeros(len(chosen)))
     for kind in JUDGED:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
+from planmethod.construct.steps import Name
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.narrate.equations import balance_lines
 from planmethod.note.narrate.forces.common import Telling
@@ -78,12 +81,22 @@ def _plan(text: Steps, telling: Telling, plan: ForcePlan, number: int) -> None:
         text.item([telling.said.nothing])
         return
     _balances(text, telling, plan)
+    if not _readable(telling, *(end for edge in plan.polygon for end in (edge.tail, edge.head))):
+        text.item([telling.said.unreadable])
+        return
     for lines in moments.before():
         text.item(lines)
     for lines in voice.steps():
         text.item(lines)
     for lines in moments.guides():
         text.item(lines)
+
+
+def _readable(telling: Telling, *names: Name) -> bool:
+    """Tell whether the hand has all of what is named: not where it divides by nothing."""
+    reading = telling.reading
+    columns = (np.ravel(reading.statics.by_hand.value[name]) for name in names)
+    return all(np.isfinite(c[reading.index if c.size > 1 else 0]) for c in columns)
 
 
 def _balances(text: Steps, telling: Telling, plan: ForcePlan) -> None:
@@ -104,6 +117,9 @@ def _lever(text: Steps, telling: Telling) -> None:
     text.chapter(telling.said.title_lever)
     if telling.reading.statics.hung is None:
         text.item([telling.said.stands])
+        return
+    if not _readable(telling, telling.reading.statics.hung.balance):
+        text.item([telling.said.unreadable])
         return
     for lines in LeverVoice(telling).items():
         text.item(lines)

@@ -88,6 +88,8 @@ FORCES = ForceWording(
     side_left="to the left",
     side_right="to the right",
     title_lever="Zhukovsky lever",
+    unreadable="Cannot be drawn from what is read: something here is not readable on this plan. "
+    "Exact values: see the results.",
     stands="The driving link stands and all velocities are zero: there is no lever.",
     turned="The velocity plan turned by 90° counter-clockwise is taken for a rigid lever supported "
     "in the pole {pole}; reactions do no work and do not act on the lever.",

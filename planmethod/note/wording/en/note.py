@@ -103,6 +103,9 @@ NOTE = Wording(
     turning="The vector {segment}, carried over to point {place}, turns link {link} about point "
     "{joint} {sense}.",
     turning_zero="{symbol} = 0: the segment {segment} is zero.",
+    unreadable="{symbol} is not readable on this plan: the ruler reads {divisor} = 0.",
+    unreadable_value="{symbol} is not readable on this plan (exactly {exact})",
+    unreadable_points="Cannot be drawn from what is read: {points}. Exact values: see the results.",
     similar_on="By the similarity theorem point {point} lies on the segment {segment}: from {of} "
     "we lay off {part}{coincide}.",
     similar_beyond="By the similarity theorem point {point} lies on the segment {segment} produced "

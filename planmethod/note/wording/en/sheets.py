@@ -25,6 +25,7 @@ SHEETS = SheetWording(
     read="read",
     value="value",
     sigma_note="±σ: drafting error, one standard deviation, {profile}.",
+    unreadable="is not readable on this plan",
     ellipses="error ellipses: {sigmas}σ, {profile}",
     ellipses_enlarged="error ellipses: {sigmas}σ, enlarged {times}:1, {profile}",
     ellipses_thin="error ellipses {sigmas}σ are thinner than the lines ({profile})",

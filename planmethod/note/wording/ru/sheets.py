@@ -25,6 +25,7 @@ SHEETS = SheetWording(
     read="снято",
     value="значение",
     sigma_note="±σ — погрешность построения (СКО), {profile}.",
+    unreadable="на этом плане не читается",
     ellipses="эллипсы погрешности: {sigmas}σ, {profile}",
     ellipses_enlarged="эллипсы погрешности: {sigmas}σ, увеличены {times}:1, {profile}",
     ellipses_thin="эллипсы погрешности {sigmas}σ тоньше линий ({profile})",
