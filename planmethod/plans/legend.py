@@ -196,10 +196,11 @@ def plan_segments(draft: Draft, motions: tuple[Motion, Motion]) -> Iterator[Plan
     """Yield the segments that are measured on the plans; adds the readings of those laid off."""
     b = draft.b
     computed = {step.out for step in b.steps if isinstance(step, Compute)}
-    laid = {(step.origin, step.out): step.length for step in b.steps if isinstance(step, LayOff)}
+    steps = [step for step in b.steps if isinstance(step, LayOff)]
+    laid = {frozenset((step.origin, step.out)): step.length for step in steps}
     for p, q in draft.segments():
         drawn = draft.measured(p, q)
-        length = laid.get((PointName(p), PointName(q)), drawn)
+        length = laid.get(frozenset((PointName(p), PointName(q))), drawn)
         yield PlanSegment(PlanKind.POSITION, f"{p}-{q}", length, drawn)
     for motion in motions:
         for vector in motion.vectors:

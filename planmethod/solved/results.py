@@ -20,6 +20,9 @@ from planmethod.plans.legend import Quantity, QuantityKind
 BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
 """Kinds of what is given only when it is asked for by name."""
 
+ACCELERATIONS = (QuantityKind.ACCELERATION, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
+"""Kinds of accelerations, m/s²."""
+
 
 class UnknownResultError(PlanMethodError, ValueError):
     """A quantity is asked for that the problem does not have."""
@@ -89,13 +92,15 @@ def natural_size(kind: QuantityKind, largest: Mapping[QuantityKind, Any]) -> Any
     """Return what a result of a kind is small against, the largest of each kind being given.
 
     Accelerations may all be zero while links turn: omega squared, and omega times the largest
-    velocity, are what they are made of. Numbers or arrays alike.
+    velocity, are what they are made of. Coriolis' and the relative one are terms of accelerations,
+    and small against those. Numbers or arrays alike.
     """
     turning = largest[QuantityKind.OMEGA]
     if kind is QuantityKind.EPSILON:
         return np.maximum(largest[kind], turning**2)
-    if kind is QuantityKind.ACCELERATION:
-        return np.maximum(largest[kind], turning * largest[QuantityKind.VELOCITY])
+    if kind in ACCELERATIONS:
+        whole = np.maximum(largest[kind], largest[QuantityKind.ACCELERATION])
+        return np.maximum(whole, turning * largest[QuantityKind.VELOCITY])
     return largest[kind]
 
 

@@ -14,7 +14,7 @@ from planmethod.construct.arithmetic import Float64, unit_vectors
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder
-from planmethod.construct.steps import Name, PointName
+from planmethod.construct.steps import PointName
 
 
 def scalar(value: Any) -> complex:
@@ -74,7 +74,8 @@ def test_float64() -> None:
     assert [float(x) for x in ar.ordered(0.3, 0.2)] == [0.2, 0.3]
     assert ar.solid(np.array([0.0, 1e-300, -2.0])).tolist() == [0.0, 1.0, 1.0]
     assert ar.read("l", 1.2345) == 1.2345
-    assert ar.reread("s", 1.2345) == 1.0
+    shares = ar.share(np.array([-30.0, 50.0, 2.0]), np.array([30 + 40j, 30 + 40j, 0j]))
+    assert shares.tolist() == [0.6, 1.0, 1.0]
     assert isinstance(ar.lift(3.0), np.ndarray)
 
 
@@ -115,12 +116,6 @@ def test_ties_and_signs() -> None:
     assert Hand().ruler == 0.5
 
 
-def test_what_is_read_over_what_is() -> None:
-    hand = Hand(ruler=1.0)
-    assert hand.reread("s", np.array([31.0668, 0.0, 10.0])).tolist() == [31 / 31.0668, 1.0, 1.0]
-    assert hand.reread("s", np.array([0.3]))[0] == 0.0
-
-
 @pytest.mark.parametrize("ruler", [0.0, -1.0, math.nan, math.inf])
 def test_a_ruler_has_a_step(ruler: float) -> None:
     with pytest.raises(ValueError, match="ruler step must be positive"):
@@ -132,13 +127,20 @@ def test_a_ruler_has_a_step(ruler: float) -> None:
 PLACES = {"b": 0j, "c": 31.0668 + 0j, "B": 0j, "C": 47.3 + 0j, "S": -14.1 + 0j}
 
 
-def similar(hand: Float64, *, read_span: bool = False, read_arm: bool = False) -> complex:
+def similar(hand: Float64, *, span: bool = False, arm: bool = False, sign: float = 1.0) -> complex:
     b = Builder()
     for name in PLACES:
         b.given(name)
-    link = (PointName("B"), PointName("C"), PointName("S"))
-    plan = (PointName("b"), PointName("c"))
-    at: Name = b.similar("s", plan, link, read_span=read_span, read_arm=read_arm)
+    plan, link = (PointName("b"), PointName("c")), (PointName("B"), PointName("C"), PointName("S"))
+    side = b.compute("side", (b.measure("bc", *plan), 1), factor=sign)
+    at = b.similar(
+        "s",
+        plan,
+        link,
+        side,
+        span=b.measure("BC", link[0], link[1]) if span else None,
+        arm=b.measure("BS", link[0], link[2]) if arm else None,
+    )
     return scalar(evaluate(b.program(), PLACES, hand).value[at])
 
 
@@ -146,18 +148,18 @@ def test_a_similar_point_is_computed_from_the_read_side() -> None:
     """bs = bc·BS/BC with bc as it was read, BS and BC as they were given."""
     assert similar(Float64()) == pytest.approx(31.0668 * -14.1 / 47.3)
     assert similar(Hand(ruler=1.0)) == pytest.approx(31 * -14.1 / 47.3, rel=1e-14)
+    assert similar(Hand(ruler=1.0), sign=-1.0) == similar(Hand(ruler=1.0))  # read along a line
 
 
 def test_lengths_of_the_link_that_no_number_tells_are_read_too() -> None:
     hand = Hand(ruler=1.0)
-    assert similar(hand, read_span=True) == pytest.approx(31 * -14.1 / 47, rel=1e-14)
-    assert similar(hand, read_arm=True) == pytest.approx(31 * -14 / 47.3, rel=1e-14)
-    assert similar(hand, read_span=True, read_arm=True) == pytest.approx(31 * -14 / 47, rel=1e-14)
+    assert similar(hand, span=True) == pytest.approx(31 * -14.1 / 47, rel=1e-14)
+    assert similar(hand, arm=True) == pytest.approx(31 * -14 / 47.3, rel=1e-14)
+    assert similar(hand, span=True, arm=True) == pytest.approx(31 * -14 / 47, rel=1e-14)
 
 
-def test_the_exact_arithmetic_reads_nothing() -> None:
-    exact = similar(Float64())
-    assert similar(Float64(), read_span=True, read_arm=True) == exact
+def test_what_the_exact_arithmetic_reads_changes_nothing() -> None:
+    assert similar(Float64(), span=True, arm=True) == similar(Float64())
 
 
 def test_a_measured_length_is_rounded_and_goes_on_so() -> None:

@@ -1,4 +1,4 @@
-"""Steps of the force plans in every reading: segments carried over, moments, sums."""
+"""Steps of the force plans in every reading: segments carried over, arms, moments, sums."""
 
 from __future__ import annotations
 
@@ -56,15 +56,22 @@ def built(build: Callable[[Builder], Name]) -> Program:
     return b.program().needed_for([out])
 
 
+def moment(b: Builder, out: str, head: PointName = Q, at: PointName = B) -> NumberName:
+    """Arm times length of a vector, both read."""
+    arm = b.measure_arm(f"h_{out}", A, at, P, head)
+    return b.compute(out, (arm, 1), (b.measure(f"l_{out}", P, head), 1))
+
+
 CARRIED = built(lambda b: b.carry("X", O, P, Q))
-TIMES = built(lambda b: b.carry("X", O, P, Q, K))
-TURNED = built(lambda b: b.carry("X", O, P, Q, K, turned=True))
-MOMENT = built(lambda b: b.moment("X", A, B, P, Q))
-AGAIN = built(lambda b: b.carry("X", O, P, Q, K, read=True))
-WEIGHED = built(lambda b: b.moment("X", A, B, P, Q, read=True))
-SUM = built(lambda b: b.total("X", b.moment("M", A, B, P, Q), K, b.measure("l", P, Q), K))
-EVERY = {"carried": CARRIED, "times": TIMES, "turned": TURNED, "moment": MOMENT, "sum": SUM}
-EVERY |= {"again": AGAIN, "weighed": WEIGHED}
+TIMES = built(lambda b: b.carry("X", O, P, Q, times=K))
+TURNED = built(lambda b: b.carry("X", O, P, Q, times=K, turned=True))
+AGAIN = built(lambda b: b.carry("X", O, P, Q, b.measure("l", P, Q), times=K))
+ARM = built(lambda b: b.measure_arm("X", A, B, P, Q))
+TOLD = built(lambda b: b.compute("X", (b.measure_arm("h", A, B, P, Q), 1), (K, 1)))
+MOMENT = built(lambda b: moment(b, "X"))
+SUM = built(lambda b: b.total("X", moment(b, "M"), K, b.measure("l", P, Q), K))
+EVERY = {"carried": CARRIED, "times": TIMES, "turned": TURNED, "again": AGAIN}
+EVERY |= {"arm": ARM, "told": TOLD, "moment": MOMENT, "sum": SUM}
 
 
 def read(program: Program, arithmetic: Arithmetic | None = None, /, **data: Any) -> Any:
@@ -76,13 +83,15 @@ def wanted(name: str, **data: Any) -> Any:
     all_data: dict[str, Any] = {**DATA, **data}
     o, p, q, a, b, k = (all_data[letter] for letter in "OPQABk")
     moment = (b - a).real * (q - p).imag - (b - a).imag * (q - p).real
+    arm = moment / abs(q - p) if q != p else 0.0
     return {
         "carried": o + (q - p),
         "times": o + k * (q - p),
         "turned": o + 1j * k * (q - p),
         "again": o + k * (q - p),
+        "arm": arm,
+        "told": k * arm,
         "moment": moment,
-        "weighed": moment,
         "sum": moment + 2 * k + abs(q - p),
     }[name]
 
@@ -96,14 +105,15 @@ def test_values(
     name: str, o: complex, p: complex, q: complex, a: complex, b: complex, k: float
 ) -> None:
     data: dict[str, Any] = dict(zip("OPQABk", (o, p, q, a, b, k), strict=True))
-    size = 1.0 + abs(o) + (1 + abs(k)) * (abs(p) + abs(q)) + (abs(a) + abs(b)) * (abs(p) + abs(q))
+    size = 1 + abs(o) + (1 + abs(k) + abs(a) + abs(b)) * (1 + abs(p) + abs(q)) + abs(k * (b - a))
     assert abs(complex(read(EVERY[name], **data)) - wanted(name, **data)) <= 1e-14 * size
 
 
-def test_a_moment_is_positive_counter_clockwise() -> None:
-    assert read(MOMENT, A=0j, B=10 + 0j, P=0j, Q=3j) == 30.0
-    assert read(MOMENT, A=0j, B=10 + 0j, P=3j, Q=0j) == -30.0
-    assert read(MOMENT, A=0j, B=10 + 0j, P=7 + 7j, Q=8 + 7j) == 0.0
+def test_an_arm_and_a_moment_are_positive_counter_clockwise() -> None:
+    for program, size in ((ARM, 10.0), (MOMENT, 30.0)):
+        assert read(program, A=0j, B=10 + 0j, P=0j, Q=3j) == size
+        assert read(program, A=0j, B=10 + 0j, P=3j, Q=0j) == -size
+        assert read(program, A=0j, B=10 + 0j, P=7 + 7j, Q=8 + 7j) == 0.0
 
 
 def test_a_turned_segment_is_turned_to_the_left() -> None:
@@ -128,7 +138,7 @@ def test_nothing_is_carried_and_has_no_moment() -> None:
         assert np.isfinite(found).all()
         assert found[0] == wanted(name, Q=ends[0])
     assert read(TIMES, k=0.0) == DATA["O"]
-    assert read(MOMENT, B=DATA["A"]) == 0.0
+    assert read(ARM, B=DATA["A"]) == 0.0
     assert read(built(lambda b: b.total("X"))) == 0.0
 
 
@@ -137,8 +147,8 @@ def test_what_follows_from_an_impossible_point_is_not_a_number() -> None:
         return b.meet_lines("Z", b.join(P, Q), b.parallel(A, b.join(P, Q)))
 
     assert np.isnan(read(built(lambda b: b.carry("X", O, P, impossible(b)))))
-    assert np.isnan(read(built(lambda b: b.moment("X", A, B, P, impossible(b)))))
-    assert np.isnan(read(built(lambda b: b.moment("X", A, impossible(b), P, Q))))
+    assert np.isnan(read(built(lambda b: moment(b, "X", impossible(b)))))
+    assert np.isnan(read(built(lambda b: b.measure_arm("X", A, impossible(b), P, Q))))
 
 
 def test_operands_are_checked() -> None:
@@ -153,18 +163,19 @@ def test_operands_are_checked() -> None:
 
 
 def test_only_what_is_needed_is_kept() -> None:
-    assert {step.out for step in MOMENT.steps} == {"A", "B", "P", "Q", "X"}
+    assert {step.out for step in ARM.steps} == {"A", "B", "P", "Q", "X"}
     assert {step.out for step in CARRIED.steps} == {"O", "P", "Q", "X"}
-    assert {step.out for step in SUM.steps} == {"A", "B", "P", "Q", "k", "M", "l", "X"}
+    assert {step.out for step in SUM.steps} == {*"ABPQklMX", "h_M", "l_M"}
 
 
 # By hand ------------------------------------------------------------------------------------------
 
 
-def test_the_hand_reads_the_arm_and_knows_the_force() -> None:
-    """The vector is 50 mm long; its arm of 20.8 mm is read as 21, and multiplied by 50."""
-    assert read(MOMENT) == pytest.approx(-20.8 * 50)
-    assert read(MOMENT, Hand(ruler=0.5)) == pytest.approx(-21.0 * 50)
+def test_the_hand_reads_the_arm_and_knows_a_force_that_was_given() -> None:
+    """The arm of 20.8 mm is read as 21, and multiplied by the number that tells the force."""
+    assert read(ARM) == pytest.approx(-20.8)
+    assert read(ARM, Hand(ruler=0.5)) == -21.0
+    assert read(TOLD, Hand(ruler=0.5)) == -21.0 * DATA["k"]
 
 
 @pytest.mark.parametrize("name", ["carried", "times", "turned"])
@@ -173,11 +184,30 @@ def test_the_hand_carries_exactly(name: str) -> None:
 
 
 def test_the_hand_lays_off_again_what_it_has_read() -> None:
-    """The vector of 50 mm is read in steps of 15 as 45, its arm of 20.8 as 15."""
+    """The vector of 50 mm is read in steps of 15 as 45, its arm of 20.8 as 15: each once."""
     assert read(AGAIN, Hand(ruler=15.0)) == pytest.approx(5 - 2j - 1.5 * 0.9 * (30 + 40j))
-    assert read(WEIGHED, Hand(ruler=15.0)) == pytest.approx(-15.0 * 45.0)
+    assert read(MOMENT, Hand(ruler=15.0)) == pytest.approx(-15.0 * 45.0)
     assert read(AGAIN, Hand(ruler=200.0)) == DATA["O"]
-    assert read(WEIGHED, Hand(ruler=200.0)) == 0.0
+    assert read(MOMENT, Hand(ruler=200.0)) == 0.0
+
+
+@given(place, place, place, place, st.sampled_from([0.5, 1.0, 15.0]))
+def test_a_moment_by_hand_is_the_read_arm_times_the_read_length(
+    p: complex, q: complex, a: complex, b: complex, ruler: float
+) -> None:
+    hand, data = Hand(ruler=ruler), {"P": p, "Q": q, "A": a, "B": b}
+    assert read(MOMENT, hand, **data) == hand.ruled(read(ARM, **data)) * hand.ruled(abs(q - p))
+
+
+def test_the_sign_of_a_length_that_is_laid_off_again_does_not_matter() -> None:
+    """It may have been read along a line that runs against the vector."""
+
+    def laid(sign: float) -> Program:
+        return built(
+            lambda b: b.carry("X", O, P, Q, b.compute("l", (b.measure("m", P, Q), 1), factor=sign))
+        )
+
+    assert read(laid(-1.0)) == read(laid(1.0)) == pytest.approx(wanted("carried"))
 
 
 def spread(program: Program, profile: Profile = PROFILE, **data: Any) -> tuple[float, float]:
@@ -196,19 +226,15 @@ def test_a_carried_point_is_pricked() -> None:
     assert spread(TURNED, Q=DATA["P"]) == (0.0, 0.0)
 
 
-def test_a_moment_errs_by_the_force_times_the_reading_of_its_arm() -> None:
-    arm = math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12.0))
-    assert spread(MOMENT)[0] == pytest.approx(50.0 * arm)
-    assert spread(MOMENT, Q=DATA["P"])[0] == 0.0
-
-
-def test_a_force_that_is_read_errs_by_its_reading_too() -> None:
+def test_each_number_that_was_read_errs_by_its_reading() -> None:
     reading = math.hypot(PROFILE.measure, PROFILE.ruler / math.sqrt(12.0))
-    assert spread(WEIGHED)[0] == pytest.approx(math.hypot(50.0 * reading, 20.8 * reading))
+    assert spread(ARM)[0] == pytest.approx(reading)
+    assert spread(TOLD)[0] == pytest.approx(1.5 * reading)
+    assert spread(MOMENT)[0] == pytest.approx(math.hypot(50.0 * reading, 20.8 * reading))
     across, up = spread(AGAIN)
     assert across == pytest.approx(math.hypot(PROFILE.point, 1.5 * 0.6 * reading))
     assert up == pytest.approx(math.hypot(PROFILE.point, 1.5 * 0.8 * reading))
-    assert spread(WEIGHED, Q=DATA["P"])[0] == 0.0
+    assert spread(MOMENT, Q=DATA["P"])[0] == 0.0
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -224,8 +250,9 @@ def test_sheets_drawn_at_random_spread_as_far(name: str) -> None:
 def test_nothing_is_nothing_on_every_sheet() -> None:
     nothing = {"Q": DATA["P"]}
     assert np.all(read(TURNED, Sampled(PROFILE, FREE, 50, 7), **nothing) == DATA["O"])
-    assert np.all(read(MOMENT, Sampled(PROFILE, FREE, 50, 7), **nothing) == 0.0)
-    assert read(MOMENT, Hand(ruler=0.5), **nothing) == 0.0
+    for program in (ARM, MOMENT):
+        assert np.all(read(program, Sampled(PROFILE, FREE, 50, 7), **nothing) == 0.0)
+        assert read(program, Hand(ruler=0.5), **nothing) == 0.0
 
 
 # Slopes -------------------------------------------------------------------------------------------
@@ -233,14 +260,15 @@ def test_nothing_is_nothing_on_every_sheet() -> None:
 STEP = 1e-6
 
 
-@each("name", EVERY)
+VECTOR = [(name, DATA["Q"]) for name in EVERY]
+NOTHING = [(name, DATA["P"]) for name in ("carried", "times", "turned", "again")]
+"""What moves the end of a vector of no length moves what is carried; its arm is not defined."""
+
+
+@each("name, end", VECTOR + NOTHING)
 @each("cause", [*LETTERS, "k"])
-@each("end", [DATA["Q"], DATA["P"]])
-def test_slopes_are_finite_differences(name: str, cause: str, end: complex) -> None:
-    """Also where the vector is nothing: what moves its end gives a moment all the same."""
+def test_slopes_are_finite_differences(name: str, end: complex, cause: str) -> None:
     program = EVERY[name]
-    if name == "sum" and end == DATA["P"]:
-        program = built(lambda b: b.total("X", b.moment("M", A, B, P, Q), K, K))  # |0| has a corner
     data: dict[str, Any] = {**DATA, "Q": end}
     for way in (1.0,) if cause == "k" else (1.0, 1j):
         dual = Dual(np.atleast_1d(data[cause]), np.array([[way]]))

@@ -217,16 +217,19 @@ def test_each_verb_makes_its_step_and_returns_its_name() -> None:
         b.meet_line_circle("c", pq, r, one, Way.BACKWARD),
         b.meet_circles("d", p, one, q, two, Side.RIGHT),
         b.touch("e", p, one, q, Side.LEFT),
-        b.similar("f", (p, q), (q, r, p), read_span=True),
+        b.similar("f", (p, q), (q, r, p), one, span=two),
         b.measure("g", p, q),
         b.measure_along("h", p, q, pq),
         b.compute("i", (one, 2), (two, -1), factor=2.0),
+        b.carry("j", p, q, r, one, times=two),
+        b.measure_arm("k", p, q, r, p),
+        b.total("l", one, two),
     ]
-    assert made == list("abcdefghi")
+    assert made == list("abcdefghijkl")
     steps = {str(step.out): step for step in b.program().steps}
     assert [type(steps[name]).__name__ for name in made] == [
         "LayOff", "MeetLines", "MeetLineCircle", "MeetCircles", "Touch",
-        "Similar", "Measure", "MeasureAlong", "Compute",
+        "Similar", "Measure", "MeasureAlong", "Compute", "Carry", "MeasureArm", "Total",
     ]  # fmt: skip
     trace = evaluate(
         b.program(), {"P": 0j, "Q": 3 + 0j, "R": 1 + 1j, "one": 3.0, "two": 4.0}, Float64()

@@ -299,7 +299,8 @@ def test_similar_keeps_the_order_of_the_letters(
     names = (PointName("B"), PointName("C"), PointName("S"))
 
     def build(builder: Builder) -> PointName:
-        return builder.similar("s", (PointName("b"), PointName("c")), names)
+        plan = (PointName("b"), PointName("c"))
+        return builder.similar("s", plan, names, builder.measure("bc", *plan))
 
     value, margin = run(build, b=b, c=c, B=B, C=C, S=s)
     at = scalar(value)
@@ -318,7 +319,8 @@ def test_similar_of_the_ends_are_the_ends() -> None:
     for third, wanted in (("B", 2 + 3j), ("C", -1 + 5j)):
 
         def build(b: Builder, third: str = third) -> PointName:
-            return b.similar("s", (PointName("b"), PointName("c")), (*names, PointName(third)))
+            plan = (PointName("b"), PointName("c"))
+            return b.similar("s", plan, (*names, PointName(third)), b.measure("bc", *plan))
 
         at = scalar(run(build, b=2 + 3j, c=-1 + 5j, B=10 + 10j, C=40 + 17j)[0])
         assert abs(at - wanted) < 1e-14
@@ -351,6 +353,8 @@ def test_compute_multiplies_powers() -> None:
     assert real(run(lambda b: b.compute("z"))[0]) == 1.0
     value, _ = run(lambda b: b.compute("z", (x, 1), (x, -2)), x=np.array([2.0, -4.0]))
     assert value.tolist() == [0.5, -0.25]
+    value, _ = run(lambda b: b.compute("z", (x, -1), size=True), x=np.array([2.0, -4.0, 0.0]))
+    assert np.array_equal(value, [0.5, 0.25, np.nan], equal_nan=True)
 
 
 # Batches and impossible positions -----------------------------------------------------------------
@@ -398,14 +402,14 @@ def test_every_kind_of_step_is_tested_here() -> None:
     b.meet_line_circle("3", pq, R, x, Way.FORWARD)
     b.meet_circles("4", P, x, Q, x, Side.LEFT)
     b.touch("5", P, x, R, Side.LEFT)
-    b.similar("6", (P, Q), (P, Q, R))
+    b.similar("6", (P, Q), (P, Q, R), x)
     b.lay_off("7", P, pq, x)
     b.measure("8", P, Q)
     b.measure_along("9", P, Q, pq)
     b.compute("10", (x, 1))
     # In test_force_steps.py:
     b.carry("11", P, Q, R)
-    b.moment("12", P, Q, R, S)
+    b.measure_arm("12", P, Q, R, S)
     b.total("13", x, x)
     kinds = {type(step) for step in b.program().steps}
     assert kinds == set(STEP_TYPES)

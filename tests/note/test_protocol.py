@@ -8,7 +8,7 @@ from cases import each, some
 from told import LANGUAGES, assert_readable, drawn, flat, told, worked
 from worked import SIX
 
-from planmethod.construct.steps import Carry, Moment, PointName, Step, Total, makes
+from planmethod.construct.steps import Carry, MeasureArm, PointName, Step, Total, makes
 from planmethod.note.narrate.naming import Names
 from planmethod.note.protocol import protocol
 from planmethod.note.wording import UnknownLanguageError, wording
@@ -28,7 +28,7 @@ SENTENCES = {
         "Из точки b проводим прямую, перпендикулярную BC: таково направление v_CB.",
         "Из полюса p проводим прямую, параллельную x-x: таково направление v_CC0.",
         "Измеряем отрезок bc = 31 мм",
-        "ω₂ = μ_v·(bc)/l_BC = 0,05·31/0,1 = 15,5 с⁻¹",
+        "v_CB = μ_v·(bc) = 0,05·31 = 1,55 м/с (точно 1,553). ω₂ = v_CB/l_BC = 1,55/0,1 = 15,5 с⁻¹",
         "против часовой стрелки. Вектор (bc), перенесённый в точку C, поворачивает звено 2",
         "точка d лежит на продолжении отрезка cb за точку b",
         "(bd) = (bc)·BD/BC = 31·30/100 = 9,3 мм.",
@@ -40,7 +40,8 @@ SENTENCES = {
     ),
     ("linkages/ex1", "en"): (
         "From point b we draw a line perpendicular to BC: this is the direction of v_CB.",
-        "ω₂ = μ_v·(bc)/l_BC = 0.05·31/0.1 = 15.5 s⁻¹",
+        "v_CB = μ_v·(bc) = 0.05·31 = 1.55 m/s (exactly 1.553). "
+        "ω₂ = v_CB/l_BC = 1.55/0.1 = 15.5 s⁻¹",
         "counter-clockwise. The vector (bc), carried over to point C, turns link 2 about point B",
         "aᵏ_CC0 = 0: the guide x-x is fixed",
         "point d lies on the segment cb produced beyond b",
@@ -52,7 +53,10 @@ SENTENCES = {
     ("linkages/ex3", "ru"): (
         "Группа 2–3 (ВПВ): II класс, 2-й порядок, 3-й вид",
         "Измеряем на плане положений отрезок BC = 72,5 мм (точно 72,48 мм).",
-        "ω₃ = μ_v·(pb₃)/(BC·μ_l) = 0,05·45/(72,5·0,002) = 15,52 с⁻¹",
+        "v_B3 = μ_v·(pb₃) = 0,05·45 = 2,25 м/с (точно 2,243). "
+        "ω₃ = v_B3/(BC·μ_l) = 2,25/(72,5·0,002) = 15,52 с⁻¹",
+        "(pd) = (pb₃)·CD/BC = 45·110/72,5 = 68,28 мм.",
+        "v_D = μ_v·(pd) = 0,05·68,276 = 3,414 м/с (точно 3,405).",
         "Звено 2 поворачивается вместе со звеном 3: ω₂ = ω₃.",
         "aᵏ_B3B = 2·ω₃·v_B3B = 2·15,517·2,275 = 70,6 м/с²",
         "в ту сторону, куда смотрит v_B3B, если повернуть этот вектор на 90° по ω₃ (против "
@@ -102,7 +106,7 @@ def test_the_random_mechanisms_have_every_dyad_and_step() -> None:
     assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP"}
     kinds = {type(step) for s in programs for step in s.construction.program.steps}
     # Those of the force plans, which mechanisms without loads have not.
-    assert kinds == set(get_args(Step)) - {Carry, Moment, Total}
+    assert kinds == set(get_args(Step)) - {Carry, MeasureArm, Total}
     assert any(not s.problem.drive.is_crank for s in programs)
 
 
@@ -162,7 +166,10 @@ def test_sections_are_the_whole_program_in_order() -> None:
     solution = worked("levers/task12")
     found = solution.construction.sections
     steps = tuple(step for section in found for step in section.steps)
-    assert steps == solution.construction.program.steps
+    program = solution.construction.program
+    assert steps == program.steps[: len(steps)]
+    # What comes after them serves the tables of results: no plan gets a point more.
+    assert not [step for step in program.steps[len(steps) :] if makes(step) is PointName]
     assert [s.kind for s in found] == [
         *[PlanKind.POSITION] * 4,
         *[PlanKind.VELOCITY] * 3,

@@ -19,7 +19,7 @@ from planmethod.note.tables.causes import Causes
 from planmethod.note.tables.results import result_tables
 from planmethod.note.wording import wording
 from planmethod.plans.model import MOTION, PlanKind
-from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.errors.motion import Drafting, drafting_of
 from planmethod.solved.solution import Solution
 
 NEAR_DEAD = [230.0, 240.0, 250.0]
@@ -236,7 +236,12 @@ def test_no_causes_of_many_positions() -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_tables_without_errors_ask_for_none(lang: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Solution, "drafting", property(lambda _: pytest.fail("asked")))
+    once = Solution.once
+    monkeypatch.setattr(
+        Solution,
+        "once",
+        lambda s, make: pytest.fail("asked") if make is Drafting else once(s, make),
+    )
     for solution in (worked("linkages/ex3"), around("linkages/ex3", 12)):
         text = result_tables(solution, lang)
         assert text == result_tables(solution, lang, sigma=False)
@@ -296,12 +301,17 @@ def test_every_stroke_can_be_told(name: str | int, lang: str) -> None:
 
 
 def test_causes_are_told_in_plain_words() -> None:
-    causes = Causes(Names(worked("linkages/ex3"), wording("ru")))
+    solution = worked("linkages/ex3")
+    causes, velocity = (
+        Causes(Names(solution, wording("ru"))),
+        solution.construction.kinematics.velocity,
+    )
     assert causes.tell("A") == "нанесение точки A (план положений)"
     assert causes.tell("line1") == "откладывание угла φ₁ (план положений)"
     assert causes.tell("B") == "откладывание отрезка от точки A до точки B (план положений)"
     assert causes.tell("v:B3") == "отметка точки b₃ в пересечении прямых (план скоростей)"
-    assert causes.tell("|v:0–v:B3|line19") == "снятие отрезка pb₃ (план скоростей)"
+    read = velocity.segments.drawn((velocity.pole, velocity.point["3", "B"]))
+    assert causes.tell(read) == "снятие отрезка pb₃ (план скоростей)"
     assert causes.tell("a:D") == "построение точки d по подобию (план ускорений)"
     english = Causes(Names(worked("linkages/ex2"), wording("en")))
     assert english.tell("B") == "fixing point B with an arc (position plan)"

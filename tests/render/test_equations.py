@@ -7,7 +7,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planmethod.construct.steps import PointName
-from planmethod.plans.model import Known, Vector, VectorEquation, VectorKind
+from planmethod.plans.model import (
+    Direction,
+    Known,
+    Relation,
+    Vector,
+    VectorEquation,
+    VectorKind,
+    across,
+    towards,
+)
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import Item, Stroke, Text
 from planmethod.render.ink.lettering import in_use
@@ -16,18 +25,18 @@ from planmethod.render.layout.block import Lines, texts
 from planmethod.render.layout.equations import EquationBlock, equation_block, formula_block
 
 
-def vector(symbol: str, known: Known = Known.ONE, note: str = "") -> Vector:
+def vector(symbol: str, known: Known = Known.ONE, direction: Direction | None = None) -> Vector:
     letters = PointName("p"), PointName("b")
-    return Vector(symbol, VectorKind.ABSOLUTE, *letters, known, note)
+    return Vector(symbol, VectorKind.ABSOLUTE, *letters, known, direction)
 
 
 EQUATION = VectorEquation(
-    vector("a_{C}", Known.ONE, "∥ x-x"),
+    vector("a_{C}", Known.ONE, Direction(Relation.ALONG, guide="x-x")),
     (
-        vector("a_{B}", Known.BOTH, "B → A"),
-        vector("a^{n}_{CB}", Known.BOTH, "C → B"),
-        vector("a^{τ}_{CB}", Known.ONE, "⊥ BC"),
-        vector("a_{S}", Known.NOTHING, ""),
+        vector("a_{B}", Known.BOTH, towards("B", "A")),
+        vector("a^{n}_{CB}", Known.BOTH, towards("C", "B")),
+        vector("a^{τ}_{CB}", Known.ONE, across("B", "C")),
+        vector("a_{S}", Known.NOTHING),
     ),
 )
 
@@ -93,10 +102,14 @@ def test_shrinks_when_single_terms_are_too_wide() -> None:
 
 words = st.text(alphabet="ABCDOxτn123", min_size=1, max_size=8)
 vectors = st.builds(
-    lambda index, known, note: vector(f"a_{{{index}}}", known, note),
-    words,
+    vector,
+    words.map("a_{{{}}}".format),
     st.sampled_from(Known),
-    st.one_of(st.just(""), words.map("⊥ {}".format), words.map("∥ {} → A".format)),
+    st.one_of(
+        st.none(),
+        words.map(lambda guide: Direction(Relation.ACROSS, guide=guide)),
+        st.builds(towards, words, words),
+    ),
 )
 equations = st.builds(
     lambda left, right: VectorEquation(left, tuple(right)),

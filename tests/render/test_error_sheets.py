@@ -21,7 +21,7 @@ from planmethod.render.ink.drawing import Drawing, Stroke
 from planmethod.render.pictures.ellipses import TAG
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.results import result_columns
-from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.errors.motion import Drafting, drafting_of
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 
@@ -109,7 +109,12 @@ def test_nothing_of_it_without_the_options(
     positions = MANY[name] if many else None
     plain = drawn_sheets(name, positions)
     same_ruler = replace(PROFILES["coarse"], ruler=PROFILES["board"].ruler)
-    monkeypatch.setattr(Solution, "drafting", property(lambda _: pytest.fail("asked")))
+    once = Solution.once
+    monkeypatch.setattr(
+        Solution,
+        "once",
+        lambda s, make: pytest.fail("asked") if make is Drafting else once(s, make),
+    )
     again = kinematics_sheets(problem_of(name), positions=positions, profile=same_ruler)
     assert [sheet.items for sheet in plain] == [sheet.items for sheet in again]
 
@@ -155,9 +160,7 @@ def test_rows_of_a_single_position(name: str) -> None:
         assert exact == plain[f"{symbol}_{{{what}}}"][0]
         spread = drafting_of(solution).spreads[f"{word}_{what}"]
         sigma = float(spread.sigma[0])
-        hand = solution.by_hand_results
-        values = (hand.points if symbol in "va" else hand.links)[what]
-        value = abs(float(values[symbol in "aε"][0]))
+        value = abs(float(solution.read_off(f"{word}_{what}")[0]))
         assert error.text.endswith("*") == bool(spread.drawn[0])
         if sigma == 0.0:
             assert error.text == "0"

@@ -202,18 +202,23 @@ def test_covariance_agrees_with_random_sheets(name: str) -> None:
 
 def test_a_quantity_read_once_errs_once() -> None:
     """omega_4 follows from the read ed: the two are wholly correlated."""
-    drafting = drafting_of(drawn("linkages/ex3", "board"))
-    turning = drawn("linkages/ex3", "board").construction.kinematics.turnings
-    (start, head) = next(
-        (t.start, t.head) for (kind, link), t in turning.items() if link == "4" and "v:" in t.start
-    )
-    plan = drawn("linkages/ex3", "board").construction.plan(PlanKind.VELOCITY)
-    vector = next(v for v in plan.vectors if (v.tail, v.head) == (start, head))
-    segment = next(
-        item.label for item in drafting.items.values() if item.needs == (vector.tail, vector.head)
-    )
-    matrix = drafting.covariance([segment, "omega_4"])
-    assert abs(matrix[0, 1]) == pytest.approx(math.sqrt(matrix[0, 0] * matrix[1, 1]), rel=1e-9)
+    solution = drawn("linkages/ex3", "board")
+    kin = solution.construction.kinematics
+    turning = kin.turnings[PlanKind.VELOCITY, "4"]
+    read = kin.velocity.segments.drawn((turning.start, turning.head))
+    segment = next(each for each in solution.construction.segments if each.drawn == read)
+    assert one_error(drafting_of(solution), segment.label, "omega_4")
+
+
+def test_what_follows_by_similarity_errs_with_its_side() -> None:
+    """v_S3 is v_D·CS3/CD: the point s3 is laid off, and nothing is read anew."""
+    assert one_error(drafting_of(drawn("levers/task12", "board")), "v_D", "v_S3")
+
+
+def one_error(drafting: Drafting, one: str, other: str) -> bool:
+    """Tell whether two quantities are wholly correlated."""
+    (a, both), (_, b) = drafting.covariance([one, other])
+    return bool(a > 0 and abs(both) == pytest.approx(math.sqrt(a * b), rel=1e-9))
 
 
 def test_shares_of_the_causes_make_up_the_whole() -> None:

@@ -108,6 +108,7 @@ class Board:
     accelerations: Segments = field(init=False)
     pole: PointName = field(init=False)
     _masses: dict[str, NumberName] = field(default_factory=dict)
+    _moments: dict[tuple[PointName, PointName, Ends], NumberName] = field(default_factory=dict)
     _gravity: NumberName | None = None
     _count: int = 0
 
@@ -285,10 +286,14 @@ class Board:
         """Return the moment of a force about a point, N·m; None of one that acts in the point."""
         if force.at == about:
             return None
-        size = self.size(force)
-        arm = self.draft.b.measure_arm(self.name("h"), about, force.at, *force.ends)
-        self.arms[about, force.at, size] = arm
-        return self.draft.b.compute(self.name("M"), (arm, 1), (size, 1), (self.draft.mu_l, 1))
+        b, key = self.draft.b, (about, force.at, force.ends)
+        if key not in self._moments:
+            size = self.size(force)
+            arm = b.measure_arm(self.name("h"), about, force.at, *force.ends)
+            self.arms[about, force.at, size] = arm
+            powers = ((arm, 1), (size, 1), (self.draft.mu_l, 1))
+            self._moments[key] = b.compute(self.name("M"), *powers)
+        return self._moments[key]
 
     def size(self, force: Force) -> NumberName:
         """Return the size of a force, N: computed, or read off the plan that found it."""

@@ -47,7 +47,7 @@ from planmethod.problem.model import Slide
 
 @dataclass(frozen=True, slots=True)
 class Driving:
-    """What balances the driving link (уравновешивающий момент или уравновешивающая сила).
+    """What balances the driving link (уравновешивающий момент, уравновешивающая сила).
 
     Attributes
     ----------

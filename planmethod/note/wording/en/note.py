@@ -114,7 +114,7 @@ NOTE = Wording(
     similar_triangle="By the similarity theorem we draw with arcs the triangle {plan}, similar to "
     "the triangle {link}, its letters going round in the same sense, and get point "
     "{point}{coincide}.",
-    read_off="We read off the plan:",
+    read_off="By the plan we find:",
     referee_note=(
         "Float64 beside the referee of {digits} digits: error in SI units, condition number "
         "κ, and the error in units of κ·u, u = 2⁻⁵³. A direction φ is given by its cosine and "
