@@ -16,18 +16,32 @@ if TYPE_CHECKING:
     from planmethod.problem import load as load
     from planmethod.problem import loads as loads
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw
+    from planmethod.solved.errors.motion import drafting_of as drafting
+    from planmethod.solved.forces.statics import statics_of as statics
     from planmethod.solved.many.sweep import Sweep as Sweep
     from planmethod.solved.solution import Solution as Solution
 
-__all__ = ["Problem", "Solution", "Sweep", "draw", "load", "loads", "solve"]
+__all__ = [
+    "Problem",
+    "Solution",
+    "Sweep",
+    "drafting",
+    "draw",
+    "load",
+    "loads",
+    "solve",
+    "statics",
+]
 
 _HOMES = {
     "Problem": ("planmethod.problem", "Problem"),
     "Solution": ("planmethod.solved.solution", "Solution"),
     "Sweep": ("planmethod.solved.many.sweep", "Sweep"),
+    "drafting": ("planmethod.solved.errors.motion", "drafting_of"),
     "draw": ("planmethod.render.sheets.kinematics", "kinematics_sheets"),
     "load": ("planmethod.problem", "load"),
     "loads": ("planmethod.problem", "loads"),
+    "statics": ("planmethod.solved.forces.statics", "statics_of"),
 }
 
 

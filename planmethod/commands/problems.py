@@ -12,7 +12,6 @@ import click
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
-from planmethod.solved.forces.statics import statics_of
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -150,6 +149,8 @@ def solution_of(
     try:
         verify(solution)
         if forces and problem.dynamics is not None:
+            from planmethod.solved.forces.statics import statics_of
+
             _ = statics_of(solution).si
     except AssemblyError as error:
         if len(solution.positions) < 2:

@@ -14,6 +14,8 @@ from click.testing import CliRunner
 from worked import SIX, exact_values, path_of, problem_of
 
 from planmethod.cli import cli
+from planmethod.plans.model import PlanKind
+from planmethod.plans.motion.board import pole_letter
 
 POINT = ("x", "y", "vx", "vy", "v", "ax", "ay", "a")
 KIND = {"x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "v": "m/s"}
@@ -184,7 +186,7 @@ def test_the_record_has_the_agreed_shape(name: str) -> None:
         plans = entry["plans"]
         assert set(plans) == {"position", "velocity", "acceleration"}
         assert plans["velocity"]["pole"] == "p"
-        assert plans["acceleration"]["pole"] == "π"
+        assert plans["acceleration"]["pole"] == pole_letter(problem, PlanKind.ACCELERATION)
         for plan in plans.values():
             assert type(plan["mu"]) is float
             assert plan["mu"] > 0

@@ -14,7 +14,6 @@ from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Reals
 from planmethod.solved.selfcheck import (
@@ -210,6 +209,8 @@ def examine(
         except SelfCheckError as error:
             raise SelfCheckError(_renumbered(str(error), numbers[left])) from error
         if forces:
+            from planmethod.solved.forces.statics import statics_of
+
             unforced[left] = statics_of(solution).failing
 
     def tell(index: int) -> str:
@@ -253,6 +254,8 @@ def why(problem: Problem, position: float, number: int, *, forces: bool = False)
     try:
         verify(alone)
         if forces:
+            from planmethod.solved.forces.statics import statics_of
+
             _ = statics_of(alone).si
     except AssemblyError as error:
         return _renumbered(str(error), np.array([number]))
@@ -297,5 +300,7 @@ def with_force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> Problem:
         return problem
     scale = 1.0
     if some.size:
+        from planmethod.solved.forces.statics import statics_of
+
         scale = statics_of(Solution(problem, positions=_listed(positions[some]))).scale.per_mm
     return replace(problem, scales=replace(problem.scales, mu_F=scale))
