@@ -76,7 +76,6 @@ def lay_forces(
     bars: Sequence[Segment],
     joints: Sequence[complex] = (),
     *,
-    length: float = LENGTH,
     gap: float = 2.0,
 ) -> list[tuple[Acting, Segment]]:
     """Return where the arrow of each force is drawn, its tail and its head.
@@ -90,8 +89,8 @@ def lay_forces(
         along, white = unit(force.direction), gap if force.gap is None else force.gap
         tries: list[tuple[float, int, Segment]] = []
         for level in range(_LEVELS):
-            near = white + level * (length + white)
-            far = near + length
+            near = white + level * (LENGTH + white)
+            far = near + LENGTH
             outward = (force.at + along * near, force.at + along * far)
             inward = (force.at - along * far, force.at - along * near)
             for k, segment in enumerate((outward, inward)):

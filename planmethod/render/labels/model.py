@@ -151,16 +151,7 @@ class Placed:
 
 
 def segment_label(
-    markup: str,
-    start: complex,
-    end: complex,
-    height: float = 3.5,
-    *,
-    prefer: complex = 0j,
-    gap: float = 1.2,
-    priority: int = 0,
+    markup: str, start: complex, end: complex, height: float = 3.5, *, prefer: complex = 0j
 ) -> Label:
     """Return a label along a segment: the number of a link, the length of a vector."""
-    inscription = typeset(markup, height)
-    middle = (start + end) / 2
-    return Label(inscription, middle, (start, end), prefer, gap, priority)
+    return Label(typeset(markup, height), (start + end) / 2, (start, end), prefer, gap=1.2)

@@ -270,7 +270,6 @@ def fit(
     *,
     align: Align = "centre",
     pad: float = 0.8,
-    rich: bool = False,
     tag: str = "",
 ) -> list[Item]:
     r"""Return a text that stays in its cell (вписывание в графу).
@@ -283,7 +282,7 @@ def fit(
     Parameters
     ----------
     text : str
-        Plain text (markup when ``rich``); ``\n`` starts a new line.
+        Plain text; ``\n`` starts a new line.
     box : Bounds, mm
         The cell. Its ``Text`` items carry it as their box.
     heights : iterable of float, mm
@@ -293,7 +292,7 @@ def fit(
     """
     sizes = tuple(heights)
     room = (box[2] - box[0] - 2 * pad, box[3] - box[1] - 2 * min(pad, 0.4))
-    parts = [part if rich else escape(part) for part in text.split("\n")]
+    parts = [escape(part) for part in text.split("\n")]
     block, cut = _fitting(parts, room, sizes, align)
     middle = complex((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
     sides = {"left": box[0] + pad, "centre": middle.real, "right": box[2] - pad}

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from planmethod.note.narrate.letters import direction_text
-from planmethod.plans.model import Known, Vector, VectorEquation
+from planmethod.plans.model import Known, VectorEquation
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import (
     Inscription,
@@ -36,6 +36,9 @@ _BETWEEN_ROWS = 0.9  # of h: white between the rows of an equation that was wrap
 
 OPERATORS = frozenset({"=", "+", "-", "−", "≈", "·", "±", "→"})
 """Signs that a formula may be broken at; the sign is repeated on the next line."""
+
+INDENT = 5.0
+"""How far to the right the further lines of a formula begin, mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,11 +125,7 @@ class EquationBlock:
 
 
 def equation_block(
-    equation: VectorEquation,
-    height: float = 5.0,
-    *,
-    width: float | None = None,
-    note_height: float | None = None,
+    equation: VectorEquation, height: float = 5.0, *, width: float | None = None
 ) -> EquationBlock:
     """Return a vector equation with underlines and notes (векторное уравнение).
 
@@ -134,56 +133,17 @@ def equation_block(
     ----------
     equation : VectorEquation
     height : float, mm
-        Cap height of the terms.
+        Cap height of the terms; that of the notes is an index's, but 2.5 at least.
     width : float, mm, optional
         Greatest width. A longer equation goes on in a second row at a ``+``, which is repeated
         there; when even single terms are too wide, the letters shrink to the next GOST height.
-    note_height : float, mm, optional
-        Cap height of the notes; that of an index, but 2.5 at least, by default.
     """
-    for size in smaller_heights(height):
-        block = _equation(equation, size, width, note_height)
-        if width is None or block.width <= width:
-            break
-    return block
-
-
-def _equation(
-    equation: VectorEquation,
-    size: float,
-    width: float | None,
-    note_height: float | None,
-) -> EquationBlock:
-    small = note_height or max(2.5, index_height(size))
-
-    def term(vector: Vector) -> _Term:
-        return _Term(
-            typeset(vector_markup(vector.symbol), size),
-            typeset(direction_text(vector.direction), small),
-            vector.known.value,
-        )
-
-    setter = _RowSetter(size)
-    setter.put(term(equation.left))
-    setter.sign("=")
-    rows: list[_EquationRow] = []
-    indent = 0.0
-    for k, vector in enumerate(equation.right):
-        following = term(vector)
-        last = k == len(equation.right) - 1
-        if k and width is not None and setter.reach(following, "+", last=last) > width:
-            setter.sign("+")
-            rows.append(setter.row())
-            setter = _RowSetter(size, start=indent)
-        if k:
-            setter.sign("+")
-        setter.put(following)
-        if k == 0:
-            # Later rows begin under the first term after the sign "=", or further left if the
-            # note there sticks out.
-            indent = max(0.0, setter.sign_x)
-    rows.append(setter.row())
-    return EquationBlock(tuple(rows), size)
+    told = [
+        (vector_markup(vector.symbol), vector.known, direction_text(vector.direction))
+        for vector in (equation.left, *equation.right)
+    ]
+    signs = ["", "=", *("+" for _ in equation.right[1:])]
+    return _fitted(told, signs, height, width, hangs=True)
 
 
 def balance_block(
@@ -204,40 +164,58 @@ def balance_block(
     height, width : float, mm
         As those of `equation_block`.
     """
+    told = [(vector_markup(symbol), known, note) for symbol, known, note in vectors]
+    signs = ["", *("+" for _ in vectors), "="]
+    signs[1] = "="
+    ends = [(text, Known.NOTHING, "") for text in (head, "0")]
+    return _fitted([ends[0], *told, ends[1]], signs, height, width, hangs=False)
+
+
+def _fitted(
+    told: Sequence[tuple[str, Known, str]],
+    signs: Sequence[str],
+    height: float,
+    width: float | None,
+    *,
+    hangs: bool,
+) -> EquationBlock:
+    """Return terms, each with the sign before it, in letters that shrink until they fit."""
     for size in smaller_heights(height):
-        block = _balance(head, vectors, size, width)
+        small = max(2.5, index_height(size))
+        terms = [
+            _Term(typeset(markup, size), typeset(note, small), known.value)
+            for markup, known, note in told
+        ]
+        block = EquationBlock(_rows(terms, signs, size, width, hangs=hangs), size)
         if width is None or block.width <= width:
             break
     return block
 
 
-def _balance(
-    head: str, vectors: Sequence[tuple[str, Known, str]], size: float, width: float | None
-) -> EquationBlock:
-    small = max(2.5, index_height(size))
-    nothing = typeset("", small)
-    terms = [
-        _Term(typeset(head, size), nothing, 0),
-        *(
-            _Term(typeset(vector_markup(symbol), size), typeset(note, small), known.value)
-            for symbol, known, note in vectors
-        ),
-        _Term(typeset("0", size), nothing, 0),
-    ]
+def _rows(
+    terms: Sequence[_Term], signs: Sequence[str], size: float, width: float | None, *, hangs: bool
+) -> tuple[_EquationRow, ...]:
+    """Return terms in rows; where the equation ``hangs``, later rows begin under its right side."""
     setter = _RowSetter(size)
     rows: list[_EquationRow] = []
-    for k, term in enumerate(terms):
+    indent = 0.0
+    for k, (term, sign) in enumerate(zip(terms, signs, strict=True)):
         last = k == len(terms) - 1
-        sign = "=" if last or k == 1 else "+"
-        if k and width is not None and setter.reach(term, sign, last=last) > width:
+        if (
+            width is not None
+            and k > (1 if hangs else 0)
+            and setter.reach(term, sign, last=last) > width
+        ):
             setter.sign(sign)
             rows.append(setter.row())
-            setter = _RowSetter(size)
-        if k:
+            setter = _RowSetter(size, start=indent)
+        if sign:
             setter.sign(sign)
         setter.put(term)
-    rows.append(setter.row())
-    return EquationBlock(tuple(rows), size)
+        if hangs and k == 1:
+            # Under the first term after the sign "=", or further left if the note there sticks out.
+            indent = max(0.0, setter.sign_x)
+    return (*rows, setter.row())
 
 
 class _RowSetter:
@@ -299,34 +277,28 @@ class _RowSetter:
         return _EquationRow(tuple(self.terms), tuple(self.placed))
 
 
-def formula_block(
-    markup: str,
-    height: float = 3.5,
-    *,
-    width: float | None = None,
-    indent: float = 5.0,
-) -> Line | Lines:
+def formula_block(markup: str, height: float = 3.5, *, width: float | None = None) -> Line | Lines:
     """Return a scalar formula as rich text (расчётная формула).
 
     For instance ``ω_{2} = v_{CB}/l_{BC} = 1,55/0,1 = 15,5 с^{-1}``. A formula wider than ``width``
     mm is broken at a sign of `OPERATORS` that stands between spaces; the sign is repeated on the
-    next line (GOST 2.105), which is ``indent`` mm to the right. Without such a sign in reach it is
+    next line (GOST 2.105), which is `INDENT` mm to the right. Without such a sign in reach it is
     broken at a space.
     """
     whole = typeset(markup, height)
     if width is None or whole.width <= width:
         return Line(whole)
-    lines = _broken_formula(split_words(markup), height, width, indent)
+    lines = _broken_formula(split_words(markup), height, width)
     set_lines = tuple(typeset(line, height) for line in lines)
-    return Lines(set_lines, line_step(height), indent=indent)
+    return Lines(set_lines, line_step(height), indent=INDENT)
 
 
-def _broken_formula(words: Sequence[str], height: float, width: float, indent: float) -> list[str]:
+def _broken_formula(words: Sequence[str], height: float, width: float) -> list[str]:
     """Fill lines greedily, breaking after an operator; the next line starts with it again."""
     lines: list[str] = []
     rest = list(words)
     while rest:
-        room = width - (indent if lines else 0.0)
+        room = width - (INDENT if lines else 0.0)
         full = len(rest)
         while full > 1 and typeset(" ".join(rest[:full]), height).width > room:
             full -= 1

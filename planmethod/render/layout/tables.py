@@ -187,7 +187,6 @@ def table_block(
     units: UnitsAt = "above",
     leading: int = 0,
     row_height: float = 8.0,
-    part_gap: float = 5.0,
     title: str = "",
 ) -> Stack:
     """Return a table of results as a block (таблица результатов).
@@ -230,7 +229,7 @@ def table_block(
         TablePart(part, _stretched(part, max(target, _total(part))), units, row_height)
         for part in parts
     ]
-    body = Stack(blocks, gap=part_gap)
+    body = Stack(blocks)
     if not title:
         return body
     return Stack([Line(typeset(title, height)), body], gap=2.0)

@@ -101,7 +101,7 @@ def _letter_links(view: _View, others: Sequence[Item] = ()) -> None:
         text = link
         if parts:
             start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
-            view.labels.append(segment_label(text, start, end, small, gap=1.2))
+            view.labels.append(segment_label(text, start, end, small))
         else:
             first = next(iter(scheme.solution.problem.bodies[link].points))
             view.labels.append(

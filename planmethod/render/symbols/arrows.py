@@ -14,12 +14,7 @@ SMALL = 3.5
 
 
 def arrowhead(
-    tip: complex,
-    direction: complex,
-    *,
-    length: float = ARROW.length,
-    ink: Ink = Ink.BLACK,
-    tag: str = "",
+    tip: complex, direction: complex, *, length: float = ARROW.length, tag: str = ""
 ) -> list[Item]:
     """Return a swept arrowhead with its tip at ``tip``, pointing along ``direction`` (стрелка).
 
@@ -30,7 +25,7 @@ def arrowhead(
     back = tip - along * length
     side = along * 1j * ARROW.width * size / 2
     notch = tip - along * (ARROW.length - ARROW.notch) * size
-    return [Fill((tip, back + side, notch, back - side), ink, tag)]
+    return [Fill((tip, back + side, notch, back - side), Ink.BLACK, tag)]
 
 
 def vector_arrow(
@@ -112,11 +107,9 @@ def turn_sign(centre: complex, size: float, sense: int, *, tag: str = "") -> lis
     )
 
 
-def drive_arrow(
-    start: complex, end: complex, *, length: float = SMALL, tag: str = ""
-) -> list[Item]:
+def drive_arrow(start: complex, end: complex) -> list[Item]:
     """Return the straight arrow of a driving slider, beside it (ведущее звено, стрелка хода).
 
     The circular one of a crank is a `turn_arrow`.
     """
-    return vector_arrow(start, end, pen=Pen.THIN, length=length, tag=tag)
+    return vector_arrow(start, end, pen=Pen.THIN, length=SMALL)

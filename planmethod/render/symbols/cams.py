@@ -12,14 +12,17 @@ ROLLER = 3.2
 """Radius of a roller, mm."""
 
 
-def cam_radius(angle: float, *, base: float, lift: float, rise: float = 1.6) -> float:
+RISE = 1.6
+"""How far the rise of a cam goes on either side of its nose, radians."""
+
+
+def cam_radius(angle: float, *, base: float, lift: float) -> float:
     """Return the radius of a cam's outline at an angle from its nose, mm.
 
-    ``base`` is the least radius and ``lift`` the rise above it, mm; the rise takes ``rise`` radians
-    on either side of the nose, by the cosine law.
+    ``base`` is the least radius and ``lift`` the rise above it, mm, by the cosine law.
     """
     off = abs((angle + pi) % tau - pi)
-    return base + (lift * (1 + cos(pi * off / rise)) / 2 if off < rise else 0.0)
+    return base + (lift * (1 + cos(pi * off / RISE)) / 2 if off < RISE else 0.0)
 
 
 def cam(
@@ -33,15 +36,12 @@ def cam(
     return [Stroke(outline, closed=True, tag=tag)]
 
 
-def roller(at: complex, *, radius: float = ROLLER, factor: float = 1.0) -> list[Item]:
+def roller(at: complex) -> list[Item]:
     """Return a roller on its pin, white inside (ролик)."""
-    wide = radius * factor
-    return [Disc(at, wide), Arc(at, wide), *revolute(at, factor=0.7 * factor, pen=Pen.THIN)]
+    return [Disc(at, ROLLER), Arc(at, ROLLER), *revolute(at, factor=0.7, pen=Pen.THIN)]
 
 
-def rest_on_cam(
-    centre: complex, way: complex, *, base: float, lift: float, nose: float, radius: float = ROLLER
-) -> complex:
+def rest_on_cam(centre: complex, way: complex, *, base: float, lift: float, nose: float) -> complex:
     """Return where a roller's centre rests on a cam as it comes down along ``way``, mm.
 
     The follower's line goes through the cam's centre; the roller touches the outline without
@@ -53,8 +53,8 @@ def rest_on_cam(
         for a in (tau * k / 720 for k in range(720))
     ]
     touching: list[float] = [
-        p.real + (radius**2 - p.imag**2) ** 0.5
+        p.real + (ROLLER**2 - p.imag**2) ** 0.5
         for p in points
-        if abs(p.imag) < radius and p.real > 0
+        if abs(p.imag) < ROLLER and p.real > 0
     ]
     return centre + up * max(touching)

@@ -15,26 +15,24 @@ from planmethod.render.symbols.sizes import SIZES, unit
 PITCH_POINT = 0.8
 """Radius of the dot of a pitch point, mm."""
 
+RACK = 5.0
+"""Height of a rack, mm."""
+
 
 # From the front -----------------------------------------------------------------------------------
 
 
-def wheel_front(
-    centre: complex, radius: float, *, touch: complex | None = None, tag: str = ""
-) -> list[Item]:
+def wheel_front(centre: complex, radius: float, *, touch: complex | None = None) -> list[Item]:
     """Return a wheel from the front: pitch circle and centre lines (колесо, вид спереди).
 
     ``radius`` is that of the pitch circle, ``touch`` the pitch point, mm. The joint or support in
     the centre is drawn after it.
     """
-    return [
-        *pitch_circle(centre, radius, touch=touch, tag=tag),
-        *centre_lines(centre, radius, tag=tag),
-    ]
+    return [*pitch_circle(centre, radius, touch=touch), *centre_lines(centre, radius)]
 
 
 def mesh_front(
-    first: complex, radius: float, second: complex, *, internal: bool = False, tag: str = ""
+    first: complex, radius: float, second: complex, *, internal: bool = False
 ) -> list[Item]:
     """Return two wheels in mesh from the front (зубчатое зацепление, вид спереди).
 
@@ -56,35 +54,32 @@ def mesh_front(
     other = apart + radius if internal else apart - radius
     rim = other + SIZES.slider_width / 2 if internal else other
     items = [
-        *pitch_circle(first, radius, touch=point, tag=tag),
-        *pitch_circle(second, other, touch=point, tag=tag),
-        *centre_lines(first, radius, directions=(way * 1j,), tag=tag),
-        *centre_lines(second, rim, directions=(way * 1j,), tag=tag),
+        *pitch_circle(first, radius, touch=point),
+        *pitch_circle(second, other, touch=point),
+        *centre_lines(first, radius, directions=(way * 1j,)),
+        *centre_lines(second, rim, directions=(way * 1j,)),
     ]
     ends = [second - way * (rim + 3.0), second + way * (rim + 3.0)]
     if internal:
-        items.append(Arc(second, rim, tag=tag))
+        items.append(Arc(second, rim))
     else:
         ends[0] = first - way * (radius + 3.0)
-    items += axis_line(*ends, first, second, tag=tag)
-    return [*items, Disc(point, PITCH_POINT, Ink.BLACK, tag=tag)]
+    items += axis_line(*ends, first, second)
+    return [*items, Disc(point, PITCH_POINT, Ink.BLACK)]
 
 
-def rack_front(
-    start: complex, end: complex, *, side: int = -1, height: float = 5.0, tag: str = ""
-) -> list[Item]:
+def rack_front(start: complex, end: complex) -> list[Item]:
     """Return a rack: its pitch line, dash-dot, and the outline of its back (рейка).
 
-    ``side`` is where its body is: +1 on the left of the way from ``start`` to ``end``, -1 on the
-    right. A wheel touches the pitch line.
+    Its body is on the right of the way from ``start`` to ``end``; a wheel touches the pitch line.
     """
-    down = unit(end - start) * (1j if side > 0 else -1j)
-    teeth, back = down * height * 0.3, down * height
+    down = unit(end - start) * -1j * RACK
+    teeth, back = down * 0.3, down
     body = (start + teeth, start + back, end + back, end + teeth)
     over = unit(end - start) * 3.0
     return [
-        Stroke(body, tag=tag, closed=True),
-        *axis_line(start - over, end + over, (start + end) / 2, tag=tag),
+        Stroke(body, closed=True),
+        *axis_line(start - over, end + over, (start + end) / 2),
     ]
 
 
@@ -95,10 +90,8 @@ def wheel_profile(
     centre: complex,
     radius: float,
     *,
-    axis: complex = 1 + 0j,
     ways: tuple[int, ...] = (1, -1),
     loose: bool = False,
-    factor: float = 1.0,
     tag: str = "",
 ) -> list[Item]:
     """Return a wheel from the side: its disc and a cross-bar at the teeth (колесо, вид сбоку).
@@ -109,82 +102,50 @@ def wheel_profile(
         On the axis.
     radius : float, mm
         Pitch radius; the cross-bar stands half a mesh inside it.
-    axis : complex
-        Direction of the axis.
     ways : tuple of int
-        Which halves are drawn: +1 on the left of the axis, -1 on the right.
+        Which halves are drawn: +1 above the axis, -1 below it.
     loose : bool
         The wheel turns on its shaft: a hub of two cross-bars with the shaft between them (колесо
         на подшипнике). Otherwise it is fixed to it.
     """
-    along = unit(axis)
-    tooth = along * SIZES.teeth / 2 * factor
-    hub = along * SIZES.teeth / 2 * factor
-    rim = radius - SIZES.mesh / 2 * factor
-    root = SIZES.mesh / 2 * factor if loose else 0.0
+    tooth = SIZES.teeth / 2
+    rim = radius - SIZES.mesh / 2
+    root = SIZES.mesh / 2 if loose else 0.0
     items: list[Item] = []
     for way in ways:
-        out = along * 1j * way
-        items.append(Stroke((centre + out * root, centre + out * rim), tag=tag))
-        items.append(Stroke((centre + out * rim - tooth, centre + out * rim + tooth), tag=tag))
+        top, low = centre + 1j * way * rim, centre + 1j * way * root
+        items.append(Stroke((low, top), tag=tag))
+        items.append(Stroke((top - tooth, top + tooth), tag=tag))
         if loose:
-            items.append(Stroke((centre + out * root - hub, centre + out * root + hub), tag=tag))
+            items.append(Stroke((low - tooth, low + tooth), tag=tag))
     return items
 
 
-def ring_profile(
-    centre: complex,
-    radius: float,
-    *,
-    axis: complex = 1 + 0j,
-    ways: tuple[int, ...] = (1,),
-    stem: float = 6.0,
-    factor: float = 1.0,
-    tag: str = "",
-) -> list[Item]:
-    """Return a fixed wheel with inner teeth from the side (неподвижное колесо).
+def ring_profile(centre: complex, radius: float, *, stem: float = 6.0) -> list[Item]:
+    """Return the upper half of a fixed wheel with inner teeth, from the side (неподвижное колесо).
 
     Its cross-bar stands half a mesh outside the pitch radius; from there a stem of ``stem`` mm goes
     to the hatched frame.
     """
-    along = unit(axis)
-    tooth = along * SIZES.teeth / 2 * factor
-    rim = radius + SIZES.mesh / 2 * factor
-    base = along * SIZES.base / 2 * factor
-    items: list[Item] = []
-    for way in ways:
-        out = along * 1j * way
-        foot = centre + out * (rim + stem * factor)
-        items.append(Stroke((centre + out * rim - tooth, centre + out * rim + tooth), tag=tag))
-        items.append(Stroke((centre + out * rim, foot), tag=tag))
-        items += ground_line(foot - base, foot + base, side=way, factor=factor)
-    return items
+    tooth, base = SIZES.teeth / 2, SIZES.base / 2
+    top = centre + 1j * (radius + SIZES.mesh / 2)
+    foot = top + 1j * stem
+    return [
+        Stroke((top - tooth, top + tooth)),
+        Stroke((top, foot)),
+        *ground_line(foot - base, foot + base, side=1),
+    ]
 
 
-def bell_profile(
-    centre: complex,
-    radius: float,
-    *,
-    web: float,
-    axis: complex = 1 + 0j,
-    ways: tuple[int, ...] = (1,),
-    factor: float = 1.0,
-    tag: str = "",
-) -> list[Item]:
-    """Return a wheel with inner teeth that turns, from the side (колесо с внутренними зубьями).
+def bell_profile(centre: complex, radius: float, *, web: float, tag: str = "") -> list[Item]:
+    """Return the upper half of a wheel with inner teeth that turns (колесо с внутренними зубьями).
 
     Its rim stands half a mesh outside the pitch radius and goes ``web`` mm beside the mesh
-    (negative: against the axis) to the web, which comes down to the axis.
+    (negative: to the left) to the web, which comes down to the axis.
     """
-    along = unit(axis)
-    tooth = along * SIZES.teeth / 2 * factor * (-1 if web > 0 else 1)
-    rim = radius + SIZES.mesh / 2 * factor
-    items: list[Item] = []
-    for way in ways:
-        out = along * 1j * way * rim
-        beside = centre + along * web
-        items.append(Stroke((centre + out + tooth, beside + out, beside), tag=tag))
-    return items
+    tooth = SIZES.teeth / 2 * (-1 if web > 0 else 1)
+    out, beside = 1j * (radius + SIZES.mesh / 2), centre + web
+    return [Stroke((centre + out + tooth, beside + out, beside), tag=tag)]
 
 
 def carrier_profile(pin: complex, centre: complex, *, reach: float, tag: str = "") -> list[Item]:

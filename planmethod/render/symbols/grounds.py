@@ -171,9 +171,6 @@ def guide_plates(
     return items
 
 
-def bearing(at: complex, *, angle: float = 0.0, factor: float = 1.0) -> list[Item]:
-    """Return the bearing of a shaft in the frame, seen from the side (подшипник вала).
-
-    ``angle`` is the direction of the shaft, degrees; the shaft is a `link` of its own.
-    """
-    return guide_plates(at, angle=angle, length=SIZES.bearing, width=SIZES.shaft, factor=factor)
+def bearing(at: complex) -> list[Item]:
+    """Return the bearing of a level shaft in the frame (подшипник вала); the shaft is a `link`."""
+    return guide_plates(at, length=SIZES.bearing, width=SIZES.shaft)

@@ -32,19 +32,17 @@ def hatch(
     outline: Sequence[complex],
     *,
     step: float = SIZES.hatch_step,
-    angle: float = 45.0,
     keep_off: Iterable[Item] = (),
-    tag: str = "",
 ) -> list[Item]:
-    """Return thin hatching clipped by a polygon (штриховка).
+    """Return thin hatching at 45° clipped by a polygon (штриховка).
 
-    ``step`` is the distance between the lines, mm; ``angle`` their direction, degrees. The lines
-    lie on one lattice for the whole sheet, so that areas side by side hatch alike. ``keep_off``
-    are items that the hatching gives way to: joints, letters' grounds, links.
+    ``step`` is the distance between the lines, mm. They lie on one lattice for the whole sheet, so
+    that areas side by side hatch alike. ``keep_off`` are items that the hatching gives way to:
+    joints, letters' grounds, links.
     """
     from shapely import MultiLineString, Polygon
 
-    turn = cmath.exp(1j * radians(angle))
+    turn = cmath.exp(1j * radians(45.0))
     area = Polygon([(p.real, p.imag) for p in outline])
     turned = [point / turn for point in outline]
     low, high = min(p.imag for p in turned), max(p.imag for p in turned)
@@ -52,15 +50,14 @@ def hatch(
     levels = [k * step for k in range(ceil(low / step), ceil(high / step))]
     ends = [((left + 1j * y) * turn, (right + 1j * y) * turn) for y in levels]
     lines = MultiLineString([[(a.real, a.imag), (b.real, b.imag)] for a, b in ends])
-    strokes: list[Item] = [
-        Stroke(path, Pen.HATCH, tag=tag) for path in _paths(lines.intersection(area), 1e-6)
-    ]
+    paths = _paths(lines.intersection(area), 1e-6)
+    strokes: list[Item] = [Stroke(path, Pen.HATCH) for path in paths]
     taken = taken_by(keep_off)
     return strokes if taken is None else clipped(strokes, taken)
 
 
-def taken_by(items: Iterable[Item], *, room: float = WHITE) -> BaseGeometry | None:
-    """Return the ground that items take with white of ``room`` mm around, or None without any.
+def taken_by(items: Iterable[Item]) -> BaseGeometry | None:
+    """Return the ground that items take with `WHITE` around, or None without any.
 
     Lines take the width of their pens, a circle that is drawn around its own white all that is
     inside it. Letters are not looked at.
@@ -72,14 +69,14 @@ def taken_by(items: Iterable[Item], *, room: float = WHITE) -> BaseGeometry | No
         match item:
             case Stroke(points=path, pen=pen, closed=closed) if len(path) > 1:
                 ends = [(p.real, p.imag) for p in ((*path, path[0]) if closed else path)]
-                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + room, quad_segs=4))
+                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + WHITE, quad_segs=4))
             case Arc(pen=pen):
                 ends = [(p.real, p.imag) for p in arc_points(item)]
-                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + room, quad_segs=4))
+                taken.append(LineString(ends).buffer(PENS[pen].width / 2 + WHITE, quad_segs=4))
             case Fill(points=path) if len(path) > 2:
-                taken.append(Polygon([(p.real, p.imag) for p in path]).buffer(room, quad_segs=4))
+                taken.append(Polygon([(p.real, p.imag) for p in path]).buffer(WHITE, quad_segs=4))
             case Disc(centre=centre, radius=radius):
-                taken.append(Point(centre.real, centre.imag).buffer(radius + room, quad_segs=8))
+                taken.append(Point(centre.real, centre.imag).buffer(radius + WHITE, quad_segs=8))
     return union_all(taken) if taken else None
 
 

@@ -54,37 +54,17 @@ def stiff_triangle(
     return [*items, Stroke(corners, pen, closed=True)]
 
 
-def crank(
-    pivot: complex,
-    pin: complex,
-    *,
-    path: bool = False,
-    support: complex = -1j,
-    factor: float = 1.0,
-    pen: Pen = Pen.MAIN,
-    tag: str = "",
-) -> list[Item]:
+def crank(pivot: complex, pin: complex, *, path: bool = False, tag: str = "") -> list[Item]:
     """Return a crank: a link that turns fully about a pivot of the frame (кривошип).
 
-    ``path`` adds the circle of its pin, a thin line; ``support`` points to the pivot's base.
+    ``path`` adds the circle of its pin, a thin line.
     """
-    items: list[Item] = []
-    if path:
-        items.append(Arc(pivot, abs(pin - pivot), pen=Pen.THIN, tag="path"))
-    items += link(pivot, pin, pen=pen, tag=tag)
-    items += fixed_pivot(pivot, direction=support, factor=factor, pen=pen)
-    return items + revolute(pin, factor=factor, pen=pen)
+    circle = [Arc(pivot, abs(pin - pivot), pen=Pen.THIN, tag="path")] if path else []
+    return [*circle, *link(pivot, pin, tag=tag), *fixed_pivot(pivot), *revolute(pin)]
 
 
 def rocker(
-    pivot: complex,
-    pin: complex,
-    *,
-    swing: tuple[float, float] = (0.0, 0.0),
-    support: complex = -1j,
-    factor: float = 1.0,
-    pen: Pen = Pen.MAIN,
-    tag: str = "",
+    pivot: complex, pin: complex, *, swing: tuple[float, float] = (0.0, 0.0), tag: str = ""
 ) -> list[Item]:
     """Return a rocker: a link that swings about a pivot of the frame (коромысло).
 
@@ -96,11 +76,8 @@ def rocker(
         radius, angle = abs(pin - pivot), cmath.phase(pin - pivot)
         ends = (angle - radians(swing[0]), angle + radians(swing[1]))
         items.append(Arc(pivot, radius, *ends, pen=Pen.THIN, tag="path"))
-        clear = SIZES.joint / 2 * factor
         for end in ends:
             way = cmath.rect(1.0, end)
-            dead = (pivot + way * clear, pivot + way * radius)
+            dead = (pivot + way * SIZES.joint / 2, pivot + way * radius)
             items.append(Stroke(dead, Pen.PHANTOM, tag="dead"))
-    items += link(pivot, pin, pen=pen, tag=tag)
-    items += fixed_pivot(pivot, direction=support, factor=factor, pen=pen)
-    return items + revolute(pin, factor=factor, pen=pen)
+    return [*items, *link(pivot, pin, tag=tag), *fixed_pivot(pivot), *revolute(pin)]

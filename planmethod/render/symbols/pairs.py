@@ -56,11 +56,7 @@ def revolute_on(
     start = cmath.phase(turn * (1 if side > 0 else -1))
     around = [at + cmath.rect(radius, start + pi * k / 16) for k in range(17)]
     piece = Stroke((at - turn * radius, at + turn * radius), pen, tag=tag)
-    return [
-        Fill(tuple(around), Ink.WHITE),
-        Arc(at, radius, start, start + pi, pen),
-        piece,
-    ]
+    return [Fill(tuple(around), Ink.WHITE), Arc(at, radius, start, start + pi, pen), piece]
 
 
 def slider(
@@ -85,21 +81,13 @@ def slider(
     return [Fill(corners, Ink.WHITE), Stroke(corners, pen, closed=True)]
 
 
-def offset_slider(
-    foot: complex,
-    pin: complex,
-    *,
-    angle: float = 0.0,
-    factor: float = 1.0,
-    pen: Pen = Pen.MAIN,
-) -> list[Item]:
-    """Return a slider whose pin stands off its axis (ползун с внеосным шарниром).
+def offset_slider(foot: complex, pin: complex) -> list[Item]:
+    """Return a slider whose pin stands off its level axis (ползун с внеосным шарниром).
 
     ``foot`` is the middle of the slider on its axis, ``pin`` the joint, mm; the arm between them
     is rigid, one piece with the slider.
     """
-    block = slider(foot, angle=angle, factor=factor, pen=pen)
-    return [*block, Stroke((foot, pin), pen), *revolute(pin, factor=factor, pen=pen)]
+    return [*slider(foot), Stroke((foot, pin)), *revolute(pin)]
 
 
 def stone(
