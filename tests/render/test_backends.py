@@ -28,9 +28,8 @@ from reading import Page, Path, Run, read_dxf, read_pdf, read_svg, turned_box
 from worked import problem_of
 
 from planmethod.errors import OutputError, PlanMethodError
-from planmethod.render.backends import BACKENDS, Options, render, replay
+from planmethod.render.backends import BACKENDS, Options, render
 from planmethod.render.backends.curves import arc_curves
-from planmethod.render.backends.null import NullCanvas
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.style import PENS, arc_spans, stroke_lines, sweep
@@ -371,10 +370,6 @@ def test_unknown_format_is_named() -> None:
 def test_impossible_resolution_is_named(dpi: float) -> None:
     with pytest.raises(OutputError, match="pixels; 1 to 16384 a side"):
         render(sample(), "png", options=Options(dpi=dpi))
-
-
-def test_template_takes_every_primitive() -> None:
-    assert replay(sheet_of(*ITEMS), NullCanvas(Options())) == b""
 
 
 PROGRAM = """

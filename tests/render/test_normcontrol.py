@@ -13,11 +13,9 @@ from worked import ROOT, drawn_sheets, every_file, problem_of
 from planmethod.mechanism.structure import analyse
 from planmethod.note.wording import LANGUAGES, UnknownLanguageError, language
 from planmethod.problem import variant_names
-from planmethod.render.control.remarks import REMARKS, Severity, unit_text
+from planmethod.render.control.remarks import REMARKS, Finding, Severity, thing_text, unit_text
 from planmethod.render.control.sheet import inspect, unused_paper
-from planmethod.render.control.texts import Finding
 from planmethod.render.control.unused import CELL, largest_empty
-from planmethod.render.control.words import thing_text
 from planmethod.render.frame.frame import FORMATS, STAMP, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import (

@@ -2,41 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from types import MappingProxyType
 
 from planmethod.errors import OutputError
-from planmethod.render.backends.canvas import Canvas, Options, draw_sheet, replay
+from planmethod.render.backends.canvas import Canvas, Options, draw_sheet
 from planmethod.render.ink.drawing import Drawing
 
-__all__ = ["BACKENDS", "PAGED", "Canvas", "Options", "render", "render_pages", "replay"]
-
-
-def _svg(options: Options) -> Canvas:
-    from planmethod.render.backends.svg import SvgCanvas
-
-    return SvgCanvas(options)
-
-
-def _pdf(options: Options) -> Canvas:
-    from planmethod.render.backends.pdf import PdfCanvas
-
-    return PdfCanvas(options)
-
-
-def _png(options: Options) -> Canvas:
-    from planmethod.render.backends.png import PngCanvas
-
-    return PngCanvas(options)
-
-
-def _dxf(options: Options) -> Canvas:
-    if is_absent("dxf"):
-        raise OutputError(DXF_NEEDS)
-    from planmethod.render.backends.dxf import DxfCanvas
-
-    return DxfCanvas(options)
+__all__ = ["BACKENDS", "PAGED", "Canvas", "Options", "render", "render_pages"]
 
 
 DXF_NEEDS = "DXF needs ezdxf: pip install 'planmethod[dxf]'"
@@ -47,10 +22,13 @@ def is_absent(fmt: str) -> bool:
     return fmt == "dxf" and find_spec("ezdxf") is None
 
 
-BACKENDS: Mapping[str, Callable[[Options], Canvas]] = MappingProxyType(
-    {"svg": _svg, "pdf": _pdf, "png": _png, "dxf": _dxf}
+BACKENDS: Mapping[str, str] = MappingProxyType(
+    {"svg": "SvgCanvas", "pdf": "PdfCanvas", "png": "PngCanvas", "dxf": "DxfCanvas"}
 )
-"""Output formats by the suffix of their files. A canvas draws one sheet."""
+"""Output formats: the suffix of their files, which their module is called, too, and their canvas.
+
+A canvas draws one sheet.
+"""
 
 PAGED = frozenset({"pdf"})
 """Formats whose files have pages: their canvases draw several sheets."""
@@ -73,7 +51,9 @@ def render(drawing: Drawing, fmt: str, *, options: Options | None = None) -> byt
     OutputError
         There is no such format, the picture would be too large for it, or its library is absent.
     """
-    return replay(drawing, _canvas(fmt, options))
+    canvas = _canvas(fmt, options)
+    draw_sheet(drawing, canvas)
+    return canvas.close()
 
 
 def render_pages(
@@ -104,7 +84,10 @@ def render_pages(
 
 
 def _canvas(fmt: str, options: Options | None) -> Canvas:
-    make = BACKENDS.get(fmt)
-    if make is None:
+    if fmt not in BACKENDS:
         raise OutputError(f"Unknown format '{fmt}'. Use one of: {', '.join(BACKENDS)}.")
-    return make(options or Options())
+    if is_absent(fmt):
+        raise OutputError(DXF_NEEDS)
+    module = import_module(f"planmethod.render.backends.{fmt}")
+    canvas: Canvas = getattr(module, BACKENDS[fmt])(options or Options())
+    return canvas

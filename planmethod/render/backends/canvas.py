@@ -32,6 +32,8 @@ class Canvas(Protocol):
 
     Coordinates are millimetres, y up, origin at the lower left corner of the sheet. Pens, dashes
     and letter outlines are the business of `style` and `lettering`, which a canvas asks.
+
+    It is made of `Options`.
     """
 
     def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
@@ -39,19 +41,19 @@ class Canvas(Protocol):
         ...
 
     def stroke(self, item: Stroke) -> None:
-        """Draw a polyline with its pen."""
+        """Draw ``stroke_lines(item)`` with the pen ``PENS[item.pen]``."""
         ...
 
     def arc(self, item: Arc) -> None:
-        """Draw a circular arc with its pen."""
+        """Draw every span of ``arc_spans(item)`` with its pen."""
         ...
 
     def fill(self, item: Fill | Disc) -> None:
-        """Fill a polygon or a circle; its outline is not drawn."""
+        """Fill a polygon or a circle with ``item.ink``; its outline is not drawn."""
         ...
 
     def text(self, item: Text) -> None:
-        """Draw one run of letters."""
+        """Draw one run of letters: the outlines of the sheet's lettering, or the same font."""
         ...
 
     def close(self) -> bytes:
@@ -88,8 +90,8 @@ def _is_bare(item: Item) -> bool:
             assert_never(item)
 
 
-def replay(drawing: Drawing, canvas: Canvas) -> bytes:
-    """Draw the display list on ``canvas`` and return the file.
+def draw_sheet(drawing: Drawing, canvas: Canvas) -> None:
+    """Draw the display list on ``canvas`` as its next sheet.
 
     Raises
     ------
@@ -97,12 +99,6 @@ def replay(drawing: Drawing, canvas: Canvas) -> bytes:
         An item has a coordinate that is not a finite number: whoever made it forgot to ask whether
         the point exists.
     """
-    draw_sheet(drawing, canvas)
-    return canvas.close()
-
-
-def draw_sheet(drawing: Drawing, canvas: Canvas) -> None:
-    """Draw the display list on ``canvas`` as its next sheet, see `replay`."""
     canvas.open(drawing.width, drawing.height, drawing.title, drawing.lettering)
     for number, item in enumerate(drawing.items):
         if not all(map(isfinite, _coordinates(item))):

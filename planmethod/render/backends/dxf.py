@@ -21,7 +21,7 @@ import ezdxf
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 
-from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.layers import (
     ARROWS,
     LAYERS,
@@ -87,7 +87,7 @@ def _no_clock() -> Iterator[None]:
         options.write_fixed_meta_data_for_testing = before
 
 
-class DxfCanvas:
+class DxfCanvas(Canvas):
     """Canvas that writes DXF."""
 
     def __init__(self, options: Options) -> None:

@@ -13,7 +13,7 @@ from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import FILL_NON_ZERO
 from reportlab.pdfgen.canvas import Canvas as Pdf
 
-from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.curves import arc_curves
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
@@ -29,7 +29,7 @@ def _registered(lettering: OutlineLettering) -> str:
     return lettering.name
 
 
-class PdfCanvas:
+class PdfCanvas(Canvas):
     """Canvas that writes PDF with the lettering embedded as a subset."""
 
     def __init__(self, options: Options) -> None:

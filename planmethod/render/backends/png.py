@@ -18,7 +18,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from planmethod.errors import OutputError
-from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.curves import arc_curves
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
@@ -29,7 +29,7 @@ _CODES: dict[str, Any] = {"M": Path.MOVETO, "L": Path.LINETO, "Z": Path.CLOSEPOL
 _VERBS = re.compile("([MLZ])([^MLZ]*)")
 
 
-class PngCanvas:
+class PngCanvas(Canvas):
     """Canvas that paints pixels."""
 
     def __init__(self, options: Options) -> None:

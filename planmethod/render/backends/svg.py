@@ -13,7 +13,7 @@ from typing import Any
 
 import svgwrite
 
-from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
@@ -35,7 +35,7 @@ def _number(value: float, places: int = 3) -> str:
     return "0" if text == "-0" else text
 
 
-class SvgCanvas:
+class SvgCanvas(Canvas):
     """Canvas that writes SVG 1.1."""
 
     def __init__(self, _options: Options) -> None:

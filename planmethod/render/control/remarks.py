@@ -1,16 +1,18 @@
-"""What the norm control says (замечания нормоконтроля): codes, severities, filled in sentences."""
+"""What the norm control says (замечания нормоконтроля): codes, severities, findings, sentences."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import language
+from planmethod.note.wording.control_model import ControlWording
 from planmethod.paper import FORMATS
-from planmethod.render.control.words import thing_text
+from planmethod.render.ink.drawing import Pen
 
 Segments: TypeAlias = tuple[tuple[str, float], ...]
 """Letters and lengths of segments, mm."""
@@ -100,31 +102,74 @@ def _fact(fact: str | float | Segments, limit: float, lang: str) -> str:
     return number_text(fact, lang)
 
 
-def _filled(
-    template: str, where: complex, value: float, limit: float, facts: Facts, lang: str
-) -> str:
-    places = {key: _fact(fact, limit, lang) for key, fact in facts.items()}
-    if "thing" in places:
-        places["thing"] = thing_text(places["thing"], language(lang).control)
-    places |= {
-        "place": place_text(where, lang),
-        "value": number_text(value, lang, 2),
-        "limit": limit_text(limit, lang),
-    }
-    return template.format_map(places)
+def thing_text(name: str, words: ControlWording) -> str:
+    """Return what an inscription lies on (``stroke main``), or a line by itself (``line axis``)."""
+    kind, _, rest = name.partition(" ")
+    # The names of pens may have a space, as may what follows them.
+    pen = max((p for p in Pen if f"{rest} ".startswith(f"{p.value} ")),
+              key=lambda p: len(p.value), default=None)  # fmt: skip
+    tag = rest if pen is None else rest[len(pen.value) :].strip()
+    told = f" ({tag})" if tag else ""
+    if kind == "line":
+        assert pen is not None, f"a line without a pen: {name}"
+        return words.lines[pen.value] + told
+    return words.things[kind].format(pen="" if pen is None else words.pens[pen.value]) + told
 
 
-def what(
-    code: str, where: complex, value: float, limit: float, facts: Facts, *, lang: str = "en"
-) -> str:
-    """Return what a finding says, where and with which numbers."""
-    return _filled(language(lang).control.remarks[code].what, where, value, limit, facts, lang)
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing the norm control has to say (замечание).
 
+    Attributes
+    ----------
+    code : str
+        One of `REMARKS`.
+    where : complex, mm
+        Place on the sheet, from its lower left corner.
+    value, limit : float
+        What was found and what is allowed: mm, mm² for overlaps, per cent for unused paper.
+    facts : mapping
+        What else the sentences of the code need.
+    view : str
+        Kind of the view it is found on, ``stamp``, or empty.
+    position : int, optional
+        Number of the position whose plan it is found on.
+    """
 
-def action(
-    code: str, where: complex, value: float, limit: float, facts: Facts, *, lang: str = "en"
-) -> str:
-    """Return what to do about a finding."""
-    said = language(lang).control.remarks[code]
-    template = said.actions[str(facts.get("advice", ""))]
-    return _filled(template, where, value, limit, facts, lang)
+    code: str
+    where: complex
+    value: float
+    limit: float
+    facts: Facts
+    view: str = ""
+    position: int | None = None
+
+    @property
+    def severity(self) -> Severity:
+        """How grave it is."""
+        return REMARKS[self.code].severity
+
+    @property
+    def message(self) -> str:
+        """What, where, with numbers, in English."""
+        return self.what("en")
+
+    def what(self, lang: str) -> str:
+        """Return what is wrong, where, with numbers."""
+        return self._filled(language(lang).control.remarks[self.code].what, lang)
+
+    def action(self, lang: str) -> str:
+        """Return what to do about it."""
+        actions = language(lang).control.remarks[self.code].actions
+        return self._filled(actions[str(self.facts.get("advice", ""))], lang)
+
+    def _filled(self, template: str, lang: str) -> str:
+        places = {key: _fact(fact, self.limit, lang) for key, fact in self.facts.items()}
+        if "thing" in places:
+            places["thing"] = thing_text(places["thing"], language(lang).control)
+        places |= {
+            "place": place_text(self.where, lang),
+            "value": number_text(self.value, lang, 2),
+            "limit": limit_text(self.limit, lang),
+        }
+        return template.format_map(places)

@@ -18,7 +18,8 @@ from dataclasses import replace
 from itertools import pairwise
 from math import tau
 
-from planmethod.render.control.texts import Finding, beyond, lint, writings_of
+from planmethod.render.control.remarks import Facts, Finding
+from planmethod.render.control.texts import beyond, lint, writings_of
 from planmethod.render.control.unused import ink_points, largest_empty
 from planmethod.render.frame.frame import (
     FRAME_LEFT,
@@ -168,26 +169,16 @@ def short_segments(views: Iterable[View]) -> Iterator[Finding]:
     """Find plans with segments that are too short: one finding for a plan in one position."""
     for view in views:
         for position in dict.fromkeys(span.position for span in view.spans):
-            short = [
-                span
-                for span in view.spans
-                if span.position == position and span.length < SHORTEST - 1e-6
-            ]
+            own = [span for span in view.spans if span.position == position]
+            short = [span for span in own if span.length < SHORTEST - 1e-6]
             if not short:
                 continue
-            least = min(span.length for span in short)
-            yield Finding(
-                "PM-D08",
-                (short[0].start + short[0].end) / 2,
-                least,
-                SHORTEST,
-                {
-                    "segments": tuple((span.name, round(span.length, 3)) for span in short),
-                    "times": float(f"{SHORTEST / max(least, 1e-3):.2g}"),
-                },
-                view=view.kind,
-                position=position,
-            )
+            where, least = (short[0].start + short[0].end) / 2, min(span.length for span in short)
+            facts: Facts = {
+                "segments": tuple((span.name, round(span.length, 3)) for span in short),
+                "times": float(f"{SHORTEST / max(least, 1e-3):.2g}"),
+            }
+            yield Finding("PM-D08", where, least, SHORTEST, facts, view.kind, position)
 
 
 def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Finding]:
@@ -203,14 +194,8 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
             for writing in writings
         )
         if not any(said):
-            yield Finding(
-                "PM-D09",
-                complex((view.box[0] + view.box[2]) / 2, view.box[1]),
-                0.0,
-                1.0,
-                {"scale": letters},
-                view=view.kind,
-            )
+            where = complex(_middle(view.box).real, view.box[1])
+            yield Finding("PM-D09", where, 0.0, 1.0, {"scale": letters}, view.kind)
 
 
 # Paper and lines ----------------------------------------------------------------------------------
@@ -223,13 +208,8 @@ def unused_paper(items: Iterable[Item], inner: Bounds) -> Iterator[Finding]:
     width, height = box[2] - box[0], box[3] - box[1]
     share = 100.0 * width * height / ((inner[2] - inner[0]) * (inner[3] - inner[1]))
     if share > UNUSED:
-        yield Finding(
-            "PM-D10",
-            _middle(box),
-            share,
-            UNUSED,
-            {"width": float(round(width)), "height": float(round(height))},
-        )
+        facts = {"width": float(round(width)), "height": float(round(height))}
+        yield Finding("PM-D10", _middle(box), share, UNUSED, facts)
 
 
 def dashes_unseen(items: Iterable[Item]) -> Iterator[Finding]:

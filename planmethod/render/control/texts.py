@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from shapely import LineString, Point, Polygon, STRtree, union_all
 from shapely.geometry.base import BaseGeometry
 
-from planmethod.render.control.remarks import REMARKS, Facts, Severity, action, what
+from planmethod.render.control.remarks import Finding
 from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.extent import arc_points
@@ -37,53 +37,6 @@ GRID = "grid"
 """Tag of the lines of the grid that letters are shown on: they are meant to run through them."""
 
 _TOUCH = 0.05  # mm: what is not yet an overlap
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One thing the norm control has to say (замечание).
-
-    Attributes
-    ----------
-    code : str
-        One of `REMARKS`.
-    where : complex, mm
-        Place on the sheet, from its lower left corner.
-    value, limit : float
-        What was found and what is allowed: mm, mm² for overlaps, per cent for unused paper.
-    facts : mapping
-        What else the sentences of the code need.
-    view : str
-        Kind of the view it is found on, ``stamp``, or empty.
-    position : int, optional
-        Number of the position whose plan it is found on.
-    """
-
-    code: str
-    where: complex
-    value: float
-    limit: float
-    facts: Facts
-    view: str = ""
-    position: int | None = None
-
-    @property
-    def severity(self) -> Severity:
-        """How grave it is."""
-        return REMARKS[self.code].severity
-
-    @property
-    def message(self) -> str:
-        """What, where, with numbers, in English."""
-        return self.what("en")
-
-    def what(self, lang: str) -> str:
-        """Return what is wrong, where, with numbers."""
-        return what(self.code, self.where, self.value, self.limit, self.facts, lang=lang)
-
-    def action(self, lang: str) -> str:
-        """Return what to do about it."""
-        return action(self.code, self.where, self.value, self.limit, self.facts, lang=lang)
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,14 +125,8 @@ def _overlaps(writings: Sequence[Writing]) -> Iterator[Finding]:
             continue
         common = inks[one].intersection(inks[two])
         if common.area > _TOUCH**2 and _depth(common) > _TOUCH:
-            first, second = writings[one], writings[two]
-            yield Finding(
-                "PM-D01",
-                first.where,
-                common.area,
-                0.0,
-                {"one": first.shown, "two": second.shown},
-            )
+            facts = {"one": writings[one].shown, "two": writings[two].shown}
+            yield Finding("PM-D01", writings[one].where, common.area, 0.0, facts)
 
 
 def _depth(area: BaseGeometry) -> float:
@@ -205,13 +152,10 @@ def _crossed(
             item = items[order]
             if item.tag == PART_OF + writing.name:
                 continue
-            if _is_white(item):
-                # White before the letters is a clean ground for them; after, it hides them.
-                if order < writing.last:
-                    continue
-                common = shape.intersection(writing.ink)
-            else:
-                common = shape.intersection(writing.ink)
+            if _is_white(item) and order < writing.last:
+                continue  # White before the letters is a clean ground; after, it hides them.
+            common = shape.intersection(writing.ink)
+            if not _is_white(item):
                 for k, white in whites:
                     if items[k].tag == UNDER_LABEL and not _breaks(item):
                         continue
@@ -219,13 +163,8 @@ def _crossed(
                         common = common.difference(white)
             extent = common.length
             if extent > 2 * _TOUCH:
-                yield Finding(
-                    "PM-D02",
-                    writing.where,
-                    extent,
-                    0.0,
-                    {"shown": writing.shown, "thing": called(item)},
-                )
+                facts = {"shown": writing.shown, "thing": called(item)}
+                yield Finding("PM-D02", writing.where, extent, 0.0, facts)
 
 
 def _is_white(item: Item) -> bool:
@@ -264,23 +203,11 @@ def _outside(items: Sequence[Item], inner: Bounds | None) -> Iterator[Finding]:
             continue
         ink = text_bounds(run)
         if run.box is not None and (out := beyond(ink, run.box)) > _TOUCH:
-            yield Finding(
-                "PM-D03",
-                run.at,
-                out,
-                0.0,
-                {"shown": run.text},
-            )
+            yield Finding("PM-D03", run.at, out, 0.0, {"shown": run.text})
         if inner is None or MARGIN_NOTE in run.tag.split():
             continue
         if (out := beyond(ink, inner)) > _TOUCH:
-            yield Finding(
-                "PM-D04",
-                run.at,
-                out,
-                0.0,
-                {"shown": run.text},
-            )
+            yield Finding("PM-D04", run.at, out, 0.0, {"shown": run.text})
 
 
 def beyond(ink: Bounds, limits: Bounds) -> float:
@@ -295,22 +222,11 @@ def _small(writings: Sequence[Writing]) -> Iterator[Finding]:
             small = run.height < main or STAMP in run.tag.split()
             limit = SMALLEST_OF_ALL if small else SMALLEST
             if run.height < limit - 1e-6:
-                yield Finding(
-                    "PM-D05",
-                    run.at,
-                    run.height,
-                    limit,
-                    {"shown": run.text, "whole": writing.shown},
-                )
+                facts = {"shown": run.text, "whole": writing.shown}
+                yield Finding("PM-D05", run.at, run.height, limit, facts)
 
 
 def _shortened(writings: Sequence[Writing]) -> Iterator[Finding]:
     for writing in writings:
         if any(CUT in run.tag.split() for run in writing.runs):
-            yield Finding(
-                "PM-D06",
-                writing.where,
-                1.0,
-                0.0,
-                {"shown": writing.shown},
-            )
+            yield Finding("PM-D06", writing.where, 1.0, 0.0, {"shown": writing.shown})

@@ -43,9 +43,8 @@ def _late(home: str, name: str) -> Maker:
     """Return a maker of a module of `planmethod.render.sheets`, imported when first needed."""
 
     def make(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-        makers = import_module(f"planmethod.render.sheets.{home}").MAKERS
-        block: Block = makers[name](solution, indices, manner)
-        return block
+        maker: Maker = getattr(import_module(f"planmethod.render.sheets.{home}"), name)
+        return maker(solution, indices, manner)
 
     return make
 
@@ -65,18 +64,18 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "calculation": Kind(calculation_block, ("of", "title", "height", "position")),
         "results": Kind(results_block, (*_TEXT, "columns")),
         "text": Kind(text_block, ("text", *_TEXT)),
-        "loads": Kind(_late("forces", "loads"), _VIEW),
-        "load-statement": Kind(_late("forces", "load-statement"), (*_TEXT, "position")),
-        "cut": Kind(_late("forces", "cut"), _FORCES, each=True),
-        "force-equations": Kind(_late("forces", "force-equations"), _FORCE_TEXT, each=True),
-        "force-plan": Kind(_late("forces", "force-plan"), _FORCES, each=True),
-        "lever": Kind(_late("forces", "lever"), _VIEW),
-        "lever-equation": Kind(_late("forces", "lever-equation"), (*_TEXT, "position")),
-        "reactions": Kind(_late("forces", "reactions"), (*_TEXT, "position")),
-        "cycle-statement": Kind(_late("cycle", "cycle-statement"), _TEXT),
-        "balance-diagram": Kind(_late("cycle", "balance-diagram"), _DIAGRAM),
-        "reaction-diagram": Kind(_late("cycle", "reaction-diagram"), _DIAGRAM[1:], each=True),
+        "loads": Kind(_late("forces", "loads_view"), _VIEW),
+        "load-statement": Kind(_late("forces", "statement_block"), (*_TEXT, "position")),
+        "cut": Kind(_late("forces", "cut_view"), _FORCES, each=True),
+        "force-equations": Kind(_late("forces", "equations_block"), _FORCE_TEXT, each=True),
+        "force-plan": Kind(_late("forces", "plan_view"), _FORCES, each=True),
+        "lever": Kind(_late("forces", "lever_view"), _VIEW),
+        "lever-equation": Kind(_late("forces", "lever_block"), (*_TEXT, "position")),
+        "reactions": Kind(_late("reactions", "reactions_block"), (*_TEXT, "position")),
+        "cycle-statement": Kind(_late("cycle", "statement_block"), _TEXT),
+        "balance-diagram": Kind(_late("cycle", "balance_diagram"), _DIAGRAM),
+        "reaction-diagram": Kind(_late("cycle", "reaction_diagram"), _DIAGRAM[1:], each=True),
         "hodographs": Kind(_late("cycle", "hodographs"), (*_DIAGRAM, "per_row")),
-        "cycle-reactions": Kind(_late("cycle", "cycle-reactions"), _TEXT),
+        "cycle-reactions": Kind(_late("cycletable", "reactions_table"), _TEXT),
     }
 )

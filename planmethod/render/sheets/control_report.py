@@ -9,13 +9,13 @@ from planmethod.note.wording import language
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import (
     REMARKS,
+    Finding,
     Severity,
     limit_text,
     paper_text,
     unit_text,
     unlike,
 )
-from planmethod.render.control.texts import Finding
 from planmethod.render.sheets.controlled import Controlled
 
 

@@ -12,8 +12,8 @@ from planmethod.errors import PlanMethodError
 from planmethod.mechanism.structure import analyse
 from planmethod.note.numbers import trimmed
 from planmethod.problem.model import Convention, Problem, Scales
+from planmethod.render.control.remarks import Finding
 from planmethod.render.control.sheet import SHORTEST, inspect
-from planmethod.render.control.texts import Finding
 from planmethod.render.frame.frame import FORMATS
 from planmethod.render.ink.drawing import Bounds, Drawing, Span, View
 from planmethod.render.sheets.kinematics import kinematics_sheets

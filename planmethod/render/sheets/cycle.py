@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import TypeAlias
 
 import numpy as np
 
@@ -36,7 +34,6 @@ from planmethod.render.pictures.diagram import (
     diagram_picture,
     mark_items,
 )
-from planmethod.render.sheets.cycletable import reactions_table
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription
@@ -44,8 +41,6 @@ from planmethod.solved.cycle import Cycle, Peak, Piece, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
-
-Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 
 WIDE, HIGH, SIDE = 0.8, 0.3, 0.45
 """Length and height of a diagram, and side of a polar diagram, as parts of the width of a text."""
@@ -300,15 +295,3 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     words = manner.words
     asked = words.sheets.wanted_cycle.format(wanted=cycle_wanted(solution, words.say))
     return stated(cycle_statement(solution, words), asked, manner)
-
-
-MAKERS: Mapping[str, Maker] = MappingProxyType(
-    {
-        "cycle-statement": statement_block,
-        "balance-diagram": balance_diagram,
-        "reaction-diagram": reaction_diagram,
-        "hodographs": hodographs,
-        "cycle-reactions": reactions_table,
-    }
-)
-"""Makers of the blocks, by kind."""

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import TypeAlias
 
 from planmethod.note.narrate.forces.formulas import (
     closing_lines,
@@ -42,13 +40,10 @@ from planmethod.render.layout.block import Block, Column, Line, Row, heading, pa
 from planmethod.render.layout.equations import balance_block, formula_block
 from planmethod.render.pictures.ellipses import told_ellipses
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.reactions import reactions_block
 from planmethod.render.sheets.texts import stated, unbroken
 from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
-
-Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 
 
 def _reading(solution: Solution, indices: Sequence[int], manner: Manner) -> ForceReading:
@@ -234,18 +229,3 @@ def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     lines = [formula_block(line, height, width=width) for line in told]
     title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
     return Column([*title, *lines], gap=3.0)
-
-
-MAKERS: Mapping[str, Maker] = MappingProxyType(
-    {
-        "loads": loads_view,
-        "load-statement": statement_block,
-        "cut": cut_view,
-        "force-equations": equations_block,
-        "force-plan": plan_view,
-        "lever": lever_view,
-        "lever-equation": lever_block,
-        "reactions": reactions_block,
-    }
-)
-"""Makers of the blocks, by kind."""
