@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
 from planmethod.options import lang_option
 
@@ -29,18 +30,8 @@ def layouts(name: str | None, file: Path | None, force: bool, lang: str) -> None
         for shipped in SHIPPED:
             click.echo(f"{shipped.ljust(width)}  {about(shipped, lang)}")
         return
-    if name not in SHIPPED:
-        from difflib import get_close_matches
-
-        near = get_close_matches(name, SHIPPED, 1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise click.UsageError(f"no layout {name!r}{hint} Known: {', '.join(SHIPPED)}.")
+    refuse_unknown("layout", name, SHIPPED)
     if file is None:
         click.echo(shipped_text(name, lang), nl=False)
-        return
-    if file.exists() and not force:
-        raise click.UsageError(f"{file} exists; name another file or give --force")
-    from planmethod.render.backends.output import write
-
-    write(file, shipped_text(name, lang).encode())
-    click.echo(str(file))
+    else:
+        write_new(file, shipped_text(name, lang), force=force)

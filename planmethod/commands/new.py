@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
 from planmethod.options import lang_option
 
@@ -30,16 +31,5 @@ def new(family: str | None, file: Path | None, show: bool, force: bool, lang: st
         if not show:
             raise click.UsageError("give one of these families: planmethod new FAMILY [FILE]")
         return
-    if family not in FAMILIES:
-        from difflib import get_close_matches
-
-        near = get_close_matches(family, FAMILIES, 1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise click.UsageError(f"no family {family!r}{hint} Known: {', '.join(FAMILIES)}.")
-    path = file or Path(f"{family}.toml")
-    if path.exists() and not force:
-        raise click.UsageError(f"{path} exists; name another file or give --force")
-    from planmethod.render.backends.output import write
-
-    write(path, template(family).encode())
-    click.echo(str(path))
+    refuse_unknown("family", family, FAMILIES)
+    write_new(file or Path(f"{family}.toml"), template(family), force=force)

@@ -40,6 +40,26 @@ def put_parts(parts: Iterable[str], file: str) -> None:
     click.echo(file)
 
 
+def refuse_unknown(noun: str, name: str, known: Sequence[str]) -> None:
+    """Refuse a name that is none of those known, and tell the nearest."""
+    if name not in known:
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, known, 1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise click.UsageError(f"no {noun} {name!r}{hint} Known: {', '.join(known)}.")
+
+
+def write_new(path: Path, text: str, *, force: bool) -> None:
+    """Write a file to start from, over an existing one by ``force`` only."""
+    if path.exists() and not force:
+        raise click.UsageError(f"{path} exists; name another file or give --force")
+    from planmethod.render.backends.output import write
+
+    write(path, text.encode())
+    click.echo(str(path))
+
+
 def write_drawings(
     drawings: Sequence[Drawing],
     out: Path,

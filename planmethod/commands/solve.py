@@ -157,7 +157,9 @@ def solve(
 
                 tables.append(swept_table(made, partial=partial))
             else:
-                _show(made, lang)
+                from planmethod.note.records.spreadsheet import asked_text
+
+                click.echo(asked_text(made, lang))
         elif csv_file is not None:
             tables.append(_table(problem, phi, hand.ruler, partial))
         elif as_json:
@@ -304,12 +306,6 @@ def _refuse_huge(made: Swept) -> None:
             f"numbers, at most {MOST_NUMBERS} are written. Ask at most {most} positions, or fewer "
             "results with --ask."
         )
-
-
-def _show(made: Swept, lang: str) -> None:
-    from planmethod.note.records.spreadsheet import asked_text
-
-    click.echo(asked_text(made, lang))
 
 
 def _write_arrays(sweeps: list[Swept], file: str) -> None:

@@ -91,7 +91,7 @@ def read_parsed(
     problem = _read_parts(faults, table, name)
     if faults or problem is None:
         raise ProblemError(source, faults.found)
-    return _with_variants(problem, tuple(variants), variant)
+    return replace(problem, variants=tuple(variants), variant=variant)
 
 
 def _unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
@@ -102,10 +102,6 @@ def _unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     if guess and fold(guess) == fold(variant):
         hint = f"Did you mean '{guess}' in the other layout (Russian or Latin)?"
     return Fault("variants", f"there is no variant '{variant}'", hint)
-
-
-def _with_variants(problem: Problem, names: tuple[str, ...], variant: str | None) -> Problem:
-    return replace(problem, variants=names, variant=variant)
 
 
 def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem | None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from enum import Enum
 from itertools import pairwise
+from typing import TypeVar
 
 from planmethod.problem import keys
 from planmethod.problem.fields import (
@@ -29,6 +31,7 @@ _TABLE = '{ over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear"
 _PHASES = 'phases = { phi = [90, 270] } or phases = { moving = "down" }'
 
 Spans = tuple[tuple[float, float], ...]
+M = TypeVar("M", bound=Enum)
 
 
 def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) -> str | None:
@@ -44,6 +47,12 @@ def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) ->
         faults.add(path, f"expected {_either(words)}, got {show(value)}", hint)
         return None
     return word
+
+
+def _read_member(faults: Faults, path: str, value: object, kind: type[M]) -> M | None:
+    """Read one of the words of an enumeration."""
+    word = read_word(faults, path, value, (item.value for item in kind))
+    return None if word is None else kind(word)
 
 
 def _either(words: tuple[str, ...]) -> str:
@@ -99,17 +108,16 @@ def _read_table(
 def _read_over(
     faults: Faults, path: str, value: object, drive: Drive | None, *, couple: bool
 ) -> Over | None:
-    word = read_word(faults, path, value, (item.value for item in Over))
-    if word is None:
+    over = _read_member(faults, path, value, Over)
+    if over is None:
         return None
-    over = Over(word)
     if couple and over in (Over.X, Over.Y):
         hint = "A couple has no point: give it over phi, s or position."
-        faults.add(path, f"'{word}' does not go with a couple", hint)
+        faults.add(path, f"'{over.value}' does not go with a couple", hint)
         return None
     if drive is not None and over in (Over.PHI, Over.S) and drive.is_crank == (over is Over.S):
         kind, own = ("turns", "phi") if drive.is_crank else ("slides", "s")
-        message = f"'{word}' is not what the driver has: link {drive.link} {kind}"
+        message = f"'{over.value}' is not what the driver has: link {drive.link} {kind}"
         faults.add(path, message, f"Give the table over {own}.")
         return None
     return over
@@ -130,8 +138,7 @@ def _read_interpolation(
         hint = "There is a value for each position."
         faults.add(where, 'does not go with over = "position"', hint)
         return None
-    word = read_word(faults, where, given["interpolation"], (i.value for i in Interpolation))
-    return None if word is None else Interpolation(word)
+    return _read_member(faults, where, given["interpolation"], Interpolation)
 
 
 Rows = tuple[tuple[float, ...], tuple[float, ...]]
@@ -247,17 +254,14 @@ def read_phase(
             faults.add(f"{path}.phi", f"link {drive.link} slides, it has no phi", hint)
     if "moving" in given:
         where = f"{path}.moving"
-        word = read_word(faults, where, given["moving"], (item.value for item in Moving))
-        moving = None if word is None else Moving(word)
+        moving = _read_member(faults, where, given["moving"], Moving)
         if couple:
             hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
             faults.add(where, "does not go with a couple", hint)
         elif still is not None:
             faults.add(where, f"point {still} is fixed and does not move")
     if "turning" in given:
-        where = f"{path}.turning"
-        word = read_word(faults, where, given["turning"], (item.value for item in Turning))
-        turning = None if word is None else Turning(word)
+        turning = _read_member(faults, f"{path}.turning", given["turning"], Turning)
     if len(faults) != before or spans is None:
         return None
     return Phase(spans, moving, turning)

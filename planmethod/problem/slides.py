@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
@@ -184,29 +184,10 @@ def read_slide(
         Whether this line is itself the host's own axis, unless a mark and an angle say otherwise.
     """
     assert link.slides is not None
-    length = None
-    if "length" in link.slides:
-        length = read_length(faults, f"{link.path}.slides.length", link.slides["length"])
-    slide = _read_line(faults, link, host, guide, body, frame, turn=turn, bare=bare)
-    return None if slide is None else replace(slide, length=length)
-
-
-def _read_line(
-    faults: Faults,
-    link: LinkText,
-    host: str,
-    guide: str | None,
-    body: Body,
-    frame: Frame,
-    *,
-    turn: float | None,
-    bare: bool,
-) -> Slide | None:
-    """Read the line of a prismatic pair; the arguments are those of `read_slide`."""
-    assert link.slides is not None
-    path = f"{link.path}.slides"
-    before = len(faults)
-    given = link.slides
+    path, given, length = f"{link.path}.slides", link.slides, None
+    if "length" in given:
+        length = read_length(faults, f"{path}.length", given["length"])
+    before = len(faults)  # a faulty length does not hide the line
     offset = read_coordinate(faults, f"{path}.offset", given.get("offset", 0.0)) or 0.0
     if not link.points:
         return None
@@ -216,9 +197,10 @@ def _read_line(
             if key in given:
                 hint = f"The line is given in frame.guides.{guide}."
                 faults.add(f"{path}.{key}", f"does not go with the guide '{guide}'", hint)
+        if len(faults) != before:
+            return None
         fixed, base, direction = frame.guides[guide]
-        slide = Slide(link.name, FRAME, pin, base, direction, offset, guide, fixed)
-        return slide if len(faults) == before else None
+        return Slide(link.name, FRAME, pin, base, direction, offset, guide, fixed, length=length)
     owner = "the frame" if host == FRAME else f"link {host}"
     if "along" in given:
         for key in ("through", "angle"):
@@ -233,7 +215,8 @@ def _read_line(
             faults.add(f"{path}.along", f"{line[0]} and {line[1]} are one place")
             return None
         along = heading(end - start)
-        return Slide(link.name, host, pin, start, along, offset, "".join(line), *line)
+        label = "".join(line)
+        return Slide(link.name, host, pin, start, along, offset, label, *line, length)
     through = _read_through(faults, path, given, body, owner)
     if "through" not in given:
         return None
@@ -241,7 +224,8 @@ def _read_line(
     angle = _read_slide_angle(faults, path, given, host, turn=turn, bare=bare, marked=marked)
     if through is None or angle is None or len(faults) != before:
         return None
-    return Slide(link.name, host, pin, body.points[through], angle, offset, through, through)
+    base = body.points[through]
+    return Slide(link.name, host, pin, base, angle, offset, through, through, length=length)
 
 
 def _read_through(faults: Faults, path: str, given: Table, body: Body, owner: str) -> str | None:
