@@ -17,7 +17,6 @@ from planmethod.errors import LayoutError
 from planmethod.render.ink.lettering import (
     FONTS,
     STYLES,
-    Lettering,
     in_use,
     lettering,
     missing,
@@ -42,7 +41,7 @@ each_kind = pytest.mark.parametrize("kind", TYPES)
 
 
 def test_is_a_lettering() -> None:
-    used: Lettering = in_use()
+    used = in_use()
     assert used.name == "PlanmethodGOST-B-Slanted"
 
 

@@ -36,7 +36,7 @@ from planmethod.render.forces.guides import (
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import Label, segment_label
+from planmethod.render.labels import Label
 from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
@@ -145,17 +145,7 @@ def _letters(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]:
         name = f"{prefix}: point {names[0]}"
         inscription = typeset(", ".join(names), height)
         labels.append(Label(inscription, place, prefer=prefer, gap=gap, name=name))
-    for link in links:
-        parts = scheme.segments.get(link)
-        if parts:
-            start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
-            labels.append(segment_label(link, start, end, height))
-        else:
-            first = next(iter(scheme.solution.problem.bodies[link].points))
-            labels.append(
-                Label(typeset(link, height), scheme.at(first), gap=SIZES.slider_width * 0.6)
-            )
-    return labels
+    return [*labels, *(scheme.link_label(link, SIZES.slider_width * 0.6) for link in links)]
 
 
 def _loaded_picture(

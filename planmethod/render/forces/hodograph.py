@@ -13,7 +13,7 @@ from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.labels.spots import shared_spots
+from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
@@ -128,15 +128,4 @@ def _numbers(ends: Complexes, height: float, number: int) -> list[Label]:
     every = -(-len(ends) // MOST_NUMBERS)
     numbered = ((complex(end), [str(k)]) for k, end in enumerate(ends) if k % every == 0)
     spots = shared_spots(numbered, near=0.5)
-    middle = sum(end for end, _ in spots) / len(spots)
-    return [
-        Label(
-            typeset(", ".join(numbers), height),
-            end,
-            prefer=end - middle,
-            gap=1.2,
-            name=f"hodograph {number}: position {numbers[0]}",
-            manner=BUSY,
-        )
-        for end, numbers in spots
-    ]
+    return spot_labels(spots, height, f"hodograph {number}: position", gap=1.2, manner=BUSY)

@@ -17,9 +17,7 @@ from planmethod.render.forces.arrows import (
 )
 from planmethod.render.forces.shifts import Shifted, shift_items
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import Label
-from planmethod.render.labels.spots import shared_spots
+from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import similar_lines
@@ -48,17 +46,7 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
     spots = shared_spots((lever.place(name), own) for name, own in ordered)
     items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
     prefix = f"lever {reading.index}"
-    middle = sum(place for place, _ in spots) / len(spots)
-    labels = [
-        Label(
-            typeset(", ".join(own), letter_height),
-            place,
-            prefer=place - middle,
-            gap=1.4,
-            name=f"{prefix}: point {own[0]}",
-        )
-        for place, own in spots
-    ]
+    labels = spot_labels(spots, letter_height, f"{prefix}: point")
     forces = [Acting(say.symbol(force.symbol), force.at, force.force) for force in lever.forces]
     shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts]
     shifts = [one for one in shifts if one.is_seen]

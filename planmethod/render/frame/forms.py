@@ -98,6 +98,11 @@ def _rows(*levels: float) -> tuple[Bounds, ...]:
     return tuple((0, y, 65, y) for y in levels)
 
 
+def _uprights(header: float, height: float) -> tuple[Bounds, ...]:
+    """Return the lines between the columns of the left part; the first begins at the header."""
+    return tuple((x, 0 if k else header, x, height) for k, (_, _, x) in enumerate(_COLUMNS))
+
+
 def _small_cells(y0: float, y1: float) -> tuple[Bounds, ...]:
     """Return the three cells of graph 4."""
     return tuple((x, y0, x + 5, y1) for x in (135.0, 140.0, 145.0))
@@ -111,11 +116,7 @@ FORM_1 = Form(
     width=STAMP_WIDTH,
     height=STAMP_HEIGHT,
     thick=(
-        (7, 30, 7, 55),
-        (17, 0, 17, 55),
-        (40, 0, 40, 55),
-        (55, 0, 55, 55),
-        (65, 0, 65, 55),
+        *_uprights(30, 55),
         (0, 30, 65, 30),
         (0, 35, 65, 35),
         (65, 40, 185, 40),
@@ -161,11 +162,7 @@ FORM_2 = Form(
     width=185.0,
     height=40.0,
     thick=(
-        (7, 25, 7, 40),
-        (17, 0, 17, 40),
-        (40, 0, 40, 40),
-        (55, 0, 55, 40),
-        (65, 0, 65, 40),
+        *_uprights(25, 40),
         (0, 25, 185, 25),
         (0, 30, 65, 30),
         (135, 0, 135, 25),
@@ -201,11 +198,7 @@ FORM_2A = Form(
     width=185.0,
     height=15.0,
     thick=(
-        (7, 0, 7, 15),
-        (17, 0, 17, 15),
-        (40, 0, 40, 15),
-        (55, 0, 55, 15),
-        (65, 0, 65, 15),
+        *_uprights(0, 15),
         (175, 0, 175, 15),
         (0, 5, 65, 5),
         (175, 8, 185, 8),

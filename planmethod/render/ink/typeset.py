@@ -21,7 +21,7 @@ from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
-from planmethod.render.ink.lettering import Lettering, in_use
+from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
 
 SMALLEST = 2.5
@@ -206,7 +206,7 @@ def typeset(markup: str, height: float) -> Inscription:
 
 
 @lru_cache(maxsize=4096)
-def _typeset(markup: str, height: float, lettering: Lettering) -> Inscription:
+def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscription:
     nodes, end = _parse(markup, 0, closing=False)
     assert end == len(markup)
     setter = _Setter(lettering)
@@ -341,7 +341,7 @@ def _fault(markup: str, i: int, what: str) -> LayoutError:
 class _Setter:
     """Collect runs and bars from left to right and the room they take."""
 
-    def __init__(self, lettering: Lettering) -> None:
+    def __init__(self, lettering: OutlineLettering) -> None:
         self.lettering = lettering
         self.runs: list[Run] = []
         self.bars: list[tuple[float, float, float]] = []

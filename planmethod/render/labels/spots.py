@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels.model import ALONE, Label, Manner
+
+Spots = list[tuple[complex, list[str]]]
+"""Places, mm, and what stands there."""
+
 NEAR = 0.3
 """Points so near one another are one point on the paper, mm."""
 
 
-def shared_spots(
-    letters: Iterable[tuple[complex, Sequence[str]]], near: float = NEAR
-) -> list[tuple[complex, list[str]]]:
+def shared_spots(letters: Iterable[tuple[complex, Sequence[str]]], near: float = NEAR) -> Spots:
     """Return places with the letters that stand there, each letter once, in the order given.
 
     Parameters
@@ -19,7 +23,7 @@ def shared_spots(
         Places, mm, and their letters.
     near : float, mm
     """
-    spots: list[tuple[complex, list[str]]] = []
+    spots: Spots = []
     for place, own in letters:
         for other, found in spots:
             if abs(other - place) < near:
@@ -28,3 +32,21 @@ def shared_spots(
         else:
             spots.append((place, list(own)))
     return spots
+
+
+def spot_labels(
+    spots: Spots, height: float, prefix: str, *, gap: float = 1.4, manner: Manner = ALONE
+) -> list[Label]:
+    """Return the letters of spots, away from the middle of them all; ``prefix`` is of names."""
+    middle = sum(place for place, _ in spots) / len(spots)
+    return [
+        Label(
+            typeset(", ".join(letters), height),
+            place,
+            prefer=place - middle,
+            gap=gap,
+            name=f"{prefix} {letters[0]}",
+            manner=manner,
+        )
+        for place, letters in spots
+    ]

@@ -8,9 +8,8 @@ from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.labels.spots import shared_spots
+from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.lettered import lettered
@@ -95,14 +94,4 @@ def _labels(
     letters = shown_letters(solution.problem, plan)
     ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
     spots = shared_spots((at[name], own) for name, own in ordered)
-    centre = sum(place for place, _ in spots) / len(spots)
-    return [
-        Label(
-            typeset(", ".join(texts), height),
-            place,
-            prefer=place - centre,
-            gap=1.4,
-            name=f"{prefix}: {texts[0]}",
-        )
-        for place, texts in spots
-    ]
+    return spot_labels(spots, height, f"{prefix}:")

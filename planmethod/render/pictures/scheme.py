@@ -12,6 +12,8 @@ from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label, segment_label
 from planmethod.render.pictures.supports import Support, free_sides, stand
 from planmethod.render.symbols import (
     SIZES,
@@ -235,6 +237,19 @@ class Scheme:
                 part = ((place - start) * along.conjugate()).real / abs(along) ** 2
                 room = min(room, abs(place - start - along * min(1.0, max(0.0, part))))
         return room
+
+    def longest(self, link: str) -> tuple[complex, complex] | None:
+        """Return the longest straight part of a link, if it has one."""
+        parts = self.segments.get(link, [])
+        return max(parts, key=lambda part: abs(part[1] - part[0]), default=None)
+
+    def link_label(self, link: str, gap: float) -> Label:
+        """Return the number of a link: along it, or at the point that it is, with its gap, mm."""
+        part = self.longest(link)
+        if part is not None:
+            return segment_label(link, *part, self.letter_height)
+        first = next(iter(self.solution.problem.bodies[link].points))
+        return Label(typeset(link, self.letter_height), self.at(first), gap=gap)
 
     def _way(self, slide: Slide) -> list[complex]:
         """Return the places of a slider's pin in every position of the sheet, mm."""

@@ -18,7 +18,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import BUSY, Label, Placed, place_labels, segment_label
+from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.tidy import untidiness
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
@@ -95,18 +95,8 @@ def _letter_links(view: _View, others: Sequence[Item] = ()) -> None:
     Among the lines of ``others``, the other positions, only the driver has arrows.
     """
     scheme = view.scheme
-    small = scheme.letter_height
     for link in scheme.solution.problem.mechanism.links:
-        parts = scheme.segments.get(link)
-        text = link
-        if parts:
-            start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
-            view.labels.append(segment_label(text, start, end, small))
-        else:
-            first = next(iter(scheme.solution.problem.bodies[link].points))
-            view.labels.append(
-                Label(typeset(text, small), scheme.at(first), gap=5.5 * scheme.factor)
-            )
+        view.labels.append(scheme.link_label(link, 5.5 * scheme.factor))
         if not others or link == scheme.solution.problem.drive.link:
             _senses(view, link, others)
 
@@ -120,10 +110,10 @@ def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
     if link in problem.slides and len(body) == 1:
         return  # the stone turns with the link that it slides on: one arrow for both
     pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
-    parts = scheme.segments.get(link)
-    if not parts:
+    part = scheme.longest(link)
+    if part is None:
         return
-    start, end = max(parts, key=lambda part: abs(part[1] - part[0]))
+    start, end = part
     if pivot is not None:
         centre = scheme.at(pivot)
         other = end if abs(end - centre) > abs(start - centre) else start

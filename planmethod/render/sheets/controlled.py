@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import PlanMethodError
 from planmethod.mechanism.structure import analyse
 from planmethod.note.numbers import trimmed
-from planmethod.problem.model import Convention, Problem, Scales
+from planmethod.problem.model import Convention, Problem
 from planmethod.render.control.remarks import Finding
 from planmethod.render.control.sheet import SHORTEST, inspect
 from planmethod.render.frame.frame import FORMATS
@@ -176,23 +177,14 @@ class _Trial:
     def _drawn(self, key: str, per_mm: float) -> list[Drawing] | None:
         """Return the sheets with another scale, or None where they cannot be drawn."""
         if (key, per_mm) not in self._tried:
-            scales = _with_scale(self.problem.scales, key, per_mm)
+            named: dict[str, Any] = {key: per_mm}
+            scales = replace(self.problem.scales, **named)
             try:
                 made = self.draw(replace(self.problem, scales=scales), self.paper)
             except PlanMethodError:
                 made = None
             self._tried[key, per_mm] = made
         return self._tried[key, per_mm]
-
-
-def _with_scale(scales: Scales, key: str, per_mm: float) -> Scales:
-    match key:
-        case "mu_v":
-            return replace(scales, mu_v=per_mm)
-        case "mu_a":
-            return replace(scales, mu_a=per_mm)
-        case _:
-            return replace(scales, mu_F=per_mm)
 
 
 def _views(drawings: Sequence[Drawing], kind: str) -> list[View]:

@@ -101,10 +101,20 @@ class _Frame:
         )
         return tuple(part[:: self.sense] for part in parts)
 
+    def ordinates(
+        self, curves: Iterable[Sequence[Piece]], value: Callable[[complex], float], height: float
+    ) -> float:
+        """Return the scale at which curves are so high, units per mm."""
+        values = [value(complex(v)) for one in curves for piece in one for v in piece.values]
+        reach = max([0.0, *values]) - min([0.0, *values])
+        inverse = self.solution.problem.scales.convention is Convention.MM_PER_UNIT
+        return choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
 
-def _range(pieces: Iterable[Sequence[Piece]], value: Callable[[complex], float]) -> float:
-    values = [value(complex(v)) for one in pieces for piece in one for v in piece.values]
-    return max([0.0, *values]) - min([0.0, *values])
+    def scales(self, manner: Manner, up: Scale) -> Line:
+        """Return the inscription of both scales."""
+        convention, say = self.solution.problem.scales.convention, manner.words.say
+        told = (scale_inscription(scale, convention, say) for scale in (up, self.scale))
+        return _line(manner, "; ".join(told))
 
 
 def _diagram_sizes(manner: Manner) -> tuple[float, float]:
@@ -121,13 +131,10 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
     words, say = manner.words, manner.words.say
     role, unit = (BALANCING_MOMENT, "N·m") if crank else (BALANCING_FORCE, "N")
     symbol = say.symbol(role)
-    inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
-    reach = _range([forces.balance], _real)
-    per_mm = choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
+    per_mm = frame.ordinates([forces.balance], _real, height)
     scale = Scale("mu_M" if crank else "mu_F", per_mm, unit)
     curve = Curve("", frame.parts(forces.balance, per_mm, _real))
     marks, said = [], []
-    convention = solution.problem.scales.convention
     balances = drawn_forces(statics).balances
     if balances is not None:
         for mark, values in ((Mark.RING, balances.plans), (Mark.CROSS, balances.lever)):
@@ -146,7 +153,7 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
         name="balance",
     )
     what = words.sheets.balance_moment if crank else words.sheets.balance_force
-    lines = [_scales(manner, convention, scale, frame.scale), *said, *_chords(forces, manner)]
+    lines = [frame.scales(manner, scale), *said, *_chords(forces, manner)]
     block = named(picture, manner.entry.title or what.format(symbol=symbol), lines, manner)
     return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="balance", scale=scale)
 
@@ -161,19 +168,9 @@ def _legend(manner: Manner) -> Block:
     parts: list[Block] = [Line(typeset(said.legend_exact, height))]
     for mark, text in ((Mark.RING, said.legend_plans), (Mark.CROSS, said.legend_lever)):
         items = tuple(mark_items(mark, 0j))
-        parts.append(
-            Row(
-                [Picture(items, ink_bounds(items)), Line(typeset(text, height))],
-                gap=1.5,
-                align="centre",
-            )
-        )
+        told: list[Block] = [Picture(items, ink_bounds(items)), Line(typeset(text, height))]
+        parts.append(Row(told, gap=1.5, align="centre"))
     return Row(parts, gap=3.0, align="centre")
-
-
-def _scales(manner: Manner, convention: Convention, *scales: Scale) -> Line:
-    say = manner.words.say
-    return _line(manner, "; ".join(scale_inscription(scale, convention, say) for scale in scales))
 
 
 def _chords(forces: Cycle, manner: Manner) -> list[Block]:
@@ -188,9 +185,7 @@ def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner)
     links = statics_of(solution).board.plans[manner.entry.number].links
     own = [k for k, joint in enumerate(forces.joints) if joint.on in links]
     numbers = [k for k in own if not forces.is_nothing(k)]
-    inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
-    reach = _range([forces.force(k) for k in numbers], abs)
-    per_mm = choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
+    per_mm = frame.ordinates([forces.force(k) for k in numbers], abs, height)
     scale = Scale("mu_F", per_mm, "N")
     curves: list[Curve] = []
     for k in numbers:
@@ -212,7 +207,7 @@ def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner)
     said = manner.words.sheets
     whose = said.reactions_of_group if len(links) > 1 else said.reactions_of_driver
     title = whose.format(links=link_names(links))
-    lines = [_scales(manner, solution.problem.scales.convention, scale, frame.scale)]
+    lines = [frame.scales(manner, scale)]
     none = [f"{_symbol(forces, k)} = 0" for k in own if k not in numbers]
     lines += [_line(manner, "; ".join(none))] if none else []
     block = named(picture, title, [*lines, *_chords(forces, manner)], manner)

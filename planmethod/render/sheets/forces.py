@@ -69,22 +69,17 @@ class PlanViewed(Viewed):
         shift = starts[0] - start_place(reading, self.number)
         known = {edge.symbol for edge in reading.plans[self.number].polygon}
         known -= {edge.symbol for edge in reading.plans[self.number].reactions}
-        return View(
-            "forces",
-            (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag),
-            "μ_{F}",
-            reading.scale.per_mm,
-            tuple(
-                Span(
-                    plain_text(self.say.symbol(edge.symbol)),
-                    reading.index if len(self.solution.positions) > 1 else None,
-                    shift + reading.end(edge.tail),
-                    shift + reading.end(edge.head),
-                )
-                for edge in edges
-                if edge.symbol not in known
-            ),
+        spans = (
+            Span(
+                plain_text(self.say.symbol(edge.symbol)),
+                reading.index if len(self.solution.positions) > 1 else None,
+                shift + reading.end(edge.tail),
+                shift + reading.end(edge.head),
+            )
+            for edge in edges
+            if edge.symbol not in known
         )
+        return self.told("forces", reading.scale, corner, spans)
 
 
 def _named(picture: Block, title: str, said: Sequence[str], manner: Manner) -> Column:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 from planmethod.construct.scale import Scale, series_near
 from planmethod.plans.model import PlanKind
@@ -44,19 +45,12 @@ def grown(
     """
     inverse = asked.convention is Convention.MM_PER_UNIT
     free = [kind for kind, key in _KEYS.items() if getattr(asked, key) is None]
-    now = {_KEYS[kind]: scales[kind].per_mm for kind in free}
+    now: dict[str, Any] = {_KEYS[kind]: scales[kind].per_mm for kind in free}
     for _ in range(STEPS):
         before = dict(now)
         for key in before:
             wish = {**now, key: _larger(now[key], inverse=inverse)}
-            tried = draw(
-                replace(
-                    asked,
-                    mu_l=wish.get("mu_l", asked.mu_l),
-                    mu_v=wish.get("mu_v", asked.mu_v),
-                    mu_a=wish.get("mu_a", asked.mu_a),
-                )
-            )
+            tried = draw(replace(asked, **wish))
             if tried is not None and _as_good(tried, pages):
                 pages, now = tried, wish
         if now == before:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
@@ -139,12 +140,8 @@ class Composition:
         """Return the boxes that the views shall fill on a format."""
         views = Views.for_paper(paper, positions)
         for kind, box in self.sizes_for(paper).boxes:
-            if kind is PlanKind.POSITION:
-                views = replace(views, position=box)
-            elif kind is PlanKind.VELOCITY:
-                views = replace(views, velocity=box)
-            else:
-                views = replace(views, acceleration=box)
+            named: dict[str, Any] = {kind.value: box}
+            views = replace(views, **named)
         return views
 
 

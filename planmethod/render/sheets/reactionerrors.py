@@ -6,12 +6,10 @@ from collections.abc import Sequence
 
 from planmethod.note.numbers import Notation
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
-from planmethod.note.tables.sigmas import DRAWN, marked
+from planmethod.note.tables.sigmas import marked
 from planmethod.note.wording import Language
-from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.tables import Cell, TableColumn
 from planmethod.render.sheets.guides import guided_at, is_couple
-from planmethod.render.sheets.results import errors_text
 from planmethod.solved.errors.forces import (
     BALANCE,
     DIFFERENCE,
@@ -119,18 +117,3 @@ def _with_error(
 def _like(column: TableColumn, text: str) -> Cell:
     """Return a cell that keeps room for the sign of a sense where the column has one."""
     return Cell(text, None if column.cells[0].sense is None else 0)
-
-
-def with_note(
-    reading: ForceReading,
-    tables: Column,
-    columns: Sequence[TableColumn],
-    height: float,
-    words: Language,
-) -> Block:
-    """Return tables and what the errors in their columns are."""
-    cells = (cell.text for column in columns for cell in column.cells)
-    drawn = any(text.endswith(DRAWN) for text in cells)
-    draws = drawn_forces(reading.statics).draws if drawn else None
-    told = errors_text(reading.solution.profile.name, draws, words)
-    return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)

@@ -21,9 +21,10 @@ from planmethod.render.sheets.reactionerrors import (
     moment_column,
     size_columns,
     sizes_as_long,
-    with_note,
 )
+from planmethod.render.sheets.results import with_note
 from planmethod.render.sheets.views import shown_position
+from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import NOTHING, ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
@@ -68,7 +69,10 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         balances = balance_columns(reading, balances, words)
     below = table_block(balances, height, width=width, units="none")
     tables = Column([table, *further, below], gap=4.0)
-    return with_note(reading, tables, [*columns, *balances], height, words) if sigma else tables
+    if not sigma:
+        return tables
+    draws, profile = drawn_forces(reading.statics).draws, solution.profile.name
+    return with_note(tables, [*columns, *balances], height, profile, draws, words)
 
 
 def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:

@@ -128,14 +128,24 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
     )
     if not sigma:
         return table
-    cells = (cell for column in columns for cell in column.cells)
-    drawn = any(cell.text.endswith(DRAWN) for cell in cells)
-    told = errors_text(solution.profile.name, drafting_of(solution).draws if drawn else None, words)
-    return Column([table, paragraph(told, min(height, 3.5), table.width)], gap=3.0)
+    errors = drafting_of(solution)
+    return with_note(table, columns, height, solution.profile.name, errors.draws, words)
 
 
-def errors_text(profile: str, draws: int | None, words: Language) -> str:
-    """Return what the errors of a table are; of how many sheets some are that have the mark."""
+def with_note(
+    tables: Column,
+    columns: Sequence[TableColumn],
+    height: float,
+    profile: str,
+    draws: int,
+    words: Language,
+) -> Column:
+    """Return tables and what the errors in their columns are.
+
+    Of errors that have the mark it is told of how many random sheets they are, ``draws``.
+    """
     note = words.note
-    said = words.sheets.sigma_note.format(profile=note.profiles.get(profile, profile))
-    return said if draws is None else f"{said} {note.drawn_note.format(count=draws)}"
+    told = words.sheets.sigma_note.format(profile=note.profiles.get(profile, profile))
+    if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
+        told = f"{told} {note.drawn_note.format(count=draws)}"
+    return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)

@@ -22,7 +22,7 @@ from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Drawing, Item, View
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Spacer, paragraph
+from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
 from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
@@ -42,6 +42,9 @@ EDGE = 6.0
 
 GAP = 7.0
 """Least white between two blocks, mm."""
+
+CAPTION_GAP = 4.0
+"""White between a picture and its caption, mm."""
 
 MOST_GAP = 16.0
 """Most white between two blocks of the right column, mm: rather larger rows and letters."""
@@ -92,7 +95,6 @@ def structure_sheet(
     *,
     paper: str | None = None,
     fields: Mapping[str, str] | None = None,
-    furniture: Furniture | None = None,
 ) -> Drawing:
     """Draw the structural analysis of a mechanism on a sheet (лист структурного анализа).
 
@@ -106,12 +108,6 @@ def structure_sheet(
         Format; the file's when absent, or A3, or the smallest larger one that everything fits.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
-    furniture : Furniture, optional
-        Form of the title block and additional graphs; the file's when absent.
-
-    Returns
-    -------
-    Drawing
 
     Raises
     ------
@@ -121,7 +117,7 @@ def structure_sheet(
     words = language(problem.sheet.lang or LANGUAGES[0])
     texts = merged(problem.stamp, {"title": words.structure.title}, fields or {})
     paper = paper or problem.sheet.paper
-    furniture = furniture or Furniture.of(problem.sheet)
+    furniture = Furniture.of(problem.sheet)
     names = (paper_format(paper).name,) if paper else PAPERS
     with using(lettering(problem.sheet.lettering or "B")):
         for name in names:
@@ -294,58 +290,30 @@ def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: f
     for first in range(0, len(pictures), across):
         views, texts = pictures[first : first + across], told[first : first + across]
         high = max(view.height for view in views)
-        low = max(text.height for text in texts)
-        cells = [
-            _Cell(view, text, cell, high, low) for view, text in zip(views, texts, strict=True)
-        ]
-        rows.append(_Cells(tuple(cells), GAP))
+        pairs = zip(views, texts, strict=True)
+        rows.append(Row([_Cell(view, text, cell, high) for view, text in pairs], gap=GAP))
     return Column(rows, gap=GAP + 2.0, align="centre")
 
 
 @dataclass(frozen=True, slots=True)
 class _Cell:
-    """Picture over its caption in a room of a given width; both are centred."""
+    """Picture over its caption in a room of a given width and height; both are centred."""
 
     view: Block
     text: Block
     width: float
     room: float
-    below: float
 
     @property
     def height(self) -> float:
-        return self.room + 4.0 + self.below
+        return self.room + CAPTION_GAP + self.text.height
 
     def place(self, corner: complex) -> list[Item]:
         """Return picture and caption; the picture stands in the middle of its room."""
         drop = (self.room - self.view.height) / 2
         at = corner + (self.width - self.view.width) / 2 - 1j * drop
-        under = corner + (self.width - self.text.width) / 2 - 1j * (self.room + 4.0)
+        under = corner + (self.width - self.text.width) / 2 - 1j * (self.room + CAPTION_GAP)
         return [*self.view.place(at), *self.text.place(under)]
-
-
-@dataclass(frozen=True, slots=True)
-class _Cells:
-    """Cells side by side."""
-
-    cells: tuple[_Cell, ...]
-    gap: float
-
-    @property
-    def width(self) -> float:
-        return sum(cell.width for cell in self.cells) + self.gap * (len(self.cells) - 1)
-
-    @property
-    def height(self) -> float:
-        return max(cell.height for cell in self.cells)
-
-    def place(self, corner: complex) -> list[Item]:
-        """Return the items of all cells."""
-        items: list[Item] = []
-        for cell in self.cells:
-            items += cell.place(corner)
-            corner += cell.width + self.gap
-        return items
 
 
 def _caption(lines: Iterable[str], manner: Manner, width: float) -> Block:

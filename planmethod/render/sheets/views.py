@@ -67,21 +67,19 @@ class Viewed:
 
     def view(self, items: Sequence[Item], corner: complex) -> View:
         """Return what is told of the view whose items were placed at a corner."""
-        left, top = corner.real, corner.imag
-        scale = self.solution.scales[self.kind]
-        letter = scale.symbol.removeprefix("mu_")
         poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
-        return View(
-            self.kind.value,
-            (left, top - self.height, left + self.width, top),
-            f"μ_{{{letter}}}",
-            scale.per_mm,
-            tuple(
-                span
-                for pole, index in zip(poles, self.indices, strict=False)
-                for span in plan_spans(self.solution, self.kind, index, pole)
-            ),
+        spans = (
+            span
+            for pole, index in zip(poles, self.indices, strict=False)
+            for span in plan_spans(self.solution, self.kind, index, pole)
         )
+        return self.told(self.kind.value, self.solution.scales[self.kind], corner, spans)
+
+    def told(self, name: str, scale: Scale, corner: complex, spans: Iterable[Span] = ()) -> View:
+        """Return a view of a name and scale that was placed at a corner."""
+        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
+        letter = scale.symbol.removeprefix("mu_")
+        return View(name, box, f"μ_{{{letter}}}", scale.per_mm, tuple(spans))
 
 
 @dataclass(frozen=True)
@@ -93,9 +91,7 @@ class Scaled(Viewed):
 
     def view(self, items: Sequence[Item], corner: complex) -> View:
         """Return what is told of the view."""
-        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
-        letter = self.scale.symbol.removeprefix("mu_")
-        return View(self.name, box, f"μ_{{{letter}}}", self.scale.per_mm)
+        return self.told(self.name, self.scale, corner)
 
 
 def plan_spans(solution: Solution, kind: PlanKind, index: int, pole: complex) -> list[Span]:

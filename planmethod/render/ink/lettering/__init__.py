@@ -1,8 +1,7 @@
-"""Lettering behind one interface: widths and outlines of the letters, whatever their source.
+"""Lettering (шрифт): widths and outlines of the letters; heights are cap heights h in mm.
 
-`Lettering` is all that the rest of the renderer knows of letters, and it asks `in_use` for the one
-that a sheet is set in; `using` sets another. The output formats need outlines too: they know
-`OutlineLettering`, which a `Drawing` brings along.
+Who sets texts asks `in_use` for the lettering that a sheet is set in; `using` sets another. To the
+output formats a `Drawing` brings it along.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from planmethod.errors import LayoutError
 from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
@@ -55,35 +54,6 @@ STYLES: Mapping[str, Style] = MappingProxyType(
     }
 )
 """Letterings by the name that a user gives: with slope unless said otherwise."""
-
-
-class Lettering(Protocol):
-    """What typesetting needs of a lettering (шрифт); heights are cap heights h in mm."""
-
-    @property
-    def name(self) -> str:
-        """Name of the lettering."""
-        ...
-
-    def __hash__(self) -> int:
-        """Letterings are told apart: what was set once is kept by lettering."""
-        ...
-
-    def width(self, text: str, height: float) -> float:
-        """Return the advance of a run of letters, mm."""
-        ...
-
-    def ink(self, text: str, height: float) -> tuple[float, float, float, float]:
-        """Return the bounds xmin, ymin, xmax, ymax of the ink of a run at the origin, mm."""
-        ...
-
-    def ascent(self, text: str, height: float) -> float:
-        """Return how far the ink of this run rises above the base line, mm."""
-        ...
-
-    def descent(self, text: str, height: float) -> float:
-        """Return how far the ink of this run goes below the base line, mm (positive)."""
-        ...
 
 
 class Glyph(NamedTuple):

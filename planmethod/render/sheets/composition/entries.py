@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from planmethod.plans.model import PlanKind
@@ -82,38 +83,15 @@ def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | 
             faults.add(f"{path}.{key}", f"missing in a block of kind {kind}", hint)
     values: dict[str, Any] = {"sheet": sheet}
     for key, item in given.items():
-        at = f"{path}.{key}"
-        match key:
-            case "kind":
-                continue
-            case "of":
-                word = read_choice(faults, at, item, tuple(OF))
-                values["of"] = OF.get(word or "")
-            case "group":
-                values["group"] = _read_group(faults, at, item)
-            case "sheet":
-                values["sheet"] = read_whole(faults, at, item, 1, SHEET_LIMIT) or sheet
-            case "droppable":
-                values["droppable"] = read_switch(faults, at, item)
-            case "title":
-                values["title"] = read_markup(faults, at, item)
-            case "text":
-                values["text"] = read_paragraph(faults, at, item)
-            case "height":
-                values["heights"] = read_heights(faults, at, item)
-            case "letter" | "title_height":
-                values[key] = read_height(faults, at, item)
-            case "width":
-                values["width"] = _read_width(faults, at, item)
-            case "per_row":
-                values["per_row"] = read_whole(faults, at, item, 1, MOST_PER_ROW)
-            case "position":
-                values["position"] = read_whole(faults, at, item, 0, 119)
-            case "columns":
-                values["columns"] = _read_columns(faults, at, item)
-            case _:
-                raise AssertionError(f"nobody reads the key {key}")
+        if key != "kind":
+            field = "heights" if key == "height" else key
+            values[field] = _READERS[key](faults, f"{path}.{key}", item)
+    values["sheet"] = values["sheet"] or sheet
     return Entry(kind, **values)
+
+
+def _read_of(faults: Faults, path: str, value: object) -> PlanKind | None:
+    return OF.get(read_choice(faults, path, value, tuple(OF)) or "")
 
 
 def _read_group(faults: Faults, path: str, value: object) -> tuple[str, ...]:
@@ -146,6 +124,24 @@ def _read_columns(faults: Faults, path: str, value: object) -> tuple[str, ...]:
         if word is not None:
             found.append(COLUMNS[word])
     return tuple(found)
+
+
+_READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
+    "of": _read_of,
+    "group": _read_group,
+    "sheet": partial(read_whole, low=1, high=SHEET_LIMIT),
+    "droppable": read_switch,
+    "title": read_markup,
+    "text": read_paragraph,
+    "height": read_heights,
+    "letter": read_height,
+    "title_height": read_height,
+    "width": _read_width,
+    "per_row": partial(read_whole, low=1, high=MOST_PER_ROW),
+    "position": partial(read_whole, low=0, high=119),
+    "columns": _read_columns,
+}
+"""Readers of the keys of a block, each of which is a field of `Entry`; ``height`` is `heights`."""
 
 
 def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:

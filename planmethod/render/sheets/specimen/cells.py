@@ -12,6 +12,7 @@ from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import paragraph
 from planmethod.render.pictures.lettered import lettered
+from planmethod.render.symbols import before_links
 
 NUMBER, NAME, CLAUSE = 2.5, 3.5, 2.5
 """Heights of the letters of a cell, mm."""
@@ -68,6 +69,11 @@ class Cell:
 def letter(text: str, at: complex, prefer: complex = 1 + 1j, *, gap: float = 3.0) -> Label:
     """Return the letter of a point or the number of a link, 3.5 mm."""
     return Label(typeset(text, NAME), at, prefer=prefer, gap=gap)
+
+
+def scheme(*parts: list[Item]) -> tuple[Item, ...]:
+    """Return parts in order; hatching gives way to links."""
+    return tuple(before_links([item for part in parts for item in part]))
 
 
 def drawn_cell(cell: Cell, number: int, box: Bounds, words: SpecimenWording) -> list[Item]:

@@ -12,12 +12,11 @@ from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Bounds, Drawing, Item
 from planmethod.render.ink.style import ARROW
 from planmethod.render.layout.block import Column, heading, paragraph
-from planmethod.render.sheets.specimen.cells import Cell, Clause, drawn_grid, letter
+from planmethod.render.sheets.specimen.cells import Cell, Clause, drawn_grid, letter, scheme
 from planmethod.render.sheets.specimen.wheels import GEARS, wheel_cells
 from planmethod.render.symbols import (
     SIZES,
     bearing,
-    before_links,
     crank,
     drive_arrow,
     fixed_pivot,
@@ -101,39 +100,34 @@ def way(degrees: float, length: float = 1.0) -> complex:
     return cmath.rect(length, radians(degrees))
 
 
-def _scheme(*parts: list[Item]) -> tuple[Item, ...]:
-    """Return parts in order; hatching gives way to links."""
-    return tuple(before_links([item for part in parts for item in part]))
-
-
 def _joints() -> Iterator[Cell]:
     """Yield links, the frame and the revolute pairs."""
     a, b = -16 - 5j, 16 + 5j
     yield Cell(
         "link",
         Clause("2.770", "1"),
-        _scheme(link(a, b), revolute(a), revolute(b)),
+        scheme(link(a, b), revolute(a), revolute(b)),
         (letter("A", a, 1j), letter("B", b, 1j), letter("2", 0j, 1j, gap=1.5)),
     )
-    yield Cell("frame", Clause("2.770", "2"), _scheme(ground_line(-18, 18)))
+    yield Cell("frame", Clause("2.770", "2"), scheme(ground_line(-18, 18)))
     tip = way(55, 24)
     yield Cell(
         "support",
         None,
-        _scheme(link(0j, tip, tag="link 1"), fixed_pivot(0j)),
+        scheme(link(0j, tip, tag="link 1"), fixed_pivot(0j)),
         (letter("O", 0j, -1), letter("1", tip / 2, -1 + 1j, gap=1.5)),
     )
     yield Cell(
         "support_turned",
         None,
-        _scheme(link(0j, way(-60, 24), tag="link 1"), fixed_pivot(0j, direction=1j)),
+        scheme(link(0j, way(-60, 24), tag="link 1"), fixed_pivot(0j, direction=1j)),
         (letter("O", 0j, -1), letter("1", way(-60, 12), 1 + 1j, gap=1.5)),
     )
     pair = (0j, 8 + 0j)
     yield Cell(
         "supports",
         None,
-        _scheme(
+        scheme(
             link(pair[0], way(125, 22), tag="link 1"),
             link(pair[1], 8 + way(50, 24), tag="link 3"),
             fixed_pivots(pair),
@@ -143,7 +137,7 @@ def _joints() -> Iterator[Cell]:
     yield Cell(
         "revolute",
         Clause("2.770", "6", "a"),
-        _scheme(link(way(215, 24), 0j, way(-25, 22)), revolute(0j)),
+        scheme(link(way(215, 24), 0j, way(-25, 22)), revolute(0j)),
         (
             letter("B", 0j, 1j),
             letter("1", way(215, 12), -1 + 1j, gap=1.5),
@@ -154,7 +148,7 @@ def _joints() -> Iterator[Cell]:
     yield Cell(
         "double",
         Clause("2.770", "6", "b"),
-        _scheme(*(link(0j, arm) for arm in arms), revolute(0j, count=2)),
+        scheme(*(link(0j, arm) for arm in arms), revolute(0j, count=2)),
         (
             letter("C", 0j, -1j, gap=4.2),
             letter("2", arms[0] / 2, -1 + 1j, gap=1.5),
@@ -166,7 +160,7 @@ def _joints() -> Iterator[Cell]:
     yield Cell(
         "on_link",
         None,
-        _scheme(link(-24 * along, 24 * along), link(0j, way(-75, 20)), revolute_on(0j, along)),
+        scheme(link(-24 * along, 24 * along), link(0j, way(-75, 20)), revolute_on(0j, along)),
         (
             letter("N", 0j, 1j, gap=2.0),
             letter("3", -14 * along, 1j, gap=1.5),
@@ -181,7 +175,7 @@ def _links() -> Iterator[Cell]:
     yield Cell(
         "rigid",
         Clause("2.770", "5", "a"),
-        _scheme(link(a, 0j, b), rigid_corner(0j, a, b), revolute(a), revolute(b)),
+        scheme(link(a, 0j, b), rigid_corner(0j, a, b), revolute(a), revolute(b)),
         (letter("A", a, 1j), letter("B", b, 1)),
     )
     corners = (-17 + 0j, 17 + 0j, -3 + 26j)
@@ -194,13 +188,13 @@ def _links() -> Iterator[Cell]:
     yield Cell(
         "ternary_corners",
         None,
-        _scheme(stiff_triangle(*corners, marked=True), joints),
+        scheme(stiff_triangle(*corners, marked=True), joints),
         letters,
     )
     yield Cell(
         "ternary_hatched",
         None,
-        _scheme(stiff_triangle(*corners, hatched=True), joints),
+        scheme(stiff_triangle(*corners, hatched=True), joints),
         letters,
     )
 
@@ -212,7 +206,7 @@ def _sliders() -> Iterator[Cell]:
     yield Cell(
         "slider",
         Clause("2.770", "6", "c"),
-        _scheme(
+        scheme(
             *axis,
             guide_line(0j, before=13, after=13),
             slider(0j),
@@ -224,7 +218,7 @@ def _sliders() -> Iterator[Cell]:
     yield Cell(
         "slider_between",
         Clause("2.770", "6", "c"),
-        _scheme(
+        scheme(
             *axis,
             guide_plates(0j, length=24),
             slider(0j),
@@ -237,7 +231,7 @@ def _sliders() -> Iterator[Cell]:
     yield Cell(
         "slider_offset",
         None,
-        _scheme(
+        scheme(
             *axis,
             guide_line(0j, before=13, after=13),
             link(pin + way(20, 28), pin, tag="link 4"),
@@ -250,7 +244,7 @@ def _sliders() -> Iterator[Cell]:
     yield Cell(
         "stone",
         None,
-        _scheme(
+        scheme(
             fixed_pivot(bar[0]),
             stone(8 * way(turn), angle=turn, pin=False),
             link(*bar, tag="link 3"),
@@ -268,7 +262,7 @@ def _sliders() -> Iterator[Cell]:
     yield Cell(
         "stone_swinging",
         None,
-        _scheme(
+        scheme(
             fixed_pivot(0j),
             slider(0j, angle=20, factor=0.85),
             link(way(200, 22), way(20, 30), tag="link 2"),
@@ -284,13 +278,13 @@ def _drivers() -> Iterator[Cell]:
     yield Cell(
         "crank",
         None,
-        _scheme(crank(0j, pin, path=True, tag="link 1")),
+        scheme(crank(0j, pin, path=True, tag="link 1")),
         (letter("O", 0j, 1 - 0.6j), letter("A", pin, unit(pin))),
     )
     yield Cell(
         "driver_turning",
         None,
-        _scheme(
+        scheme(
             crank(0j, pin * 1.4, tag="link 1"),
             turn_arrow(0j, 12, 1, middle=104, sweep=80),
         ),
@@ -299,7 +293,7 @@ def _drivers() -> Iterator[Cell]:
     yield Cell(
         "driver_sliding",
         None,
-        _scheme(
+        scheme(
             guide_line(0j, before=13, after=13),
             slider(0j),
             link(0j, way(25, 28), tag="link 2"),
@@ -311,12 +305,12 @@ def _drivers() -> Iterator[Cell]:
     yield Cell(
         "rocker",
         None,
-        _scheme(rocker(0j, way(85, 28), swing=(35.0, 28.0), tag="link 3")),
+        scheme(rocker(0j, way(85, 28), swing=(35.0, 28.0), tag="link 3")),
         (letter("D", 0j, 1), letter("C", way(85, 28), 1j)),
     )
     shaft = (-20 + 0j, 20 + 0j)
     yield Cell(
         "shaft",
         Clause("2.770", "7", "a"),
-        _scheme(link(*shaft, tag="link 1"), bearing(-12), bearing(12)),
+        scheme(link(*shaft, tag="link 1"), bearing(-12), bearing(12)),
     )

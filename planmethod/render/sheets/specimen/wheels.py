@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from planmethod.render.ink.drawing import Item
-from planmethod.render.sheets.specimen.cells import Cell, Clause, letter
+from planmethod.render.sheets.specimen.cells import Cell, Clause, letter, scheme
 from planmethod.render.symbols import (
     bearing,
-    before_links,
     guide_plates,
     link,
     revolute,
@@ -35,16 +33,12 @@ def wheel_cells() -> Iterator[Cell]:
     yield _cam()
 
 
-def _scheme(*parts: list[Item]) -> tuple[Item, ...]:
-    return tuple(before_links([item for part in parts for item in part]))
-
-
 def _front() -> Iterator[Cell]:
     second = 22.5 + 0j
     yield Cell(
         "mesh_front",
         GEARS,
-        _scheme(mesh_front(0j, 9.0, second), revolute(0j), revolute(second)),
+        scheme(mesh_front(0j, 9.0, second), revolute(0j), revolute(second)),
         (
             letter("P", 9 + 0j, -1 + 1j, gap=1.2),
             letter("1", -6 + 6j, -1 + 1j),
@@ -55,13 +49,13 @@ def _front() -> Iterator[Cell]:
     yield Cell(
         "ring_front",
         GEARS,
-        _scheme(mesh_front(planet, 9.5, 0j, internal=True), revolute(planet), revolute(0j)),
+        scheme(mesh_front(planet, 9.5, 0j, internal=True), revolute(planet), revolute(0j)),
         (letter("P", 18.5j, 1 - 2j, gap=2.4),),
     )
     yield Cell(
         "rack",
         Clause("2.770", "38"),
-        _scheme(
+        scheme(
             rack_front(-24 + 0j, 24 + 0j),
             wheel_front(13j, 13.0, touch=0j),
             revolute(13j),
@@ -74,7 +68,7 @@ def _side() -> Iterator[Cell]:
     yield Cell(
         "mesh_side",
         GEARS,
-        _scheme(
+        scheme(
             link(-16 + 0j, 10 + 0j, tag="link 1"),
             link(-10 + 20j, 16 + 20j, tag="link 2"),
             wheel_profile(0j, 8.0, tag="link 1"),
@@ -87,7 +81,7 @@ def _side() -> Iterator[Cell]:
     yield Cell(
         "ring_side",
         GEARS,
-        _scheme(
+        scheme(
             link(-28 + 0j, -8 + 0j, tag="link 2"),
             link(-5 + 12j, 20 + 12j, tag="link 1"),
             wheel_profile(12j, 8.0, tag="link 1"),
@@ -102,7 +96,7 @@ def _side() -> Iterator[Cell]:
     yield Cell(
         "planetary",
         GEARS,
-        _scheme(
+        scheme(
             axis_line(0j, 12 + 0j),
             link(-22 + 0j, 0j, tag="link 1"),
             wheel_profile(0j, sun, tag="link 1"),
@@ -128,7 +122,7 @@ def _cam() -> Cell:
     return Cell(
         "cam",
         GEARS,
-        _scheme(
+        scheme(
             link(at, at + 20j, tag="link 2"),
             guide_plates(at + 12j, angle=90, length=8.0, width=3.2),
             cam(0j, base=base, lift=lift, nose=nose, tag="link 1"),
