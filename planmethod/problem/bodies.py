@@ -116,7 +116,8 @@ class _Placement:
 
     def _place_all(self) -> None:
         while True:
-            pending = [p for p in self.link.points if p not in self.placed | self._failed()]
+            done = self.placed.keys() | self.failed
+            pending = [point for point in self.link.points if point not in done]
             if not pending:
                 return
             moved = False
@@ -133,9 +134,6 @@ class _Placement:
                     moved = True
             if not moved and not (self.link.slides is not None and self._lay_along(pending)):
                 return
-
-    def _failed(self) -> dict[str, complex]:
-        return dict.fromkeys(self.failed, 0j)
 
     def _lay_along(self, pending: list[str]) -> bool:
         """Lay one length of a slider along its axis, when nothing else places the point."""

@@ -10,12 +10,13 @@ import re
 import xml.etree.ElementTree as ET
 import zlib
 from cmath import exp, phase, sqrt
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from io import StringIO
 from math import cos, hypot, pi, radians, sin, tau
 from typing import Any
 
+from planmethod.render.ink.drawing import Item, Text
 from planmethod.render.ink.lettering import in_use
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -293,3 +294,8 @@ def turned_box(
     corners = [at + turn * complex(x, y) for x in ink[::2] for y in ink[1::2]]
     xs, ys = [z.real for z in corners], [z.imag for z in corners]
     return (min(xs), min(ys), max(xs), max(ys))
+
+
+def texts(items: Iterable[Item]) -> list[Text]:
+    """Return the runs of letters among the items of a display list."""
+    return [item for item in items if isinstance(item, Text)]

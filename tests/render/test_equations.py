@@ -5,6 +5,7 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from reading import texts
 
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import (
@@ -21,7 +22,7 @@ from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import Item, Stroke, Text
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import PART_OF, typeset
-from planmethod.render.layout.block import Lines, texts
+from planmethod.render.layout.block import Lines
 from planmethod.render.layout.equations import EquationBlock, equation_block, formula_block
 
 

@@ -9,6 +9,7 @@ import pytest
 from cases import each
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from reading import texts
 from worked import ROOT
 
 from planmethod.errors import LayoutError
@@ -28,7 +29,7 @@ from planmethod.render.frame.titleblock import ALIASES, SHARED, merged
 from planmethod.render.ink.drawing import Item, Pen, Stroke, Text
 from planmethod.render.ink.extent import ink_bounds, overlap
 from planmethod.render.ink.lettering import OutlineLettering, using
-from planmethod.render.layout.block import CUT, fit, texts
+from planmethod.render.layout.block import CUT, fit
 
 FIELDS = {
     "designation": "ТММ.КП.12.03.00.000",

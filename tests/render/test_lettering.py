@@ -19,7 +19,6 @@ from planmethod.render.ink.lettering import (
     STYLES,
     in_use,
     lettering,
-    missing,
     using,
 )
 from planmethod.render.ink.lettering.proportions import TYPES
@@ -73,7 +72,7 @@ def test_needed_letters_are_there(style: str) -> None:
 
 
 def test_missing_letters_are_named_and_drawn_as_a_box() -> None:
-    assert missing("Жёлтый 漢字 \U0001f600 v") == {"漢", "字", "\U0001f600"}
+    assert in_use().missing("Жёлтый 漢字 \U0001f600 v") == {"漢", "字", "\U0001f600"}
     box = in_use().outline("漢")
     assert box == in_use().outline("字")
     assert box.advance > 0

@@ -129,10 +129,6 @@ def _drawn(scheme: Scheme) -> list[Item]:
     ]
 
 
-def _bars(scheme: Scheme) -> list[Segment]:
-    return [part for parts in scheme.segments.values() for part in parts]
-
-
 def _letters(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]:
     """Return the letters of the points, one for points that coincide, and the links' numbers."""
     height = scheme.letter_height
@@ -158,7 +154,8 @@ def _loaded_picture(
     guided: Sequence[Pressed] = (),
 ) -> Picture:
     items = [*_drawn(scheme), *point_items(guided, scheme.factor)]
-    bars = [*_bars(scheme), *(shift.line for shift in shifts)]
+    bars = [part for parts in scheme.segments.values() for part in parts]
+    bars += [shift.line for shift in shifts]
     joints = [scheme.at(point) for point in scheme.named]
     placed = lay_forces(forces, bars, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, Protocol, TypeAlias
 
-from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text, shifted
+from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
     escape,
@@ -384,8 +384,3 @@ def _broken(word: str, size: float, width: float) -> list[str]:
 def _hyphened(signs: Sequence[str], take: int) -> str:
     hyphen = "-" if signs[take - 1].isalpha() and signs[take].isalpha() else ""
     return "".join(signs[:take]) + hyphen
-
-
-def texts(items: Iterable[Item]) -> list[Text]:
-    """Return the runs of letters among the items."""
-    return [item for item in items if isinstance(item, Text)]

@@ -206,7 +206,8 @@ def _clear(unit: Unit, taken: Sequence[Bounds]) -> Unit | None:
         if not overlap(box_of(unit), other, CLEAR):
             continue
         node, box = unit
-        others = [(node, part) for part in _beside(box, other) if _holds(part, node)]
+        rooms = ((part, (part[2] - part[0], part[3] - part[1])) for part in _beside(box, other))
+        others = [(node, part) for part, room in rooms if fits(node, room)]
         if not others:
             return None
         unit = min(others, key=lambda moved: abs(_middle(moved) - start))
@@ -227,10 +228,6 @@ def _beside(box: Bounds, taken: Bounds) -> tuple[Bounds, ...]:
         (left, low, min(right, taken[0] - CLEAR), high),
         (left, max(low, taken[3] + CLEAR), right, high),
     )
-
-
-def _holds(box: Bounds, node: Node) -> bool:
-    return fits(node, (box[2] - box[0], box[3] - box[1]))
 
 
 def _without(inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> list[Bounds]:

@@ -247,8 +247,8 @@ class _Judge:
         total = np.zeros(len(z))
         for face in self.faces:
             p, q, r = (z[:, k] for k in face)
-            longest = np.maximum.reduce([np.abs(q - p), np.abs(r - q), np.abs(p - r), _tiny(p)])
-            height = np.abs(_turn(p, q, r)) / longest
+            longest = np.maximum.reduce([np.abs(q - p), np.abs(r - q), np.abs(p - r)])
+            height = np.abs(_turn(p, q, r)) / np.maximum(longest, 1e-9)
             total += _CLOSE * np.maximum(0.0, _ALTITUDE - height)
         for f, s, sense in self.inside:
             p, q, r = (z[:, k] for k in self.faces[f])
@@ -257,10 +257,6 @@ class _Judge:
             signs = np.sign([_turn(p, q, probe), _turn(q, r, probe), _turn(r, p, probe)])
             total += _CROSSING * (np.abs(signs.sum(axis=0)) > 2.5)
         return total
-
-
-def _tiny(like: Complexes) -> Floats:
-    return np.full(like.shape, 1e-9)
 
 
 def _weights(net: Net, index: Mapping[str, int]) -> Floats:

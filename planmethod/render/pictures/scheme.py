@@ -209,11 +209,10 @@ class Scheme:
         """Draw the axis of a fixed guide over the slider's way and the hatched plates at it."""
         foot, pin, start = self.foot(slide), self.at(slide.pin), self.base(slide)
         angle = angle_of(u)
-        way = [((p - start) * u.conjugate()).real for p in self._way(slide)]
-        way += [
-            ((self.at(p) - start) * u.conjugate()).real
-            for p in self.solution.problem.bodies[slide.slider].points
-        ]
+        # The places of the pin in every position of the sheet, and of the slider's points.
+        ends = [complex(p) for p in self.solution.paper.point(PointName(slide.pin))]
+        ends += [self.at(p) for p in self.solution.problem.bodies[slide.slider].points]
+        way = [((p - start) * u.conjugate()).real for p in ends]
         edge = SIZES.slider_length / 2 * self.factor
         half = edge + AXIS * self.factor
         low, high = min(way) - half, max(way) + half
@@ -250,11 +249,6 @@ class Scheme:
             return segment_label(link, *part, self.letter_height)
         first = next(iter(self.solution.problem.bodies[link].points))
         return Label(typeset(link, self.letter_height), self.at(first), gap=gap)
-
-    def _way(self, slide: Slide) -> list[complex]:
-        """Return the places of a slider's pin in every position of the sheet, mm."""
-        places = self.solution.paper.point(PointName(slide.pin))
-        return [complex(p) for p in places]
 
     # Joints and inscriptions -----------------------------------------------------------------
 

@@ -136,7 +136,8 @@ class _Trial:
         if own[0].per_mm / per_mm <= LARGEST:
             advice = "own"
             for group, chosen in ((views, slice(None)), (own, slice(number, number + 1))):
-                spans = [span for span in _spans(group, finding) if _mendable(span)]
+                found = _spans(group, finding)
+                spans = [span for span in found if span.length * LARGEST >= SHORTEST]
                 least = min(span.length for span in spans)
                 wanted, text = self._mending(own[0].per_mm, least)
                 names = frozenset(span.name for span in spans)
@@ -195,10 +196,6 @@ def _has(view: View, finding: Finding) -> bool:
     """Tell whether a finding of short segments is of a view."""
     spans = _spans([view], finding)
     return any((span.start + span.end) / 2 == finding.where for span in spans)
-
-
-def _mendable(span: Span) -> bool:
-    return span.length * LARGEST >= SHORTEST
 
 
 def _has_room(view: View, times: float, inner: Bounds) -> bool:

@@ -74,16 +74,14 @@ class _Task:
         for per_sheet in self.layout.at_most(len(self.positions)):
             pages = self.pages(solution, paper, per_sheet)
             if pages is not None and self.layout.grow:
-                draw = partial(self._redrawn, views, paper, per_sheet)
+
+                def draw(scales: Scales, per_sheet: int = per_sheet) -> list[Page] | None:
+                    return self.pages(self.solved(views, scales), paper, per_sheet)
+
                 return grown(pages, solution.scales, asked, draw)
             if pages is not None:
                 return pages
         return None
-
-    def _redrawn(
-        self, views: Views, paper: Paper, per_sheet: int, scales: Scales
-    ) -> list[Page] | None:
-        return self.pages(self.solved(views, scales), paper, per_sheet)
 
 
 def _drawn(

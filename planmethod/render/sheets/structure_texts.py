@@ -29,18 +29,15 @@ def pair_columns(mechanism: Mechanism, words: Language) -> list[TableColumn]:
 
 def link_columns(mechanism: Mechanism, words: Language) -> list[TableColumn]:
     """Return the table of links (звенья)."""
-    rows = kind_of_motion(mechanism)
+    rows, every = kind_of_motion(mechanism), pairs(mechanism)
+    own = ([letters(pair.name) for pair in every if row.link in pair.links] for row in rows)
     cells = (
         tuple(row.link for row in rows),
         tuple(words.note.roles[row.role.value] for row in rows),
         tuple(words.structure.motions[row.motion.value] for row in rows),
-        tuple(_pairs_of(mechanism, row.link) for row in rows),
+        tuple(map(", ".join, own)),
     )
     return list(map(TableColumn, words.structure.columns_links, cells))
-
-
-def _pairs_of(mechanism: Mechanism, link: str) -> str:
-    return ", ".join(letters(pair.name) for pair in pairs(mechanism) if link in pair.links)
 
 
 def formulas(mechanism: Mechanism, structure: Structure, words: Language) -> list[str]:

@@ -161,12 +161,6 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
     return bold_position(solution, indices)
 
 
-def _is_alone(solution: Solution, kind: PlanKind, manner: Manner) -> bool:
-    """Tell whether a view shows one position only."""
-    chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
-    return len(solution.positions) == 1 or chosen
-
-
 def named_view(
     solution: Solution,
     kind: PlanKind,
@@ -178,7 +172,8 @@ def named_view(
     """Return a picture with its name and scale; ``ellipses`` are the positions that have them."""
     words = manner.words
     one, many = words.sheets.views[kind.value]
-    title = manner.entry.title or (one if _is_alone(solution, kind, manner) else many)
+    chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
+    title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
     convention = solution.problem.scales.convention
     said = [scale_inscription(solution.scales[kind], convention, words.say)]
     said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []

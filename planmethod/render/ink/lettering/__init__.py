@@ -274,8 +274,3 @@ def using(lettering: OutlineLettering) -> Iterator[OutlineLettering]:
         yield lettering
     finally:
         _IN_USE.reset(token)
-
-
-def missing(text: str) -> set[str]:
-    """Return the letters of ``text`` that the lettering in use has not."""
-    return in_use().missing(text)

@@ -139,7 +139,8 @@ def _found(char: str) -> tuple[Strokes, _Spread, Strokes] | None:
         if char in table:
             whole = _found(table[char])
             assert whole is not None
-            return _raised(whole[0], low), _of_signs, ()
+            raised = _moved(_mapped(whole[0], lambda point: point * _RAISED), 1j * low)
+            return raised, _of_signs, ()
     if char in shapes.MARKED:
         letter, _, mark = shapes.MARKED[char].partition(" ")
         whole = _found(letter)
@@ -156,10 +157,6 @@ def _found(char: str) -> tuple[Strokes, _Spread, Strokes] | None:
     return None
 
 
-def _raised(strokes: Strokes, low: float) -> Strokes:
-    return tuple(tuple(point * _RAISED + 1j * low for point in line) for line in strokes)
-
-
 def _over(strokes: Strokes, mark: Strokes) -> Strokes:
     """Return a mark above the middle of a letter; the dots of Ё leave one d of white more."""
     xs = [point.real for line in strokes for point in line]
@@ -170,10 +167,8 @@ def _over(strokes: Strokes, mark: Strokes) -> Strokes:
 
 def _mark(name: str, measures: Proportions, height: float) -> Strokes:
     size = (measures.cap - 1) / (_B.cap - 1)
-    return tuple(
-        tuple(complex(point.real * size, point.imag + height) for point in line)
-        for line in parsed(shapes.MARKS[name])
-    )
+    mark = parsed(shapes.MARKS[name])
+    return _mapped(mark, lambda point: complex(point.real * size, point.imag + height))
 
 
 def _mapped(strokes: Strokes, place: _Map) -> Strokes:
@@ -181,7 +176,7 @@ def _mapped(strokes: Strokes, place: _Map) -> Strokes:
 
 
 def _moved(strokes: Strokes, by: complex) -> Strokes:
-    return tuple(tuple(point + by for point in line) for line in strokes)
+    return _mapped(strokes, lambda point: point + by)
 
 
 # The notation of the shapes ---------------------------------------------------------------------

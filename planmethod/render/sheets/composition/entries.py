@@ -97,7 +97,8 @@ def _read_of(faults: Faults, path: str, value: object) -> PlanKind | None:
 def _read_group(faults: Faults, path: str, value: object) -> tuple[str, ...]:
     text = read_text(faults, path, value, limit=100)
     names = tuple(text.split(".")) if text else ()
-    if text is None or (names and len(names) <= GROUP_DEPTH and all(map(_names_group, names))):
+    named = all(is_label(name) and name not in GROUP for name in names)
+    if text is None or (names and len(names) <= GROUP_DEPTH and named):
         return names
     faults.add(
         path,
@@ -105,10 +106,6 @@ def _read_group(faults: Faults, path: str, value: object) -> tuple[str, ...]:
         'For example: "left" or "left.equations".',
     )
     return ()
-
-
-def _names_group(name: str) -> bool:
-    return is_label(name) and name not in GROUP
 
 
 def _read_width(faults: Faults, path: str, value: object) -> float | None:
