@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 from planmethod.languages import LANGUAGES
 
 TOP = (
@@ -40,39 +43,43 @@ SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
-STAMP = (
-    "organisation",
-    "department",
-    "group",
-    "author",
-    "checker",
-    "t_control",
-    "norm_control",
-    "approver",
-    "extra",
-    "extra_role",
-    "designation",
-    "title",
-    "material",
-    "subject",
-    "letter",
-    "mass",
-    "scale",
-    "sheet",
-    "sheets",
-    "date",
-    "author_date",
-    "checker_date",
-    "t_control_date",
-    "norm_control_date",
-    "approver_date",
-    "extra_date",
-    "inventory",
-    "inventory_instead",
-    "inventory_copy",
-    "reference",
-    "first_use",
+STAMP: Mapping[str, str] = MappingProxyType(
+    {
+        "organisation": "Организация (графа 9), first line",
+        "department": "Кафедра: second line of graph 9",
+        "group": "Группа: third line of graph 9",
+        "author": "Разраб.: surname",
+        "checker": "Пров.: surname",
+        "t_control": "Т.контр.: surname",
+        "norm_control": "Н.контр.: surname",
+        "approver": "Утв.: surname",
+        "extra": "surname in the free row",
+        "extra_role": "what the free row is for: Конс.",
+        "designation": "Обозначение (графа 2): ТММ.КП.12.03.00.000",
+        "title": "Наименование (графа 1): what the sheet shows",
+        "material": "Материал (графа 3): the subject in coursework",
+        "subject": "the same place as material: the discipline or theme",
+        "letter": "Литера (графа 4), up to three letters: У",
+        "mass": "Масса (графа 5)",
+        "scale": "Масштаб (графа 6): 1:2",
+        "sheet": "Лист (графа 7): number of the sheet",
+        "sheets": "Листов (графа 8): how many sheets",
+        "date": "the same place as author_date",
+        "author_date": "date beside the surname of the author",
+        "checker_date": "date",
+        "t_control_date": "date",
+        "norm_control_date": "date",
+        "approver_date": "date",
+        "extra_date": "date",
+        "inventory": "Инв. № подл. (графа 19), in the side columns",
+        "inventory_instead": "Взам. инв. № (графа 21), in the side columns",
+        "inventory_copy": "Инв. № дубл. (графа 22), in the side columns",
+        "reference": "Справ. № (графа 24), in the side columns of the first sheet",
+        "first_use": "Перв. примен. (графа 25), in the side columns of the first sheet",
+    }
 )
+"""Fields of the title block and what they are; all of them are optional."""
+
 SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering", "lang")
 FORMS = ("1", "1+2a", "2", "2a")
 """Forms of the title block: of every sheet, or of the first and of the later ones."""
@@ -99,7 +106,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "span": SPAN,
     "rule": RULE,
     "scales": SCALES,
-    "stamp": STAMP,
+    "stamp": tuple(STAMP),
     "sheet": SHEET,
     "published": PUBLISHED,
     "dynamics": DYNAMICS,

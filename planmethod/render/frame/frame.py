@@ -28,7 +28,6 @@ from planmethod.render.frame.forms import Cell
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import (
     STAMP,
-    STAMP_FIELDS,
     check_fields,
     filled,
     rectangle,
@@ -43,7 +42,6 @@ __all__ = [
     "FRAME_OTHER",
     "MARGIN_NOTE",
     "STAMP",
-    "STAMP_FIELDS",
     "STAMP_HEIGHT",
     "STAMP_WIDTH",
     "Format",
@@ -79,7 +77,7 @@ def sheet_frame(
     ----------
     paper : Format or str
     fields : mapping
-        Texts by the keys of `STAMP_FIELDS`.
+        Texts by the keys of `planmethod.problem.keys.STAMP`.
     furniture : Furniture
         Which form and which additional graphs.
     sheet : int

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import language
+from planmethod.problem import keys
 from planmethod.render.frame.forms import FORM_1, Cell, Form
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.style import HEIGHTS
@@ -17,43 +18,6 @@ from planmethod.render.layout.block import fit
 
 STAMP = "stamp"
 """Tag of the lines and texts of the title block."""
-
-STAMP_FIELDS: Mapping[str, str] = MappingProxyType(
-    {
-        "designation": "Обозначение (графа 2): ТММ.КП.12.03.00.000",
-        "title": "Наименование (графа 1): what the sheet shows",
-        "material": "Материал (графа 3): the subject in coursework",
-        "subject": "the same place as material: the discipline or theme",
-        "organisation": "Организация (графа 9), first line",
-        "department": "Кафедра: second line of graph 9",
-        "group": "Группа: third line of graph 9",
-        "author": "Разраб.: surname",
-        "checker": "Пров.: surname",
-        "t_control": "Т.контр.: surname",
-        "norm_control": "Н.контр.: surname",
-        "approver": "Утв.: surname",
-        "extra": "surname in the free row",
-        "extra_role": "what the free row is for: Конс.",
-        "date": "the same place as author_date",
-        "author_date": "date beside the surname of the author",
-        "checker_date": "date",
-        "t_control_date": "date",
-        "norm_control_date": "date",
-        "approver_date": "date",
-        "extra_date": "date",
-        "letter": "Литера (графа 4), up to three letters: У",
-        "mass": "Масса (графа 5)",
-        "scale": "Масштаб (графа 6): 1:2",
-        "sheet": "Лист (графа 7): number of the sheet",
-        "sheets": "Листов (графа 8): how many sheets",
-        "inventory": "Инв. № подл. (графа 19), in the side columns",
-        "inventory_instead": "Взам. инв. № (графа 21), in the side columns",
-        "inventory_copy": "Инв. № дубл. (графа 22), in the side columns",
-        "reference": "Справ. № (графа 24), in the side columns of the first sheet",
-        "first_use": "Перв. примен. (графа 25), in the side columns of the first sheet",
-    }
-)
-"""Fields of the title block and what they are; all of them are optional."""
 
 ALIASES: Mapping[str, str] = MappingProxyType({"subject": "material", "date": "author_date"})
 """Fields with a second name, for those who look for the meaning and not for the graph."""
@@ -136,9 +100,9 @@ def check_fields(fields: Iterable[str]) -> None:
     LayoutError
     """
     for key in fields:
-        if key not in STAMP_FIELDS:
-            near = get_close_matches(key, STAMP_FIELDS, n=1)
-            hint = f"Did you mean {near[0]}?" if near else f"Known: {', '.join(STAMP_FIELDS)}."
+        if key not in keys.STAMP:
+            near = get_close_matches(key, keys.STAMP, n=1)
+            hint = f"Did you mean {near[0]}?" if near else f"Known: {', '.join(keys.STAMP)}."
             raise LayoutError(f"Unknown field {key!r} of the title block. {hint}")
 
 
