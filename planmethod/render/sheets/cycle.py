@@ -11,10 +11,9 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
 from planmethod.note.narrate.forces.formulas import link_names
 from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import MINUS, half_up
+from planmethod.note.numbers import MINUS, Notation, half_up
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
-from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.render.forces.hodograph import (
     hodograph_picture,
@@ -36,7 +35,7 @@ from planmethod.render.pictures.diagram import (
 )
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription
+from planmethod.render.sheets.views import Viewed, named, scale_inscription
 from planmethod.solved.cycle import Cycle, Peak, Piece, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
@@ -110,11 +109,10 @@ class _Frame:
         inverse = self.solution.problem.scales.convention is Convention.MM_PER_UNIT
         return choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
 
-    def scales(self, manner: Manner, up: Scale) -> Line:
+    def scales(self, up: Scale, say: Notation) -> str:
         """Return the inscription of both scales."""
-        convention, say = self.solution.problem.scales.convention, manner.words.say
-        told = (scale_inscription(scale, convention, say) for scale in (up, self.scale))
-        return _line(manner, "; ".join(told))
+        convention = self.solution.problem.scales.convention
+        return "; ".join(scale_inscription(scale, convention, say) for scale in (up, self.scale))
 
 
 def _diagram_sizes(manner: Manner) -> tuple[float, float]:
@@ -153,9 +151,9 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
         name="balance",
     )
     what = words.sheets.balance_moment if crank else words.sheets.balance_force
-    lines = [frame.scales(manner, scale), *said, *_chords(forces, manner)]
+    lines: list[str | Block] = [frame.scales(scale, say), *said, *_chords(forces, manner)]
     block = named(picture, manner.entry.title or what.format(symbol=symbol), lines, manner)
-    return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="balance", scale=scale)
+    return Viewed(block, "balance", scale)
 
 
 def _real(value: complex) -> float:
@@ -173,8 +171,8 @@ def _legend(manner: Manner) -> Block:
     return Row(parts, gap=3.0, align="centre")
 
 
-def _chords(forces: Cycle, manner: Manner) -> list[Block]:
-    return [] if forces.smooth else [_line(manner, manner.words.sheets.chords)]
+def _chords(forces: Cycle, manner: Manner) -> list[str]:
+    return [] if forces.smooth else [manner.words.sheets.chords]
 
 
 def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -207,11 +205,11 @@ def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner)
     said = manner.words.sheets
     whose = said.reactions_of_group if len(links) > 1 else said.reactions_of_driver
     title = whose.format(links=link_names(links))
-    lines = [frame.scales(manner, scale)]
+    lines = [frame.scales(scale, manner.words.say)]
     none = [f"{_symbol(forces, k)} = 0" for k in own if k not in numbers]
-    lines += [_line(manner, "; ".join(none))] if none else []
+    lines += ["; ".join(none)] if none else []
     block = named(picture, title, [*lines, *_chords(forces, manner)], manner)
-    return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="reactions", scale=scale)
+    return Viewed(block, "reactions", scale)
 
 
 def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -> bool:
@@ -248,8 +246,9 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
     rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in range(0, len(cells), step)]
     name = manner.entry.title or words.sheets.hodographs
     title = Line(typeset(name, manner.title), underline=True)
-    block = Column([title, *rows, *_chords(forces, manner)], gap=7.0, align="centre")
-    return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="hodograph", scale=scale)
+    chords = [_line(manner, text) for text in _chords(forces, manner)]
+    block = Column([title, *rows, *chords], gap=7.0, align="centre")
+    return Viewed(block, "hodograph", scale)
 
 
 def _symbol(forces: Cycle, number: int) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from planmethod.note.narrate.forces.formulas import (
@@ -34,14 +34,14 @@ from planmethod.render.forces.polygon import (
     polygon_picture,
     start_place,
 )
-from planmethod.render.ink.drawing import Disc, Item, Span, View
+from planmethod.render.ink.drawing import Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, heading, paragraph
 from planmethod.render.layout.equations import balance_block, formula_block
 from planmethod.render.pictures.ellipses import told_ellipses
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated, unbroken
-from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription, shown_position
+from planmethod.render.sheets.views import Viewed, named, scale_inscription, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
@@ -54,48 +54,41 @@ def _reading(solution: Solution, indices: Sequence[int], manner: Manner) -> Forc
 
 
 @dataclass(frozen=True)
-class PlanViewed(Viewed):
+class ForcePlanViewed(Viewed):
     """A force plan among the blocks of a sheet: what the hand measures on it are the reactions."""
 
     reading: ForceReading
     number: int
     say: Notation
 
-    def view(self, items: Sequence[Item], corner: complex) -> View:
-        """Return what is told of the plan whose items were placed at a corner."""
+    def spans(self, items: Sequence[Item]) -> Iterable[Span]:
+        """Return the reactions of the plan."""
         reading = self.reading
         edges = drawn_edges(reading, self.number)
         starts = [item.centre for item in items if isinstance(item, Disc) and item.tag == START]
         shift = starts[0] - start_place(reading, self.number)
         known = {edge.symbol for edge in reading.plans[self.number].polygon}
         known -= {edge.symbol for edge in reading.plans[self.number].reactions}
-        spans = (
+        many = len(reading.solution.positions) > 1
+        return (
             Span(
                 plain_text(self.say.symbol(edge.symbol)),
-                reading.index if len(self.solution.positions) > 1 else None,
+                reading.index if many else None,
                 shift + reading.end(edge.tail),
                 shift + reading.end(edge.head),
             )
             for edge in edges
             if edge.symbol not in known
         )
-        return self.told("forces", reading.scale, corner, spans)
-
-
-def _named(picture: Block, title: str, said: Sequence[str], manner: Manner) -> Column:
-    height = manner.text(manner.sizes.text)
-    return named(picture, title, [Line(typeset(text, height)) for text in said], manner)
 
 
 def _scheme(
     reading: ForceReading, picture: Block, title: str, manner: Manner, *said: str
-) -> Scaled:
+) -> Viewed:
     solution, kind = reading.solution, PlanKind.POSITION
-    scale = solution.scales[kind]
-    say = manner.words.say
-    told = [scale_inscription(scale, solution.problem.scales.convention, say), *said]
-    block = _named(picture, title, told, manner)
-    return Scaled(block, solution, kind, (reading.index,), kind.value, scale)
+    scale, convention = solution.scales[kind], solution.problem.scales.convention
+    told = [scale_inscription(scale, convention, manner.words.say), *said]
+    return Viewed(named(picture, title, told, manner), kind.value, scale)
 
 
 def loads_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -136,9 +129,8 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
     ellipses = vertex_ellipses(reading, number) if manner.extras.errors else NO_ELLIPSES
     said += told_ellipses([ellipses], solution.profile, words) if manner.extras.errors else []
     picture = polygon_picture(reading, number, manner.letter, words.say, ellipses)
-    block = _named(picture, title, said, manner)
-    indices = (reading.index,)
-    return PlanViewed(block, solution, PlanKind.POSITION, indices, reading, number, words.say)
+    block = named(picture, title, said, manner)
+    return ForcePlanViewed(block, "forces", reading.scale, reading, number, words.say)
 
 
 def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -148,14 +140,14 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     title = manner.entry.title or words.sheets.lever
     if reading.statics.hung is None:
         return heading(title, manner.title, underline=True)  # why not is told beside it
-    scale = solution.own_scale(PlanKind.VELOCITY, reading.index)
+    kind = PlanKind.VELOCITY
+    scale = solution.own_scale(kind, reading.index)
     said = [
         words.sheets.lever_turned,
         scale_inscription(scale, solution.problem.scales.convention, words.say),
     ]
-    block = _named(lever_picture(reading, manner.letter, words.say), title, said, manner)
-    kind = PlanKind.VELOCITY
-    return Scaled(block, solution, kind, (reading.index,), kind.value, scale)
+    block = named(lever_picture(reading, manner.letter, words.say), title, said, manner)
+    return Viewed(block, kind.value, scale)
 
 
 # Texts -------------------------------------------------------------------------------------------

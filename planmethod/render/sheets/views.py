@@ -41,15 +41,11 @@ def scale_inscription(scale: Scale, convention: Convention, say: Notation) -> st
 
 @dataclass(frozen=True)
 class Viewed:
-    """A view among the blocks of a sheet (вид): it knows what is measured on it.
-
-    ``indices`` are the positions whose plans it shows, in the order in which they are drawn.
-    """
+    """A view among the blocks of a sheet (вид), of a kind and in a scale: a scheme, a diagram."""
 
     block: Block
-    solution: Solution
-    kind: PlanKind
-    indices: tuple[int, ...]
+    name: str
+    scale: Scale
 
     @property
     def width(self) -> float:
@@ -67,31 +63,29 @@ class Viewed:
 
     def view(self, items: Sequence[Item], corner: complex) -> View:
         """Return what is told of the view whose items were placed at a corner."""
-        poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
-        spans = (
-            span
-            for pole, index in zip(poles, self.indices, strict=False)
-            for span in plan_spans(self.solution, self.kind, index, pole)
-        )
-        return self.told(self.kind.value, self.solution.scales[self.kind], corner, spans)
-
-    def told(self, name: str, scale: Scale, corner: complex, spans: Iterable[Span] = ()) -> View:
-        """Return a view of a name and scale that was placed at a corner."""
         box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
-        letter = scale.symbol.removeprefix("mu_")
-        return View(name, box, f"μ_{{{letter}}}", scale.per_mm, tuple(spans))
+        letter = self.scale.symbol.removeprefix("mu_")
+        spans = tuple(self.spans(items))
+        return View(self.name, box, f"μ_{{{letter}}}", self.scale.per_mm, spans)
+
+    def spans(self, items: Sequence[Item]) -> Iterable[Span]:
+        """Return the segments that are measured on the view, whose items were placed."""
+        return ()
 
 
 @dataclass(frozen=True)
-class Scaled(Viewed):
-    """A view in a scale of its own on which no segment is measured: a scheme, a diagram."""
+class PlanViewed(Viewed):
+    """Plans of some positions, in the order in which they are drawn."""
 
-    name: str
-    scale: Scale
+    solution: Solution
+    kind: PlanKind
+    indices: tuple[int, ...]
 
-    def view(self, items: Sequence[Item], corner: complex) -> View:
-        """Return what is told of the view."""
-        return self.told(self.name, self.scale, corner)
+    def spans(self, items: Sequence[Item]) -> Iterable[Span]:
+        """Return the segments of the plans."""
+        poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
+        for pole, index in zip(poles, self.indices, strict=False):
+            yield from plan_spans(self.solution, self.kind, index, pole)
 
 
 def plan_spans(solution: Solution, kind: PlanKind, index: int, pole: complex) -> list[Span]:
@@ -131,7 +125,9 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
         overlay=() if alone else tuple(indices),
         errors=manner.extras.errors,
     )
-    return named_view(solution, PlanKind.POSITION, picture, manner, indices, (bold,))
+    kind = PlanKind.POSITION
+    block = _with_scale(solution, kind, picture, manner, (bold,))
+    return Viewed(block, kind.value, solution.scales[kind])
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -148,7 +144,8 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
         picture = plan_picture(
             solution, kind, indices[0], letter_height=manner.letter, errors=errors
         )
-    return named_view(solution, kind, picture, manner, indices, indices)
+    block = _with_scale(solution, kind, picture, manner, indices)
+    return PlanViewed(block, kind.value, solution.scales[kind], solution, kind, tuple(indices))
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
@@ -161,14 +158,9 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
     return bold_position(solution, indices)
 
 
-def named_view(
-    solution: Solution,
-    kind: PlanKind,
-    picture: Block,
-    manner: Manner,
-    indices: Sequence[int],
-    ellipses: Sequence[int],
-) -> Viewed:
+def _with_scale(
+    solution: Solution, kind: PlanKind, picture: Block, manner: Manner, ellipses: Sequence[int]
+) -> Column:
     """Return a picture with its name and scale; ``ellipses`` are the positions that have them."""
     words = manner.words
     one, many = words.sheets.views[kind.value]
@@ -177,14 +169,14 @@ def named_view(
     convention = solution.problem.scales.convention
     said = [scale_inscription(solution.scales[kind], convention, words.say)]
     said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
+    return named(picture, title, said, manner)
+
+
+def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:
+    """Return a picture with its name and what is said under it, lines of text mostly."""
     height = manner.text(manner.sizes.text)
-    block = named(picture, title, [Line(typeset(text, height)) for text in said], manner)
-    return Viewed(block, solution, kind, tuple(indices))
-
-
-def named(picture: Block, title: str, said: Iterable[Block], manner: Manner) -> Column:
-    """Return a picture with its name and what is said under it."""
-    lines = [Line(typeset(title, manner.title), underline=True), *said]
+    lines: list[Block] = [Line(typeset(title, manner.title), underline=True)]
+    lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in said]
     return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
 
 
