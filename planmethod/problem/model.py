@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from planmethod.mechanism.model import FRAME, Mechanism
@@ -107,6 +108,47 @@ class Rule:
 
 
 @dataclass(frozen=True, slots=True)
+class Coordinate:
+    """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
+
+    Records name it by ``column``; ``symbol`` is rich text. After a ``turn`` the driver stands as
+    before, after an infinite one where it slides.
+    """
+
+    name: str
+    unit: str
+    column: str
+    symbol: str
+    turn: float
+
+    def told(self, value: str) -> str:
+        """Return a value for a message: ``phi = 20 deg``."""
+        return f"{self.name} = {value} {self.unit}"
+
+
+@dataclass(frozen=True, slots=True)
+class Balancing:
+    """What balances the driver (уравновешивающий момент, сила): ``moment`` or ``force``."""
+
+    quantity: str
+    letter: str
+    unit: str
+
+    @property
+    def symbol(self) -> str:
+        """What stands in place of a letter: its letters are those of a language."""
+        return f"balancing {self.quantity}"
+
+    @property
+    def turns(self) -> bool:
+        """Whether it has a sense of rotation."""
+        return self.quantity == "moment"
+
+
+MOMENT, FORCE = Balancing("moment", "M", "N·m"), Balancing("force", "F", "N")
+
+
+@dataclass(frozen=True, slots=True)
 class Drive:
     """Law of motion of the driving link (начальное звено) in the positions asked for.
 
@@ -132,6 +174,23 @@ class Drive:
     def is_crank(self) -> bool:
         """True when the driver turns, False when it slides."""
         return self.pivot is not None
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """What its positions are values of."""
+        if self.is_crank:
+            return Coordinate("phi", "deg", "phi_deg", f"φ_{{{self.link}}}", 360.0)
+        return Coordinate("s", "m", "s", "s", inf)
+
+    @property
+    def rates(self) -> tuple[str, str]:
+        """Names of the velocity and of the acceleration that a program is given."""
+        return (f"omega_{self.link}", f"epsilon_{self.link}") if self.is_crank else ("v", "a")
+
+    @property
+    def balancing(self) -> Balancing:
+        """What balances it."""
+        return MOMENT if self.is_crank else FORCE
 
 
 class Convention(Enum):

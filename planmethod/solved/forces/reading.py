@@ -18,7 +18,7 @@ from planmethod.plans.forces.polygons import (
     Share,
 )
 from planmethod.plans.segments import Ends
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Balancing, Problem
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reading
 from planmethod.solved.solution import Solution
@@ -134,9 +134,14 @@ class ForceReading:
         return (lever.conjugate() * self.by_hand(*edge.ends)).imag > 0
 
     @property
+    def balancing(self) -> Balancing:
+        """What balances the driving link."""
+        return self.solution.problem.drive.balancing
+
+    @property
     def balancing_symbol(self) -> str:
         """The letter of what balances the driving link."""
-        return self.statics.driving.symbol
+        return self.balancing.symbol
 
     # What there is to show -------------------------------------------------------------------
 
