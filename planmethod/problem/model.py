@@ -111,14 +111,15 @@ class Rule:
 class Coordinate:
     """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
 
-    Records name it by ``column``; ``symbol`` is rich text. After a ``turn`` the driver stands as
-    before, after an infinite one where it slides.
+    Records name it by ``column``; ``symbol`` is rich text; ``rates`` are the velocity and the
+    acceleration in a program. After a ``turn``, which is infinite of a slider, it stands as before.
     """
 
     name: str
     unit: str
     column: str
     symbol: str
+    rates: tuple[str, str]
     turn: float
 
     def told(self, value: str) -> str:
@@ -128,24 +129,20 @@ class Coordinate:
 
 @dataclass(frozen=True, slots=True)
 class Balancing:
-    """What balances the driver (уравновешивающий момент, сила): ``moment`` or ``force``."""
+    """What balances the driver (уравновешивающий момент, сила): a ``moment`` or a ``force``.
+
+    On sheets ``symbol`` stands in place of its letters, which are those of a language.
+    """
 
     quantity: str
+    symbol: str
     letter: str
     unit: str
-
-    @property
-    def symbol(self) -> str:
-        """What stands in place of a letter: its letters are those of a language."""
-        return f"balancing {self.quantity}"
-
-    @property
-    def turns(self) -> bool:
-        """Whether it has a sense of rotation."""
-        return self.quantity == "moment"
+    turns: bool
 
 
-MOMENT, FORCE = Balancing("moment", "M", "N·m"), Balancing("force", "F", "N")
+MOMENT = Balancing("moment", "balancing moment", "M", "N·m", turns=True)
+FORCE = Balancing("force", "balancing force", "F", "N", turns=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,13 +176,9 @@ class Drive:
     def coordinate(self) -> Coordinate:
         """What its positions are values of."""
         if self.is_crank:
-            return Coordinate("phi", "deg", "phi_deg", f"φ_{{{self.link}}}", 360.0)
-        return Coordinate("s", "m", "s", "s", inf)
-
-    @property
-    def rates(self) -> tuple[str, str]:
-        """Names of the velocity and of the acceleration that a program is given."""
-        return (f"omega_{self.link}", f"epsilon_{self.link}") if self.is_crank else ("v", "a")
+            rates = f"omega_{self.link}", f"epsilon_{self.link}"
+            return Coordinate("phi", "deg", "phi_deg", f"φ_{{{self.link}}}", rates, 360.0)
+        return Coordinate("s", "m", "s", "s", ("v", "a"), inf)
 
     @property
     def balancing(self) -> Balancing:

@@ -44,7 +44,7 @@ def drive_data(
     data.update({name: one.branch(positions) for name, one in draft.branches.items()})
     data.update(mu_l=1.0, mu_v=1.0, mu_a=1.0)
     data[drive.coordinate.name] = positions
-    data.update(zip(drive.rates, (drive.rate, drive.acceleration), strict=True))
+    data.update(zip(drive.coordinate.rates, (drive.rate, drive.acceleration), strict=True))
     return data
 
 

@@ -60,10 +60,7 @@ SHEETS = SheetWording(
     difference="difference, %",
     wanted_cycle="Find over the cycle: {wanted}.",
     load_table="{name} = {name}({over}), up to {largest}",
-    balance={
-        "moment": "Balancing moment {symbol}",
-        "force": "Balancing force {symbol}",
-    },
+    balance={"moment": "Balancing moment {symbol}", "force": "Balancing force {symbol}"},
     legend_exact="line – exact;",
     legend_plans="– by force plans;",
     legend_lever="– by the Zhukovsky lever",
