@@ -129,9 +129,9 @@ class Coordinate:
 
 @dataclass(frozen=True, slots=True)
 class Balancing:
-    """What balances the driver (уравновешивающий момент, сила): a ``moment`` or a ``force``.
+    """What balances the driver (уравновешивающий момент, уравновешивающая сила).
 
-    On sheets ``symbol`` stands in place of its letters, which are those of a language.
+    Records name it by ``quantity``; ``symbol`` stands for its letters, which a language has.
     """
 
     quantity: str
