@@ -7,13 +7,11 @@ from collections.abc import Sequence
 from planmethod.note.numbers import Notation, alike, half_up
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
-from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
-from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.guides import angle_text
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import position_text
+from planmethod.render.sheets.results import position_columns, table_width
 from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import scale_inscription
 from planmethod.solved.cycle import Cycle, cycle
@@ -27,19 +25,11 @@ from planmethod.solved.solution import Solution
 def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the table of reactions and of the balance by positions."""
     forces = cycle(solution)
-    size = manner.sizes.text
-    height = manner.text(min(size, 3.5))
-    room = manner.inside - 2 * EDGE
-    width = min(max(STAMP_WIDTH, manner.width(room)), room)
-    words, say = manner.words, manner.words.say
-    coordinate = solution.problem.drive.coordinate
-    asked = tuple(position_text(solution, i, say) for i in indices)
-    columns = [
-        TableColumn(words.note.number, tuple(str(i) for i in indices), least=8.0),
-        TableColumn(coordinate.symbol, asked, unit=say.units[coordinate.unit]),
-    ]
+    height, width = manner.text(min(manner.sizes.text, 3.5)), table_width(manner)
+    words = manner.words
+    columns = position_columns(solution, indices, words)
     for k in range(len(forces.joints)):
-        columns += _reaction_columns(forces, k, indices, say)
+        columns += _reaction_columns(forces, k, indices, words.say)
     columns += _balance_columns(solution, indices, words)
     title = manner.entry.title or words.sheets.cycle_reactions
     table = table_block(columns, height, max_width=width, leading=2, title=title)

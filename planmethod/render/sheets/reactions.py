@@ -11,7 +11,6 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column
-from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
 from planmethod.render.sheets.model import Manner
@@ -22,7 +21,7 @@ from planmethod.render.sheets.reactionerrors import (
     size_columns,
     sizes_as_long,
 )
-from planmethod.render.sheets.results import with_note
+from planmethod.render.sheets.results import table_width, with_note
 from planmethod.render.sheets.views import shown_position
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import NOTHING, ForceReading, force_reading
@@ -33,8 +32,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     """Return the table of reactions, and the balancing moment by both methods."""
     reading = force_reading(solution, shown_position(solution, indices, manner))
     height = manner.text(manner.sizes.text)
-    room = manner.inside - 2 * EDGE
-    width = min(max(STAMP_WIDTH, manner.width(STAMP_WIDTH)), room)
+    width = table_width(manner, STAMP_WIDTH)
     reactions = reading.statics.reactions
     index = reading.index
     sizes = [abs(complex(one.force[index])) for one in reactions]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from math import inf
 
 import numpy as np
 
@@ -96,14 +97,25 @@ def result_columns(
             columns += [column(symbol, name, unit, numbers) for name, numbers in pairs]
     if sigma and alone:
         columns.insert(0, TableColumn("", (said.exact, said.read, "±σ")))
-    if not alone:
-        coordinate = solution.problem.drive.coordinate
-        asked = tuple(Cell(position_text(solution, i, say)) for i in indices)
-        columns.insert(0, TableColumn(coordinate.symbol, asked, unit=say.units[coordinate.unit]))
-        columns.insert(
-            0, TableColumn(words.note.number, tuple(Cell(str(i)) for i in indices), least=8.0)
-        )
-    return columns
+    return columns if alone else [*position_columns(solution, indices, words), *columns]
+
+
+def position_columns(
+    solution: Solution, indices: Sequence[int], words: Language
+) -> list[TableColumn]:
+    """Return the columns of the numbers of positions, and of the driver's positions."""
+    coordinate = solution.problem.drive.coordinate
+    asked = tuple(position_text(solution, i, words.say) for i in indices)
+    return [
+        TableColumn(words.note.number, tuple(str(i) for i in indices), least=8.0),
+        TableColumn(coordinate.symbol, asked, unit=words.say.units[coordinate.unit]),
+    ]
+
+
+def table_width(manner: Manner, usual: float = inf) -> float:
+    """Return the width of a table, mm: asked or usual, no less than the title block's."""
+    room = manner.inside - 2 * EDGE
+    return min(max(STAMP_WIDTH, manner.width(min(usual, room))), room)
 
 
 def results_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -111,8 +123,7 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
     alone, sigma = len(solution.positions) == 1, manner.extras.sigma
     size = manner.sizes.text
     height = manner.text(size if len(indices) == 1 else min(size, 3.5))
-    room = manner.inside - 2 * EDGE
-    width = min(max(STAMP_WIDTH, manner.width(room)), room)
+    width = table_width(manner)
     words, said = manner.words, manner.words.sheets
     title = said.results_exact
     if sigma:
