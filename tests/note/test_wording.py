@@ -28,7 +28,7 @@ NO_WORDS = {
     "render/ink/lettering/shapes.py": "the letters themselves",
     "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
     "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
-    "render/frame/titleblock.py": "field terms of GOST 2.104 in the table of the keys",
+    "problem/keys.py": "field terms of GOST 2.104 in the table of the keys",
 }
 """Where Cyrillic letters stand that no language says to a reader, and why."""
 
