@@ -110,7 +110,7 @@ class Causes:
     def tell(self, stroke: str) -> str:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
         step = self.names.step[PointName(stroke)]
-        text = self._stroke(step)
+        text = plain_text(self._stroke(step))
         plan = self._plan.get(stroke) or self._plan.get(getattr(step, "head", ""), "")
         return f"{text} ({plan})" if plan else text
 

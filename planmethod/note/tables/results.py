@@ -94,7 +94,7 @@ def scale_texts(solution: Solution, words: Wording) -> list[str]:
             value, per = 1.0 / scale.per_mm, f"{mm}/{inner}"
         else:
             value, per = scale.per_mm, f"{inner}/{mm}"
-        texts.append(f"{SCALE_SYMBOL[kind]} = {given(value, words)} {per}")
+        texts.append(f"{plain_text(SCALE_SYMBOL[kind])} = {given(value, words)} {per}")
     return texts
 
 
@@ -240,7 +240,7 @@ def _segments(
     mu = solution.scales[kind].per_mm
     for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
         value = found(mu * float(segment.read[i]), words)
-        name = names.segment(vector.tail, vector.head)
+        name = plain_text(names.segment(vector.tail, vector.head))
         rows.append([plain_text(vector.symbol), name, *lengths(segment), value])
     return rows
 
