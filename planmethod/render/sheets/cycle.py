@@ -11,7 +11,7 @@ import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
-from planmethod.note.narrate.forces.formulas import link_names
+from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
