@@ -8,7 +8,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from planmethod.note.narrate.given import asked_links, asked_points
-from planmethod.note.narrate.naming import SCALE_SYMBOL, Names
+from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.plaintext import (
     columns_text,
     fixed,
@@ -21,9 +22,8 @@ from planmethod.note.plaintext import (
     wrap,
 )
 from planmethod.note.tables.sigmas import Sigmas, label_of, levelled
-from planmethod.note.wording import Wording, wording
+from planmethod.note.wording import Wording, language, wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.model import Convention
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Segment, Solution
 
@@ -86,16 +86,9 @@ def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
 
 def scale_texts(solution: Solution, words: Wording) -> list[str]:
     """Return the scales as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit where the file says so."""
-    texts = []
-    for kind, scale in solution.scales.items():
-        unit, mm = words.units[FACTS[kind].unit], words.units["mm"]
-        inner = f"({unit})" if "/" in unit else unit
-        if solution.problem.scales.convention is Convention.MM_PER_UNIT:
-            value, per = 1.0 / scale.per_mm, f"{mm}/{inner}"
-        else:
-            value, per = scale.per_mm, f"{inner}/{mm}"
-        texts.append(f"{plain_text(SCALE_SYMBOL[kind])} = {given(value, words)} {per}")
-    return texts
+    say, convention = language(words.lang).say, solution.problem.scales.convention
+    scales = solution.scales.values()
+    return [plain_text(scale_inscription(scale, convention, say)) for scale in scales]
 
 
 def position_line(solution: Solution, words: Wording, index: int) -> str:
@@ -237,9 +230,11 @@ def _segments(
 
     if kind is PlanKind.POSITION:
         return [[_joined(s), *lengths(s)] for s in segments]
-    mu = solution.scales[kind].per_mm
+    motions = (names.kin.velocity, names.kin.acceleration)
+    values = next(motion.segments for motion in motions if motion.kind is kind)
     for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
-        value = found(mu * float(segment.read[i]), words)
+        number = solution.by_hand.number(values.known((vector.tail, vector.head)))
+        value = found(abs(float(number[i])), words)
         name = plain_text(names.segment(vector.tail, vector.head))
         rows.append([plain_text(vector.symbol), name, *lengths(segment), value])
     return rows

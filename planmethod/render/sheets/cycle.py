@@ -13,6 +13,7 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
 from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
@@ -39,7 +40,7 @@ from planmethod.render.pictures.diagram import (
 from planmethod.render.sheets.cycletable import reactions_table
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription
+from planmethod.render.sheets.views import Scaled, Viewed, named
 from planmethod.solved.cycle import Cycle, Peak, Piece, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of

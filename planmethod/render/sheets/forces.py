@@ -15,6 +15,7 @@ from planmethod.note.narrate.forces.plan import ForceVoice
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.narrate.forces.statement import link_names, plan_title, statement, wanted
 from planmethod.note.narrate.letters import direction_text
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.forces.polygons import Share
@@ -38,7 +39,7 @@ from planmethod.render.pictures.ellipses import told_ellipses
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.reactions import reactions_block
 from planmethod.render.sheets.texts import stated, unbroken
-from planmethod.render.sheets.views import Scaled, Viewed, named, scale_inscription, shown_position
+from planmethod.render.sheets.views import Scaled, Viewed, named, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 

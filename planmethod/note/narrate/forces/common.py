@@ -49,11 +49,14 @@ class Telling:
         """Return the exact value in brackets."""
         return self.say.exactly(abs(value))
 
-    def scaled(self, text: str, per_mm: float) -> str:
-        """Return millimetres times the scale of their drawing, or over it: ``70,0/250``."""
-        if self.names.is_inverse_scale():
-            return f"{text}/{self.short(1.0 / per_mm)}"
-        return f"{text}·{self.short(per_mm)}"
+    def scaled(self, text: str, per_mm: float, *, back: bool = False) -> str:
+        """Return millimetres times the scale of their drawing, or over it: ``70,0/250``.
+
+        ``back``: what is to be millimetres there.
+        """
+        is_inverse = self.names.is_inverse_scale()
+        sign, scale = "·" if is_inverse is back else "/", 1.0 / per_mm if is_inverse else per_mm
+        return f"{text}{sign}{self.short(scale)}"
 
     def on_drawing(self, text: str) -> str:
         """Return millimetres of the position plan as metres."""

@@ -90,12 +90,11 @@ class LeverVoice:
         """Return a couple, or what else goes with ω, by the ends of its link's segment."""
         names = self.names
         if one.ends is None or one.joints is None or not set(one.ends) <= set(names.letters):
-            omega = self.telling.short(one.ratio * self.lever.per_mm)
-            sign, scale = "/", self.lever.per_mm
-            if names.is_inverse_scale():
-                sign, scale = "·", 1.0 / scale
-            letters, numbers = f"ω_{{{one.link}}}{sign}μ_{{v}}", self.telling.short(scale)
-            return PairText(letters, f"{omega}{sign}{numbers}")
+            omega, per_mm = one.ratio * self.lever.per_mm, self.lever.per_mm
+            letters = f"ω_{{{one.link}}}{'·' if names.is_inverse_scale() else '/'}μ_{{v}}"
+            return PairText(
+                letters, self.telling.scaled(self.telling.short(omega), per_mm, back=True)
+            )
         letters, length = f"({names.segment(*one.ends)})", f"l_{{{self._joints(one, *one.joints)}}}"
         segment, link = self.ruled(one.ratio * one.length), self.telling.short(one.length)
         units = self.telling.units

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.note.narrate.forces.common import Telling, closed
 from planmethod.note.narrate.forces.resultants import shift_symbol
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.plans.forces.board import Given
 from planmethod.plans.forces.loads import Applied, LoadKind, Shift
 from planmethod.plans.model import PlanKind
@@ -18,7 +19,7 @@ class LoadVoice:
 
     def __init__(self, telling: Telling) -> None:
         self.telling, self.reading = telling, telling.reading
-        self.said, self.units, self.notation = telling.said, telling.units, telling.notation
+        self.said, self.units = telling.said, telling.units
         self.short, self.found = telling.short, telling.found
 
     # Formulas --------------------------------------------------------------------------------
@@ -77,10 +78,8 @@ class LoadVoice:
 
     def scale(self) -> str:
         """Return the scale of the force plans."""
-        newton, mm, scale = self.units["N"], self.units["mm"], self.reading.scale.per_mm
-        if self.telling.names.is_inverse_scale():
-            return f"μ_F = {self.notation.given(1.0 / scale)} {mm}/{newton}"
-        return f"μ_F = {self.notation.given(scale)} {newton}/{mm}"
+        convention = self.telling.solution.problem.scales.convention
+        return scale_inscription(self.reading.scale, convention, self.telling.notation)
 
     def link(self, link: str) -> list[str]:
         """Tell the loads of a link."""

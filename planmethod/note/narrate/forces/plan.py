@@ -243,13 +243,9 @@ class ForceVoice:
 
     def _length(self, edge: Edge) -> str:
         """Return how the length of a force on the plan is computed."""
-        say, scale = self.telling.notation, self.reading.scale.per_mm
-        length = self.reading.length(edge)
-        inverse, newtons = self.names.is_inverse_scale(), say.found(self.reading.read(edge))
-        formula = (
-            f"{newtons}·{say.short(1.0 / scale)}" if inverse else f"{newtons}/{say.short(scale)}"
-        )
-        return f"{formula} = {say.short(length, 4)} {say.units['mm']}"
+        telling, newtons = self.telling, self.telling.found(self.reading.read(edge))
+        formula = telling.scaled(newtons, self.reading.scale.per_mm, back=True)
+        return f"{formula} = {telling.short(self.reading.length(edge), 4)} {telling.units['mm']}"
 
     # Closing ---------------------------------------------------------------------------------
 
