@@ -66,8 +66,8 @@ def explain(
         return f"{problem.name}: a value is not finite although every step exists."
     index = int(bad[0])
     step = program.steps[int(first[index])]
-    name, unit = ("phi", "deg") if problem.drive.is_crank else ("s", "m")
-    where = f"position {index + 1} ({name} = {positions[index] + 0.0:.12g} {unit})"
+    place = problem.drive.coordinate.told(f"{positions[index] + 0.0:.12g}")
+    where = f"position {index + 1} ({place})"
     alike = int((first == first[index]).sum()) - 1
     more = f" The same holds at {alike} more of {len(positions)} positions." if alike else ""
     if bad.size - 1 > alike:

@@ -10,7 +10,7 @@ from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
 from planmethod.solved.changes import changes
-from planmethod.solved.closings import TURN, drive_data
+from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import error_bound
@@ -74,7 +74,7 @@ def changed_branches(solution: Solution) -> list[str]:
         closing = draft.choice.get(group.links)
         if closing is None or closing.parallel or closing.changes:
             continue
-        high = min(high, low + TURN) if drive.is_crank else high
+        high = min(high, low + drive.coordinate.turn)
         found = changes(
             draft,
             solution.construction.program,
@@ -92,10 +92,10 @@ def changed_branches(solution: Solution) -> list[str]:
 
 
 def _change(solution: Solution, group: AssurGroup, found: list[float]) -> str:
-    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
     places = " and ".join(dict.fromkeys(f"{round(place, 4) + 0.0:.10g}" for place in found))
+    told = solution.problem.drive.coordinate.told
     text = (
-        f"links {', '.join(group.links)} pass a change point at {name} = {places} {unit}, from "
+        f"links {', '.join(group.links)} pass a change point at {told(places)}, from "
         "which the mechanism may go on either way: the side that was chosen in the first position "
         "is kept, so that one branch of the motion passes into another there."
     )
@@ -110,8 +110,8 @@ def _change(solution: Solution, group: AssurGroup, found: list[float]) -> str:
 
 
 def _place(solution: Solution, i: int) -> str:
-    name, unit = ("phi", "deg") if solution.problem.drive.is_crank else ("s", "m")
-    return f"position {i + 1} ({name} = {solution.positions[i]:.12g} {unit})"
+    place = solution.problem.drive.coordinate.told(f"{solution.positions[i]:.12g}")
+    return f"position {i + 1} ({place})"
 
 
 def _nature(solution: Solution, i: int) -> str:

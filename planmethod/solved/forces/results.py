@@ -69,10 +69,9 @@ def _reactions(board: Board) -> Iterator[Quantity]:
 
 def _balances(planned: Planned) -> Iterator[Quantity]:
     """Yield what balances the driver, by the force plans and by the lever."""
-    driving = planned.driving
-    letter, quantity, kind = "M", "moment", QuantityKind.MOMENT
-    if driving.force is not None:
-        letter, quantity, kind = "F", "force", QuantityKind.THRUST
-    yield Quantity(f"{letter}_dr", kind, driving.balance, f"driving.{quantity}")
+    balancing = planned.board.draft.problem.drive.balancing
+    letter, row = balancing.letter, balancing.quantity
+    kind = QuantityKind.MOMENT if balancing.turns else QuantityKind.THRUST
+    yield Quantity(f"{letter}_dr", kind, planned.driving.balance, f"driving.{row}")
     if planned.lever is not None:
-        yield Quantity(f"{letter}_lever", kind, planned.lever.balance, f"lever.{quantity}")
+        yield Quantity(f"{letter}_lever", kind, planned.lever.balance, f"lever.{row}")

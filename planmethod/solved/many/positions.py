@@ -260,8 +260,8 @@ def why(problem: Problem, position: float, number: int, *, forces: bool = False)
     except AssemblyError as error:
         return _renumbered(str(error), np.array([number]))
     # Alone it can just be assembled: arrays round otherwise than single numbers do.
-    name, unit = ("phi", "deg") if problem.drive.is_crank else ("s", "m")
-    return f"Position {number + 1} ({name} = {position:.10g} {unit}) is at an impossible one."
+    place = problem.drive.coordinate.told(f"{position:.10g}")
+    return f"Position {number + 1} ({place}) is at an impossible one."
 
 
 _NUMBER = re.compile(r"\bposition (\d+)(?= \((?:phi|s) = |\. This is a fault)")

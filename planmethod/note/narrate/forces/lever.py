@@ -64,8 +64,7 @@ class LeverVoice:
         self.names, self.found = telling.names, telling.found
         self.ruled, self.notation = telling.ruled, telling.notation
         self.lever = LeverReading(telling.reading, common=not telling.names.on_sheet)
-        self.is_force = telling.reading.statics.driving.force is not None
-        self.unit = telling.units["N" if self.is_force else "N·m"]
+        self.unit = telling.units[telling.reading.balancing.unit]
         self.balancing = telling.symbol(telling.reading.balancing_symbol)
 
     # Formulas --------------------------------------------------------------------------------
@@ -228,7 +227,7 @@ class LeverVoice:
         assert value is not None and self.reading.statics.lever is not None
         exact = self.telling.exactly(float(self.reading.statics.lever[self.reading.index]))
         end = "."
-        if not self.is_force and value:
+        if self.reading.balancing.turns and value:
             end = self.said.directed.format(sense=self.telling.sense(value))
         result = f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
         return [f"{self.equation()},", f"{result}{exact}{end}"]
