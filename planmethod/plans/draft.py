@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.program import Builder
-from planmethod.construct.steps import LineName, NumberName, PointName, Side, Way
+from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Slide
 
 TINY = 1e-12
@@ -109,6 +110,10 @@ class Draft:
         Own axis of a link whose direction is not told by two of its points.
     read : list of (str, str)
         Distances that are read on the drawing because no given length tells them.
+    plans : dict of Name to PlanKind
+        Plan that a step belongs to.
+    letters : dict of PointName to str
+        What points of the velocity and acceleration plans are called, as far as it is told early.
     """
 
     problem: Problem
@@ -122,6 +127,8 @@ class Draft:
     mu_l: NumberName = field(init=False)
     origin: complex = field(init=False)
     read: list[tuple[str, str]] = field(default_factory=list)
+    plans: dict[Name, PlanKind] = field(default_factory=dict)
+    letters: dict[PointName, str] = field(default_factory=dict)
     _feet: int = 0
     _drawn: set[str] = field(default_factory=set)
 
@@ -135,8 +142,14 @@ class Draft:
         other.b = self.b.copy()
         other.numbers, other.read = dict(self.numbers), list(self.read)
         other.axes, other._drawn = dict(self.axes), set(self._drawn)
+        other.plans = dict(self.plans)
         other.placed = {link: list(points) for link, points in self.placed.items()}
         return other
+
+    def note_plan(self, kind: PlanKind, start: int) -> int:
+        """Note the plan of the steps from a number on; return how many there are by now."""
+        self.plans.update((step.out, kind) for step in self.b.steps[start:])
+        return len(self.b.steps)
 
     # Numbers -------------------------------------------------------------------------------
 

@@ -17,7 +17,6 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import PointName
-from planmethod.errors import AssemblyError
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build
 from planmethod.plans.legend import Quantity
@@ -25,6 +24,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import choose_closings, drive_data
+from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
 from planmethod.solved.scaling import Views, choose_scales, own_scale
@@ -146,14 +146,13 @@ class Solution(Remembering):
 
         Raises
         ------
-        AssemblyError
+        PositionError
             When a step is impossible in some position.
         """
         reading, program = self.read(Float64()), self.construction.program
         if (failing(program, reading.trace, len(self.positions)) >= 0).any():
-            raise AssemblyError(
-                explain(self.problem, program, reading.trace, self.positions, unit_scales=True)
-            )
+            draft = self.construction.draft
+            raise PositionError(explain(draft, program, reading.trace, self.positions))
         return reading
 
     @cached_property
