@@ -67,9 +67,9 @@ class Cause(Enum):
         "",
     )
     SAME_ARCS = (
-        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]:.4g} m) and {p[1]} ({l[1]:.4g} m) coincide, "
-        "{p[0]} and {p[1]} being at one place. This dead position is a change point: the mechanism may go "
-        "on either way. Ask another one.",
+        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]:.4g} m) and {p[1]} ({l[1]:.4g} m) "
+        "coincide, {p[0]} and {p[1]} being at one place. This dead position is a change point: the "
+        "mechanism may go on either way. Ask another one.",
         "",
     )
     ARCS = (

@@ -57,11 +57,7 @@ class Causes:
             PlanKind.VELOCITY: names.words.plan_velocity,
             PlanKind.ACCELERATION: names.words.plan_acceleration,
         }
-        self._plan: dict[str, str] = {
-            step.out: titles[section.kind][:1].lower() + titles[section.kind][1:]
-            for section in names.construction.sections
-            for step in section.steps
-        }
+        self._titles = {kind: title[:1].lower() + title[1:] for kind, title in titles.items()}
 
     def lines(self, index: int) -> list[str]:
         """Return the worst result of a position and its largest causes; none if none is known."""
@@ -111,8 +107,9 @@ class Causes:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
         step = self.names.step[PointName(stroke)]
         text = self._stroke(step)
-        plan = self._plan.get(stroke) or self._plan.get(getattr(step, "head", ""), "")
-        return f"{text} ({plan})" if plan else text
+        plans = self.names.construction.draft.plans
+        plan = plans.get(step.out) or plans.get(getattr(step, "head", step.out))
+        return text if plan is None else f"{text} ({self._titles[plan]})"
 
     def _stroke(self, step: Step) -> str:
         names, words = self.names, self.words

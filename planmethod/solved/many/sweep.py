@@ -14,8 +14,7 @@ from planmethod.construct.compiled.straight import ImpossibleError, Straight, st
 from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import PlanMethodError
-from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.solved.asked import results_for
 from planmethod.solved.closings import drive_data
@@ -23,7 +22,7 @@ from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.many.rows import Row, rows_of
 from planmethod.solved.results import Results
-from planmethod.solved.solution import Solution
+from planmethod.solved.solution import UNIT_SCALES, Solution
 
 if TYPE_CHECKING:
     from planmethod.solved.many.loads import LoadColumns
@@ -110,12 +109,12 @@ class Sweep:
             for name, value in data.items()
             if name != self.driver and name not in results.draft.branches
         }
-        hidden = ("mu_", FACTS[PlanKind.FORCE].prefix)
+        own = drive_data(problem, solution.construction.draft, np.zeros(1))
         self.branches = results.draft.branches
         self.parameters: dict[str, float] = {
             name: value
             for name, value in self.constants.items()
-            if isinstance(value, float) and not name.startswith(hidden)
+            if isinstance(value, float) and name in own and name not in (*UNIT_SCALES, ZERO)
         }
         self._check(varied)
         self.varied = tuple(varied)
