@@ -255,7 +255,7 @@ class MoreDoubts:
 
 @dataclass(frozen=True, slots=True)
 class Passed:
-    """Change points that a group passes between the asked positions (точки ветвления).
+    """Change points that a group passes between the asked positions (точка ветвления).
 
     Attributes
     ----------
