@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import os
 import re
@@ -9,6 +10,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
+from weakref import ref
 
 import pytest
 from cases import each, some, thinned
@@ -241,3 +244,26 @@ def test_the_page_is_the_format(paper: str) -> None:
     _, _, width, height = (float(number) for number in box[1].split())
     assert width * 25.4 / 72 == pytest.approx(fmt.width, abs=0.01)
     assert height * 25.4 / 72 == pytest.approx(fmt.height, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("layout", "positions"),
+    [("many-positions", ALL_ROUND), ("forces", None), ("forces-cycle", ALL_ROUND)],
+)
+def test_a_drawn_solution_is_kept_by_nobody(
+    layout: str, positions: list[float] | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[ref[Solution]] = []
+    prepare = Solution.__init__
+
+    def note(solution: Solution, *given: Any, **asked: Any) -> None:
+        made.append(ref(solution))
+        prepare(solution, *given, **asked)
+
+    monkeypatch.setattr(Solution, "__init__", note)
+    kinematics_sheets(
+        problem_of("levers/task12"), positions=positions, layout=layout, errors=True, sigma=True
+    )
+    gc.collect()
+    assert made
+    assert [solution() for solution in made if solution() is not None] == []

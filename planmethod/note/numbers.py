@@ -123,6 +123,11 @@ class Notation:
         return self.number(coarse) if is_coarse else self.short(value)
 
 
+def with_unit(number: str, unit: str) -> str:
+    """Return a written number with its unit: ``20°``, ``0.1 m``."""
+    return f"{number}{unit}" if unit == "°" else f"{number} {unit}"
+
+
 def plain(value: SupportsFloat) -> float:
     """Return a float for a record, without a negative zero."""
     return float(value) + 0.0

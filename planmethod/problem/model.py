@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from planmethod.mechanism.model import FRAME, Mechanism
@@ -107,6 +108,44 @@ class Rule:
 
 
 @dataclass(frozen=True, slots=True)
+class Coordinate:
+    """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
+
+    Records name it by ``column``; ``symbol`` is rich text; ``rates`` are the velocity and the
+    acceleration in a program. After a ``turn``, which is infinite of a slider, it stands as before.
+    """
+
+    name: str
+    unit: str
+    column: str
+    symbol: str
+    rates: tuple[str, str]
+    turn: float
+
+    def told(self, value: str) -> str:
+        """Return a value for a message: ``phi = 20 deg``."""
+        return f"{self.name} = {value} {self.unit}"
+
+
+@dataclass(frozen=True, slots=True)
+class Balancing:
+    """What balances the driver (уравновешивающий момент, уравновешивающая сила).
+
+    Records name it by ``quantity``; ``symbol`` stands for its letters, which a language has.
+    """
+
+    quantity: str
+    symbol: str
+    letter: str
+    unit: str
+    turns: bool
+
+
+MOMENT = Balancing("moment", "balancing moment", "M", "N·m", turns=True)
+FORCE = Balancing("force", "balancing force", "F", "N", turns=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Drive:
     """Law of motion of the driving link (начальное звено) in the positions asked for.
 
@@ -132,6 +171,19 @@ class Drive:
     def is_crank(self) -> bool:
         """True when the driver turns, False when it slides."""
         return self.pivot is not None
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """What its positions are values of."""
+        if self.is_crank:
+            rates = f"omega_{self.link}", f"epsilon_{self.link}"
+            return Coordinate("phi", "deg", "phi_deg", f"φ_{{{self.link}}}", rates, 360.0)
+        return Coordinate("s", "m", "s", "s", ("v", "a"), inf)
+
+    @property
+    def balancing(self) -> Balancing:
+        """What balances it."""
+        return MOMENT if self.is_crank else FORCE
 
 
 class Convention(Enum):

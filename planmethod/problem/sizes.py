@@ -107,10 +107,10 @@ def _read_over(
         hint = "A couple has no point: give it over phi, s or position."
         faults.add(path, f"'{word}' does not go with a couple", hint)
         return None
-    if drive is not None and over in (Over.PHI, Over.S) and drive.is_crank == (over is Over.S):
-        kind, own = ("turns", "phi") if drive.is_crank else ("slides", "s")
+    if drive is not None and over in (Over.PHI, Over.S) and word != drive.coordinate.name:
+        kind = "turns" if drive.is_crank else "slides"
         message = f"'{word}' is not what the driver has: link {drive.link} {kind}"
-        faults.add(path, message, f"Give the table over {own}.")
+        faults.add(path, message, f"Give the table over {drive.coordinate.name}.")
         return None
     return over
 

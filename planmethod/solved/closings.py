@@ -31,8 +31,6 @@ from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain
 
-TURN = 360.0
-
 TIE = 1e-9
 """Share of the mechanism's size below which two closings are the same."""
 
@@ -46,12 +44,8 @@ def drive_data(
     data.update(draft.places)
     data.update({name: one.branch(positions) for name, one in draft.branches.items()})
     data.update(mu_l=1.0, mu_v=1.0, mu_a=1.0)
-    if drive.is_crank:
-        data["phi"] = positions
-        data[f"omega_{drive.link}"] = drive.rate
-        data[f"epsilon_{drive.link}"] = drive.acceleration
-    else:
-        data.update(s=positions, v=drive.rate, a=drive.acceleration)
+    data[drive.coordinate.name] = positions
+    data.update(zip(drive.coordinate.rates, (drive.rate, drive.acceleration), strict=True))
     return data
 
 
@@ -171,12 +165,12 @@ def _going_on(
 ) -> Closing:
     """Return a closing that changes sides where the motion goes through a change point."""
     draft, program, _ = tried
-    low, high = closing.start, closing.start + TURN
+    turn, low = problem.drive.coordinate.turn, closing.start
+    high = low + turn
     if not problem.drive.is_crank:
         way = sum(abs(length) for _, _, length in problem.lengths)
-        low, high = closing.start - way, closing.start + way
+        low, high, turn = low - way, low + way, closing.turn
     found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high)
-    turn = TURN if problem.drive.is_crank else closing.turn
     return replace(closing, changes=found, turn=turn)
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,7 @@ from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.reading import NOTHING, require_dynamics
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import impossible_steps
-from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.reading import Complexes, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
 from planmethod.solved.travel import Course
 
@@ -62,7 +62,7 @@ class Peak:
     is_limit: bool
 
 
-class Cycle:
+class Cycle(Remembering):
     """Reactions and the balance over the course of the driver (реакции за цикл).
 
     Parameters
@@ -81,6 +81,7 @@ class Cycle:
     """
 
     def __init__(self, solution: Solution) -> None:
+        super().__init__()
         self.solution = solution
         self.course = Course(solution, step=STEP, least=LEAST)
         self.joints: list[JointForce] = statics_of(solution).reactions
@@ -213,7 +214,7 @@ def _only_in_positions(dynamics: Dynamics) -> bool:
     return any(table.over is Over.POSITION for table in tables)
 
 
-@lru_cache(maxsize=4)
+@remembered
 def cycle(solution: Solution) -> Cycle:
     """Return the forces over the course of a solution; kept, since several views show them.
 

@@ -11,7 +11,7 @@ from enum import Enum
 
 from planmethod.errors import AssemblyError
 from planmethod.plans.model import PlanKind
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Coordinate, Problem
 from planmethod.solved.reading import Reals
 
 
@@ -25,25 +25,25 @@ class Place:
         Among those that were asked, from 1.
     value : float
         Of the driver, degrees, or m of a slider.
-    is_crank : bool
+    coordinate : Coordinate
     """
 
     number: int
     value: float
-    is_crank: bool
+    coordinate: Coordinate
 
     @classmethod
     def of(cls, problem: Problem, positions: Reals, index: int) -> Place:
         """Return the position of an index, from 0."""
-        return cls(index + 1, float(positions[index]) + 0.0, problem.drive.is_crank)
+        return cls(index + 1, float(positions[index]) + 0.0, problem.drive.coordinate)
 
     @property
     def driver(self) -> str:
         """Where the driver stands, without the unit: ``phi = 30``."""
-        return f"{'phi' if self.is_crank else 's'} = {self.value:.12g}"
+        return f"{self.coordinate.name} = {self.value:.12g}"
 
     def __str__(self) -> str:
-        return f"position {self.number} ({self.driver} {'deg' if self.is_crank else 'm'})"
+        return f"position {self.number} ({self.driver} {self.coordinate.unit})"
 
 
 class Cause(Enum):
@@ -269,16 +269,15 @@ class Passed:
 
     links: tuple[str, ...]
     places: tuple[float, ...]
-    is_crank: bool
+    coordinate: Coordinate
     point: str = ""
     parallel: bool = False
 
     def __str__(self) -> str:
-        name, unit = ("phi", "deg") if self.is_crank else ("s", "m")
         places = " and ".join(dict.fromkeys(f"{round(at, 4) + 0.0:.10g}" for at in self.places))
         text = (
-            f"links {', '.join(self.links)} pass a change point at {name} = {places} {unit}, from "
-            "which the mechanism may go on either way: the side that was chosen in the first "
+            f"links {', '.join(self.links)} pass a change point at {self.coordinate.told(places)}, "
+            "from which the mechanism may go on either way: the side that was chosen in the first "
             "position is kept, so that one branch of the motion passes into another there."
         )
         c = self.point

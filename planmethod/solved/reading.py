@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from functools import wraps
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,8 @@ from planmethod.construct.steps import LineName, Name, NumberName, PointName, St
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
 Made = TypeVar("Made")
+Asked = ParamSpec("Asked")
+Memory = TypeVar("Memory", bound="Remembering")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,9 +76,22 @@ class Remembering:
     def __init__(self) -> None:
         self._worked_out: dict[Any, Any] = {}
 
-    def once(self, work_out: Callable[[Any], Made]) -> Made:
+    def once(self, work_out: Callable[..., Made], *arguments: Any, **named: Any) -> Made:
         """Return what a function makes of this, worked out when it is first asked for."""
-        if work_out not in self._worked_out:
-            self._worked_out[work_out] = work_out(self)
-        made: Made = self._worked_out[work_out]
+        key = (work_out, arguments, *named.items())
+        if key not in self._worked_out:
+            self._worked_out[key] = work_out(self, *arguments, **named)
+        made: Made = self._worked_out[key]
         return made
+
+
+def remembered(
+    work_out: Callable[Concatenate[Memory, Asked], Made],
+) -> Callable[Concatenate[Memory, Asked], Made]:
+    """Have what a function works out of its first argument remembered there, and die with it."""
+
+    @wraps(work_out)
+    def remember(of: Memory, /, *arguments: Asked.args, **named: Asked.kwargs) -> Made:
+        return of.once(work_out, *arguments, **named)
+
+    return remember

@@ -10,7 +10,7 @@ from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
 from planmethod.solved.changes import changes
-from planmethod.solved.closings import TURN, drive_data
+from planmethod.solved.closings import drive_data
 from planmethod.solved.failures import (
     Cause,
     Contradiction,
@@ -93,7 +93,7 @@ def changed_branches(solution: Solution) -> list[Passed]:
         closing = draft.choice.get(group.links)
         if closing is None or closing.parallel or closing.changes:
             continue
-        high = min(high, low + TURN) if drive.is_crank else high
+        high = min(high, low + drive.coordinate.turn)
         found = changes(
             draft,
             solution.construction.program,
@@ -111,12 +111,12 @@ def changed_branches(solution: Solution) -> list[Passed]:
 
 
 def _passed(solution: Solution, group: AssurGroup, places: tuple[float, ...]) -> Passed:
-    is_crank = solution.problem.drive.is_crank
+    coordinate = solution.problem.drive.coordinate
     if group.signature == "RPR":
-        return Passed(group.links, places, is_crank)
+        return Passed(group.links, places, coordinate)
     found = parallelogram(solution.problem, group) if group.signature == "RRR" else None
     parallel = found is not None and found.is_one
-    return Passed(group.links, places, is_crank, inner_point(group), parallel)
+    return Passed(group.links, places, coordinate, inner_point(group), parallel)
 
 
 def _refuse_spoilt(solution: Solution) -> None:

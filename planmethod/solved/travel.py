@@ -66,7 +66,5 @@ class Course:
     def closed(self) -> bool:
         """Whether the asked positions go all round."""
         drawn = np.unique(self.solution.positions)
-        if not self.solution.problem.drive.is_crank or len(drawn) < 3:
-            return False
-        gaps = np.diff(np.append(drawn, drawn[0] + TURN))
-        return bool(np.ptp(gaps) < 1e-6)
+        gaps = np.diff(np.append(drawn, drawn[:1] + self.solution.problem.drive.coordinate.turn))
+        return len(drawn) > 2 and bool(np.ptp(gaps) < 1e-6)

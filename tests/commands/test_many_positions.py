@@ -33,6 +33,7 @@ SIX_LINK = str(path_of("levers/six-link"))
 VARIANTS = str(path_of("levers/task12-variants"))
 
 SPOILT = "179.999"
+TURN = load(Path(EX1)).drive.coordinate
 
 
 @pytest.fixture(autouse=True)
@@ -464,7 +465,7 @@ def test_gaps_are_told_in_the_order_of_their_first_positions() -> None:
 
     def tell(index: int) -> Failure:
         asked.append(index)
-        return Failure(Cause.AT_LIMIT, Place(index + 1, 30.0 * index, is_crank=True))
+        return Failure(Cause.AT_LIMIT, Place(index + 1, 30.0 * index, TURN))
 
     gaps = Gaps.of(codes, tell)
     assert asked == [1, 2]
@@ -488,9 +489,9 @@ def test_gaps_are_told_in_the_order_of_their_first_positions() -> None:
 @pytest.mark.parametrize("cause", Cause)
 def test_what_is_true_of_every_position_of_a_kind_has_no_number_of_one(cause: Cause) -> None:
     """Radii hold for all; the place, the margin and distances between moving points do not."""
-    facts = Failure(cause, Place(7, 30.5, is_crank=True), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5))
+    facts = Failure(cause, Place(7, 30.5, TURN), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5))
     facts = replace(facts, margin=1e-9, problem="ex")
-    other = replace(facts, place=Place(8, 60.5, is_crank=True), margin=2e-9)
+    other = replace(facts, place=Place(8, 60.5, TURN), margin=2e-9)
     moved = (1.0, 2.0, 6.25, 7.5) if cause is not Cause.TANGENT else (1.0, 5.0)
     other = replace(other, lengths=moved)
     own = cause not in (Cause.NOT_FINITE, Cause.TOGETHER, Cause.NEITHER)

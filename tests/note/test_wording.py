@@ -15,8 +15,8 @@ from planmethod.note.audit.asking import Why
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
-from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT
 from planmethod.problem import FAMILIES
+from planmethod.problem.model import FORCE, MOMENT
 
 HOME = Path(planmethod.__file__).parent
 CYRILLIC = re.compile("[\u0400-\u04ff]")
@@ -78,7 +78,9 @@ def test_a_language_says_all_that_russian_says_with_the_same_places(lang: str) -
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     words = language(lang)
-    assert set(words.say.symbols) == {BALANCING_MOMENT, BALANCING_FORCE}
+    assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol}
+    for balance in (words.note.balance, words.sheets.balance, words.forces.and_balance):
+        assert set(balance) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == list(FAMILIES)
     assert set(words.audit.whys) == {why.value for why in Why}
     assert list(words.audit.verdicts) == list(words.audit.counted) == [v.value for v in Verdict]
@@ -129,8 +131,8 @@ def test_a_notation_writes_numbers_and_names_what_has_a_role() -> None:
         assert isinstance(say, Notation)
         assert say.number("-1.5e-07") == text
         assert say.symbol("G_{2}") == "G_{2}"
-    assert russian.symbol(BALANCING_MOMENT) == "M_{ур}"
-    assert english.symbol(BALANCING_MOMENT) == "M_{b}"
+    assert russian.symbol(MOMENT.symbol) == "M_{ур}"
+    assert english.symbol(MOMENT.symbol) == "M_{b}"
 
 
 def test_an_unknown_language_is_an_error_of_usage() -> None:

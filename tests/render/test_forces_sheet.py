@@ -27,13 +27,9 @@ from planmethod.note.narrate.forces.lever_lines import (
 from planmethod.note.narrate.forces.moment_lines import plan_moments
 from planmethod.note.numbers import alike, significant
 from planmethod.note.wording import language
-from planmethod.plans.forces.polygons import (
-    BALANCING_FORCE,
-    BALANCING_MOMENT,
-    reaction_symbol,
-)
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import Known
-from planmethod.problem.model import Problem
+from planmethod.problem.model import FORCE, MOMENT, Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
 from planmethod.render.forces.arrows import Acting, distance, lay_forces
@@ -397,14 +393,14 @@ def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
     )
     symbols = [RU.say.symbol(one.symbol) for one in lever.couples]
     assert sorted(couples(sheet, view)) == sorted(symbols)
-    assert lever.couples[-1].symbol == BALANCING_MOMENT
+    assert lever.couples[-1].symbol == MOMENT.symbol
     assert 0.0 < (difference(reading) or 0.0) < 5.0
 
 
 def test_a_driving_slider_is_balanced_by_a_force() -> None:
     problem = loaded_template("driving-slider", "B", "3", "O")
     reading = ForceReading(Solution(problem), 0)
-    assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == [BALANCING_FORCE, "F_{10}"]
+    assert [edge.symbol for edge in reading.plans[-1].polygon][-2:] == [FORCE.symbol, "F_{10}"]
     plans, lever = both_balances(reading)
     assert lever is not None and plans * lever > 0
     apart, expected = lever_lines(reading, RU)[-2:]

@@ -114,8 +114,8 @@ def test_leader_lines_do_not_cross_their_neighbours(name: str) -> None:
 
 
 def test_the_same_again() -> None:
-    solution = solved("linkages/ex1")
-    one, two = (scheme_picture.__wrapped__(solution, 2, overlay=TWELVE).items for _ in range(2))
+    again = [Solution(problem_of("linkages/ex1"), positions=ALL_ROUND) for _ in range(2)]
+    one, two = (scheme_picture(solution, 2, overlay=TWELVE).items for solution in again)
     assert one == two
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.numbers import Notation, trimmed
+from planmethod.note.numbers import Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Body, Problem, Slide
@@ -34,12 +34,12 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
     """
     drive, number, units = problem.drive, words.say.given, words.say.units
     asked = drive.positions if positions is None else positions
-    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", f" {units['m']}")
-    said = f"{number(float(asked[0]))}{unit}"
+    unit = units[drive.coordinate.unit]
+    said = with_unit(number(float(asked[0])), unit)
     if len(asked) > 1:
         count = words.note.given_count.format(count=len(asked))
-        said += f"…{number(float(asked[-1]))}{unit}{count}"
-    lines = [f"{symbol} = {said}"]
+        said += f"…{with_unit(number(float(asked[-1])), unit)}{count}"
+    lines = [f"{drive.coordinate.symbol} = {said}"]
     named = {name for _, name, _ in problem.lengths}
     for _, name, metres in problem.lengths:
         lines.append(f"l_{{{name}}} = {number(metres)} {units['m']}")

@@ -175,7 +175,7 @@ class Names:
                 guide = self.guide(line)
                 if guide is not None:
                     return Course(guide, 0.0)
-                if angle == "phi" and self.solution.problem.drive.is_crank:
+                if angle == self.solution.problem.drive.coordinate.name:
                     drive = self.solution.problem.bodies[self.solution.problem.drive.link]
                     if drive.axis is not None:
                         return Course("".join(drive.axis), 0.0)

@@ -39,7 +39,7 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
         yield f"{name}.read", drawn.read(size_label(planned))
         if planned.couple is not None:
             yield moment_row(planned), joint.moment
-    quantity = "moment" if solution.problem.drive.is_crank else "force"
+    quantity = solution.problem.drive.balancing.quantity
     yield f"driving.{quantity}", statics.balance
     yield f"driving.{quantity}.read", drawn.balance
     if statics.lever is not None:

@@ -125,11 +125,7 @@ def record(solution: Solution) -> dict[str, Any]:
     }
     positions = []
     for i, asked in enumerate(solution.positions):
-        entry: dict[str, Any] = {}
-        if solution.problem.drive.is_crank:
-            entry["phi_deg"] = plain(asked)
-        else:
-            entry["s"] = plain(asked)
+        entry: dict[str, Any] = {solution.problem.drive.coordinate.column: plain(asked)}
         entry["margin"] = plain(solution.margin[i])
         entry["points"] = {
             name: {

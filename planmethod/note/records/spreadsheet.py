@@ -100,7 +100,7 @@ def csv_columns(solution: Solution) -> dict[str, Reals]:
 
 def driver_of(problem: Problem) -> str:
     """Return the name of the column of the driver's positions."""
-    return "phi_deg" if problem.drive.is_crank else "s"
+    return problem.drive.coordinate.column
 
 
 def csv_rows(solution: Solution) -> tuple[list[str], list[list[float | int]]]:
@@ -230,12 +230,12 @@ def asked_text(swept: Swept, lang: str = "ru") -> str:
     ------
     UnknownLanguageError
     """
-    words, drive = wording(lang), swept.problem.drive
+    words, coordinate = wording(lang), swept.problem.drive.coordinate
     lines = wrap(
         (swept.problem.title or swept.problem.name)
         + (f" ({swept.problem.variant})" if swept.problem.variant else "")
     )
-    symbol = plain_text(f"φ_{{{drive.link}}}, °") if drive.is_crank else f"s, {words.units['m']}"
+    symbol = f"{plain_text(coordinate.symbol)}, {words.units[coordinate.unit]}"
     count = len(swept.positions)
     columns = [
         [words.number, *(str(i + 1) for i in range(count))],

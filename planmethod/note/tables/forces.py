@@ -114,7 +114,7 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
             **(_contact_record(contact, index) if contact is not None else {}),
         }
 
-    quantity = "moment" if solution.problem.drive.is_crank else "force"
+    quantity = solution.problem.drive.balancing.quantity
     balance = float(statics.balance[index])
     record: dict[str, Any] = {
         "reactions": [told(k, joint) for k, joint in enumerate(statics.reactions)],
@@ -154,12 +154,9 @@ def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
         for joint in statics.reactions
         for size in [np.abs(joint.force)]
     ]
-    crank = solution.problem.drive.is_crank
-    unit = words.units["N·m"] if crank else words.units["N"]
-    sign = "M" if crank else "F"
-    link = solution.problem.drive.link
-    balance = [f"{sign}{link}, {unit}", *(found(float(value), words) for value in statics.balance)]
-    return [*columns, balance]
+    drive = solution.problem.drive
+    head = f"{drive.balancing.letter}{drive.link}, {words.units[drive.balancing.unit]}"
+    return [*columns, [head, *(found(float(value), words) for value in statics.balance)]]
 
 
 def _distance(solution: Solution, number: int, index: int, words: Wording) -> str:
@@ -237,9 +234,8 @@ def forces_tables(
     lines += _edge_notes(solution, words, index)
     for line in (*shift_lines(statics, words, index), *kept_lines(statics, words)):
         lines += wrap(plain_text(line))
-    crank = solution.problem.drive.is_crank
-    unit = words.units["N·m"] if crank else words.units["N"]
-    balance = words.balance_moment if crank else words.balance_force
+    balancing = solution.problem.drive.balancing
+    balance, unit = words.balance[balancing.quantity], words.units[balancing.unit]
     lines += wrap(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
     if statics.lever is None:
         lines.append(words.lever_stands)

@@ -6,6 +6,7 @@ import math
 
 from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import SCALE_SYMBOL, Names
+from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import (
     columns_text,
     fixed,
@@ -99,13 +100,13 @@ def scale_texts(solution: Solution, words: Wording) -> list[str]:
 
 def position_line(solution: Solution, words: Wording, index: int) -> str:
     """Return which position is told: its number and the driver's place."""
-    drive = solution.problem.drive
-    template = words.position_crank if drive.is_crank else words.position_slider
-    return template.format(
+    coordinate = solution.problem.drive.coordinate
+    value = given(float(solution.positions[index]), words)
+    return words.position.format(
         number=index + 1,
         count=len(solution.positions),
-        symbol=plain_text(f"φ_{{{drive.link}}}") if drive.is_crank else "s",
-        value=given(float(solution.positions[index]), words),
+        symbol=plain_text(coordinate.symbol),
+        value=with_unit(value, words.units[coordinate.unit]),
     )
 
 
@@ -280,8 +281,8 @@ def _resultants(solution: Solution, words: Wording) -> list[str]:
 
 def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
     """Return tables with a row for each position."""
-    drive = solution.problem.drive
-    symbol = plain_text(f"φ_{{{drive.link}}}, °") if drive.is_crank else f"s, {words.units['m']}"
+    coordinate = solution.problem.drive.coordinate
+    symbol = f"{plain_text(coordinate.symbol)}, {words.units[coordinate.unit]}"
     lead = [
         [words.number, *(str(i + 1) for i in range(len(solution.positions)))],
         [symbol, *(given(float(p), words) for p in solution.positions)],

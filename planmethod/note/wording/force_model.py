@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 
@@ -44,8 +45,7 @@ class ForceWording:
     reaction: str
     from_frame: str
     from_link: str
-    and_moment: str
-    and_force: str
+    and_balance: Mapping[str, str]
     components: str
     passed_on: str
     balance_group: str

@@ -33,8 +33,7 @@ class Wording:
     title_protocol: str
     title_results: str
     source: str
-    position_crank: str
-    position_slider: str
+    position: str
     formula: str
     given: str
     given_count: str
@@ -136,8 +135,7 @@ class Wording:
     columns_forces: tuple[str, ...]
     edges_note: str
     edges_couple: str
-    balance_moment: str
-    balance_force: str
+    balance: Mapping[str, str]
     lever_stands: str
     lever_note: str
     resultant_shift: str

@@ -73,8 +73,7 @@ class SheetWording:
     # Force analysis over the cycle
     wanted_cycle: str
     load_table: str
-    balance_moment: str
-    balance_force: str
+    balance: Mapping[str, str]
     legend_exact: str
     legend_plans: str
     legend_lever: str

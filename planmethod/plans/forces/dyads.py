@@ -19,8 +19,6 @@ from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.forces.board import Board, Force
 from planmethod.plans.forces.polygons import (
-    BALANCING_FORCE,
-    BALANCING_MOMENT,
     Balance,
     Components,
     CoupleOn,
@@ -54,13 +52,11 @@ class Driving:
     balance : NumberName
         Moment on a crank, N·m, counter-clockwise positive, or force on a slider, N, positive in the
         direction of its guide.
-    symbol : str
     force : Force or None
         The force on a slider.
     """
 
     balance: NumberName
-    symbol: str
     force: Force | None = None
 
 
@@ -308,7 +304,7 @@ def drive_forces(board: Board) -> Driving:
         board.react(drive.pivot, drive.link, FRAME, Force(pivot, loaded, start))
         moment = board.negative(board.moment((drive.link,), pivot))
         stands = reaction_edge(drive.link, FRAME, pivot, loaded, start)
-        balancing = CoupleOn(BALANCING_MOMENT, drive.link, moment, pivot)
+        balancing = CoupleOn(drive.balancing.symbol, drive.link, moment, pivot)
         board.read_off(
             ForcePlan(
                 links,
@@ -318,16 +314,15 @@ def drive_forces(board: Board) -> Driving:
                 couples=(*known, balancing),
             )
         )
-        return Driving(moment, BALANCING_MOMENT)
+        return Driving(moment)
     slide = board.draft.problem.slides[drive.link]
     guide, pin = board.draft.direction(slide), PointName(slide.pin)
     end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
     couple = board.negative(board.moment((drive.link,), pin))
     held = board.press(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
     problem = board.draft.problem
-    drives = Edge(
-        BALANCING_FORCE, drive.link, pin, loaded, end, Known.ONE, track_direction(slide, problem)
-    )
+    symbol, direction = drive.balancing.symbol, track_direction(slide, problem)
+    drives = Edge(symbol, drive.link, pin, loaded, end, Known.ONE, direction)
     direction = track_direction(slide, problem, turned=True)
     presses = reaction_edge(drive.link, FRAME, pin, end, start, direction)
     balance = board.segments.read_along(loaded, end, guide, "F_dr")
@@ -340,4 +335,4 @@ def drive_forces(board: Board) -> Driving:
             couples=(*known, held),
         )
     )
-    return Driving(balance, BALANCING_FORCE, Force(pin, loaded, end, BALANCING_FORCE))
+    return Driving(balance, Force(pin, loaded, end, symbol))

@@ -76,7 +76,7 @@ def hang(board: Board, driving: Driving) -> Lever | None:
         # The plan is turned by +90°: a moment on it is the power with the other sign.
         factors = ((arm, 1), (board.size(given.force), 1), (motion.segments.scale, 1))
         powers.append(b.compute(board.name("P"), *factors, factor=-1.0))
-    rate = board.kin.omega[drive.link] if drive.is_crank else NumberName("v")
+    rate = NumberName(drive.coordinate.rates[0])
     whole = b.total(board.name("P"), *powers)
     balance = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
     off = b.total(board.name("d"), balance, board.negative(driving.balance))

@@ -14,9 +14,6 @@ from planmethod.mechanism.groups import Lead
 from planmethod.plans.model import Direction, Known, Relation
 from planmethod.plans.segments import Ends
 
-BALANCING_MOMENT, BALANCING_FORCE = "balancing moment", "balancing force"
-"""What balances the driver, in place of a letter: its letters are those of a language."""
-
 
 class Share(Enum):
     """What of a force a segment shows (составляющая)."""
@@ -34,7 +31,7 @@ class Edge:
     ----------
     symbol : str
         Letter in rich text: ``G_{2}``, ``F^{n}_{21}``; of a reaction the first index is the link
-        that it acts on, the second the link that exerts it. `BALANCING_FORCE` has none of its own.
+        that it acts on, the second the link that exerts it. what balances the driver has none.
     on : str
         The link that the force acts on.
     at : PointName

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from itertools import combinations
 
 from planmethod.construct.steps import PointName
@@ -45,6 +44,7 @@ from planmethod.render.symbols import SIZES, angle_of, before_links, revolute, s
 from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.forces.guides import guides
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.reading import remembered
 
 _AXIS = 26.0
 """Length of a cut guide's axis to both sides of the slider's pin, before ``factor``, mm."""
@@ -183,7 +183,7 @@ def _loaded_picture(
     return lettered(items, [*labels, *more, *letters, *_letters(scheme, prefix, links)])
 
 
-@lru_cache(maxsize=32)
+@remembered
 def loads_picture(reading: ForceReading, letter_height: float, say: Notation) -> Picture:
     """Return the whole scheme with the weights, inertia forces and couples, external loads, mm."""
     solution, index = reading.solution, reading.index
@@ -204,7 +204,7 @@ def loads_picture(reading: ForceReading, letter_height: float, say: Notation) ->
     return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}")
 
 
-@lru_cache(maxsize=64)
+@remembered
 def cut_picture(reading: ForceReading, number: int, letter_height: float, say: Notation) -> Picture:
     """Return the links of a force plan cut free, with all that acts on them, mm."""
     plan = reading.plans[number]
@@ -213,7 +213,7 @@ def cut_picture(reading: ForceReading, number: int, letter_height: float, say: N
     return _cut(reading, scheme, reading.shown(plan), reading.couples(plan), prefix, say)
 
 
-@lru_cache(maxsize=64)
+@remembered
 def inner_picture(
     reading: ForceReading, number: int, letter_height: float, say: Notation
 ) -> tuple[str, Picture] | None:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 from planmethod.construct.steps import PointName
 from planmethod.render.forces.polygon import apart, drawn_edges
 from planmethod.render.pictures.ellipses import Ellipses, shown_ellipses
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.reading import remembered
 
 
-@lru_cache(maxsize=64)
+@remembered
 def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     """Return the ellipses around the vertices of a force plan.
 

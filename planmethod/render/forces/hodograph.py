@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -20,7 +19,7 @@ from planmethod.render.symbols import arrowhead
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.forces.reading import NOTHING
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.reading import Complexes
+from planmethod.solved.reading import Complexes, remembered
 
 HODOGRAPH = "hodograph"
 """Tag of the curve; of the pole it is `POLE`."""
@@ -73,7 +72,7 @@ def opposite(cycle: Cycle, one: int, two: int) -> bool | None:
     return False if float(np.max(np.abs(a - b))) <= least else None
 
 
-@lru_cache(maxsize=64)
+@remembered
 def hodograph_picture(cycle: Cycle, number: int, per_mm: float, letter_height: float) -> Picture:
     """Return the polar diagram of a reaction, its pole at the origin, mm."""
     joint = cycle.joints[number]

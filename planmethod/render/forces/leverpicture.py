@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.numbers import Notation
@@ -25,12 +23,13 @@ from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import similar_lines
 from planmethod.solved.forces.lever import HungCouple, LeverReading
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.reading import remembered
 
 LEVER = "lever"
 """Tag of the lines of the lever."""
 
 
-@lru_cache(maxsize=32)
+@remembered
 def lever_picture(reading: ForceReading, letter_height: float, say: Notation) -> Picture:
     """Return the lever with all that hangs on it, its pole at the origin, mm."""
     solution = reading.solution

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.render.forces.arrows import MANNER, PLAN_FORCE, Segment, distance
@@ -15,6 +13,7 @@ from planmethod.render.pictures.ellipses import Ellipses
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import unit, vector_arrow
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.reading import remembered
 
 START = "start of a force plan"
 """Tag of the disc where the construction of a plan begins: one for each plan."""
@@ -106,7 +105,7 @@ def _hides(one: Segment, other: Segment) -> bool:
     return sum(distance(place, long) < _HIDES for place in places) > 2
 
 
-@lru_cache(maxsize=64)
+@remembered
 def polygon_picture(
     reading: ForceReading,
     number: int,

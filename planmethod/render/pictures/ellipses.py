@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from math import atan2, cos, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
 from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.reading import Reals
+from planmethod.solved.reading import Reals, remembered
 from planmethod.solved.scaling import extent, plan_extent
 from planmethod.solved.solution import Solution
 
@@ -92,7 +91,7 @@ def ellipse(centre: complex, covariance: Reals, pen: Pen = Pen.THIN) -> Stroke:
     return Stroke(points, pen, closed=True, tag=TAG)
 
 
-@lru_cache(maxsize=512)
+@remembered
 def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
     """Return the ellipses of a view's moving points in one position."""
     common, scheme = solution.scales[kind].per_mm, kind is PlanKind.POSITION

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, VectorKind
@@ -15,6 +13,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import vector_arrow
+from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
 
 POLE = "pole"
@@ -49,7 +48,7 @@ def plan_places(solution: Solution, kind: PlanKind, index: int) -> dict[PointNam
     return {name: complex(solution.paper.point(name)[index]) * share for name in ends}
 
 
-@lru_cache(maxsize=256)
+@remembered
 def plan_picture(
     solution: Solution,
     kind: PlanKind,

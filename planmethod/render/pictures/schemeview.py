@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from itertools import pairwise
 from math import ceil
 
@@ -27,6 +26,7 @@ from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.positions import Positions
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
+from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
 
 
@@ -210,7 +210,7 @@ def _draw_angle(view: _View) -> None:
     )
 
 
-@lru_cache(maxsize=64)
+@remembered
 def scheme_picture(
     solution: Solution,
     index: int,

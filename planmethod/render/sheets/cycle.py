@@ -13,9 +13,9 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
 from planmethod.note.narrate.forces.formulas import link_names
 from planmethod.note.narrate.given import point_name
-from planmethod.note.numbers import MINUS, half_up
+from planmethod.note.numbers import MINUS, half_up, with_unit
 from planmethod.note.wording import Language
-from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.render.forces.hodograph import (
@@ -72,10 +72,10 @@ class _Frame:
 
     @classmethod
     def of(cls, solution: Solution, forces: Cycle, width: float) -> _Frame:
-        drive, ends = solution.problem.drive, forces.course.drawn
+        coordinate, ends = solution.problem.drive.coordinate, forces.course.drawn
         inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
         per_mm = choose_scale((float(np.ptp(ends)), 0.0), (width, 1.0), mm_per_unit=inverse)
-        scale = Scale("mu_φ", per_mm, "deg") if drive.is_crank else Scale("mu_s", per_mm, "m")
+        scale = Scale(f"mu_{coordinate.symbol[0]}", per_mm, coordinate.unit)
         falling = bool(solution.positions[1] < solution.positions[0])
         return cls(solution, scale, float(ends[-1 if falling else 0]), -1 if falling else 1)
 
@@ -85,12 +85,11 @@ class _Frame:
 
     def axis(self, forces: Cycle) -> Abscissae:
         """Return the axis with the numbers of the asked positions."""
-        drive = self.solution.problem.drive
         marks = [(self.x(float(p)), str(k)) for k, p in enumerate(self.solution.positions)]
         if forces.course.closed:
             least = int(np.argmin(self.solution.positions))
             marks.append((self.x(float(forces.course.drawn[-1])), str(least)))
-        name = f"φ_{{{drive.link}}}" if drive.is_crank else "s"
+        name = self.solution.problem.drive.coordinate.symbol
         return Abscissae(name, tuple(x for x, _ in marks), tuple(text for _, text in marks))
 
     def parts(
@@ -122,14 +121,13 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
     forces = cycle(solution)
     width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
-    statics, crank = statics_of(solution), solution.problem.drive.is_crank
+    statics, balancing = statics_of(solution), solution.problem.drive.balancing
     words, say = manner.words, manner.words.say
-    role, unit = (BALANCING_MOMENT, "N·m") if crank else (BALANCING_FORCE, "N")
-    symbol = say.symbol(role)
+    symbol = say.symbol(balancing.symbol)
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
     reach = _range([forces.balance], _real)
     per_mm = choose_scale((0.0, reach), (1.0, height), mm_per_unit=inverse)
-    scale = Scale("mu_M" if crank else "mu_F", per_mm, unit)
+    scale = Scale(f"mu_{balancing.letter}", per_mm, balancing.unit)
     curve = Curve("", frame.parts(forces.balance, per_mm, _real))
     marks, said = [], []
     convention = solution.problem.scales.convention
@@ -144,13 +142,13 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
         said = [_legend(manner)]
     picture = diagram_picture(
         frame.axis(forces),
-        Ordinates(f"{symbol}, {say.units[unit]}", per_mm, say),
+        Ordinates(f"{symbol}, {say.units[balancing.unit]}", per_mm, say),
         [curve],
         marks,
         letter_height=manner.letter,
         name="balance",
     )
-    what = words.sheets.balance_moment if crank else words.sheets.balance_force
+    what = words.sheets.balance[balancing.quantity]
     lines = [_scales(manner, convention, scale, frame.scale), *said, *_chords(forces, manner)]
     block = named(picture, manner.entry.title or what.format(symbol=symbol), lines, manner)
     return Scaled(block, solution, PlanKind.POSITION, tuple(indices), name="balance", scale=scale)
@@ -283,11 +281,10 @@ def _largest(solution: Solution, symbol: str, peak: Peak, words: Language) -> st
     letter, _, index = symbol.partition("_")
     head = f"{letter}_{{{index.strip('{}')} max}} = {say.found(peak.size)} {say.units['N']}"
     sign = "→" if peak.is_limit else "="
+    at = say.found(peak.position)
     if drive.is_crank:
-        degrees = say.number(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
-        at = f"φ_{{{drive.link}}} {sign} {degrees}°"
-    else:
-        at = f"s {sign} {say.found(peak.position)} {say.units['m']}"
+        at = say.number(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
+    at = f"{drive.coordinate.symbol} {sign} {with_unit(at, say.units[drive.coordinate.unit])}"
     return words.sheets.largest_at.format(largest=head, at=at)
 
 

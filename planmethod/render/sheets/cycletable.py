@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from planmethod.note.numbers import Notation, alike, half_up
 from planmethod.note.wording import Language
-from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
@@ -31,11 +31,12 @@ def reactions_table(solution: Solution, indices: Sequence[int], manner: Manner) 
     height = manner.text(min(size, 3.5))
     room = manner.inside - 2 * EDGE
     width = min(max(STAMP_WIDTH, manner.width(room)), room)
-    drive, words, say = solution.problem.drive, manner.words, manner.words.say
-    symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", say.units["m"])
+    words, say = manner.words, manner.words.say
+    coordinate = solution.problem.drive.coordinate
+    asked = tuple(position_text(solution, i, say) for i in indices)
     columns = [
         TableColumn(words.note.number, tuple(str(i) for i in indices), least=8.0),
-        TableColumn(symbol, tuple(position_text(solution, i, say) for i in indices), unit=unit),
+        TableColumn(coordinate.symbol, asked, unit=say.units[coordinate.unit]),
     ]
     for k in range(len(forces.joints)):
         columns += _reaction_columns(forces, k, indices, say)
@@ -92,10 +93,9 @@ def _balance_columns(
 
     The difference is that of the numbers which stand in the table.
     """
-    statics, crank = statics_of(solution), solution.problem.drive.is_crank
+    statics, balancing = statics_of(solution), solution.problem.drive.balancing
     said, say = words.sheets, words.say
-    symbol = say.symbol(BALANCING_MOMENT if crank else BALANCING_FORCE)
-    unit = say.units["N·m" if crank else "N"]
+    symbol, unit = say.symbol(balancing.symbol), say.units[balancing.unit]
 
     def column(head: str, texts: Sequence[str], *, sense: bool) -> TableColumn:
         cells = []
@@ -108,7 +108,7 @@ def _balance_columns(
     def chosen(values: Reals) -> list[float]:
         return [float(values[i]) for i in indices]
 
-    columns = [column(symbol, alike(chosen(statics.balance)), sense=crank)]
+    columns = [column(symbol, alike(chosen(statics.balance)), sense=balancing.turns)]
     balances, sigma = drawn_forces(statics).balances, drawn_forces(statics).discrepancy_sigma
     if balances is None or sigma is None:
         return columns
@@ -117,8 +117,8 @@ def _balance_columns(
     decimals = max(len(text.partition(".")[2]) for text in both)
     apart = [float(two) - float(one) for one, two in zip(plans, lever, strict=True)]
     differences = [f"{half_up(value, decimals) + 0.0:.{decimals}f}" for value in apart]
-    columns.append(column(said.cycle_plans, plans, sense=crank))
-    columns.append(column(said.cycle_lever, lever, sense=crank))
+    columns.append(column(said.cycle_plans, plans, sense=balancing.turns))
+    columns.append(column(said.cycle_lever, lever, sense=balancing.turns))
     columns.append(column("Δ", differences, sense=False))
     columns.append(column("σ_{Δ}", alike(chosen(sigma), 2), sense=False))
     return columns

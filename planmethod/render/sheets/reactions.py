@@ -75,11 +75,11 @@ def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
     """Return the columns of what balances the driver, by both methods."""
     said, say = words.sheets, words.say
     symbol = say.symbol(reading.balancing_symbol)
-    unit = say.units["N·m" if reading.statics.driving.force is None else "N"]
+    unit = say.units[reading.balancing.unit]
     exact = float(reading.statics.balance[reading.index])
     plans, lever = both_balances(reading)
     share = difference(reading)
-    sense = reading.statics.driving.force is None
+    sense = reading.balancing.turns
 
     def cell(value: float | None) -> Cell:
         if value is None:

@@ -84,10 +84,9 @@ def result_columns(
     if sigma and alone:
         columns.insert(0, TableColumn("", (said.exact, said.read, "±σ")))
     if not alone:
-        drive = solution.problem.drive
-        symbol, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", say.units["m"])
+        coordinate = solution.problem.drive.coordinate
         asked = tuple(Cell(position_text(solution, i, say)) for i in indices)
-        columns.insert(0, TableColumn(symbol, asked, unit=unit))
+        columns.insert(0, TableColumn(coordinate.symbol, asked, unit=say.units[coordinate.unit]))
         columns.insert(
             0, TableColumn(words.note.number, tuple(Cell(str(i)) for i in indices), least=8.0)
         )

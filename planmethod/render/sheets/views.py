@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from planmethod.construct.scale import Scale
 from planmethod.note.narrate.letters import shown_letters
-from planmethod.note.numbers import Notation, is_nothing
+from planmethod.note.numbers import Notation, is_nothing, with_unit
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
@@ -207,13 +207,12 @@ def plan_grid(
     errors: bool = False,
 ) -> Block:
     """Return the plans of many positions in rows, each with its number."""
-    drive = solution.problem.drive
+    coordinate = solution.problem.drive.coordinate
     cells: list[Block] = []
     convention = solution.problem.scales.convention
     for i in indices:
-        value = position_text(solution, i, say)
-        name, unit = (f"φ_{{{drive.link}}}", "°") if drive.is_crank else ("s", f" {say.units['m']}")
-        said = f"{i}: {name} = {value}{unit}"
+        value = with_unit(position_text(solution, i, say), say.units[coordinate.unit])
+        said = f"{i}: {coordinate.symbol} = {value}"
         own = solution.own_scale(kind, i)
         caption: Block = Line(typeset(said, CAPTION))
         if own != solution.scales[kind]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
 from planmethod.solved.forces.contact import Contact, EdgeForce
 from planmethod.solved.forces.reading import NOTHING, ForceReading
+from planmethod.solved.reading import remembered
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ class Guided:
         return middle <= 1e-9 * (self.contact.length or 1.0)
 
 
-@lru_cache(maxsize=32)
+@remembered
 def guides(reading: ForceReading) -> Mapping[str, Guided]:
     """Return the reactions of the guides by the letter of the force, each way: ``F_{50}``."""
     found = {}

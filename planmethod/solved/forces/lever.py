@@ -131,15 +131,15 @@ class LeverReading:
 
     def _balance(self, balance: NumberName) -> None:
         reading, drive = self.reading, self.reading.solution.problem.drive
-        driving = reading.statics.driving
-        if driving.force is None:
+        pushing = reading.statics.driving.force
+        if pushing is None:
             if self.forces or self.couples:  # where they cancel, too
                 moment = reading.read_number(balance)
                 self.couples.append(self._couple(reading.balancing_symbol, drive.link, moment))
             return
         motion = reading.solution.construction.kinematics.velocity
         pin = reading.solution.problem.slides[drive.link].pin
-        force = reading.of_force(driving.force)
+        force = reading.of_force(pushing)
         if force:
             place = self.place(motion.point[drive.link, pin])
             # Its arm is the driver's own velocity, which is laid off and not measured.

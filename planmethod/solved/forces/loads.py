@@ -309,8 +309,7 @@ def _numbers(solution: Moved, path: str) -> npt.NDArray[np.intp]:
     number = order[np.minimum(np.searchsorted(own[order], asked - SLACK), len(own) - 1)]
     strange = np.flatnonzero(~(np.abs(own[number] - asked) <= SLACK))
     if strange.size:
-        what = "phi = {:.12g} deg" if solution.problem.drive.is_crank else "s = {:.12g} m"
-        first = what.format(float(asked[strange[0]]))
+        first = solution.problem.drive.coordinate.told(f"{float(asked[strange[0]]):.12g}")
         fault = Fault(
             f"{path}.values",
             f"given for the positions of the file, and {first} is none of them",

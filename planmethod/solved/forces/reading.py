@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
@@ -18,16 +18,16 @@ from planmethod.plans.forces.polygons import (
     Share,
 )
 from planmethod.plans.segments import Ends
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Balancing, Problem
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.reading import Reading
+from planmethod.solved.reading import Reading, Remembering, remembered
 from planmethod.solved.solution import Solution
 
 NOTHING = 1e-7
 """Share of the largest force of a position below which a force is none."""
 
 
-class ForceReading:
+class ForceReading(Remembering):
     """The forces of a solution in one position, as they are drawn and as a hand reads them.
 
     Parameters
@@ -43,6 +43,7 @@ class ForceReading:
     """
 
     def __init__(self, solution: Solution, index: int) -> None:
+        super().__init__()
         require_dynamics(solution.problem)
         self.solution, self.index = solution, index
         self.statics = statics_of(solution)
@@ -134,9 +135,14 @@ class ForceReading:
         return (lever.conjugate() * self.by_hand(*edge.ends)).imag > 0
 
     @property
+    def balancing(self) -> Balancing:
+        """What balances the driving link."""
+        return self.solution.problem.drive.balancing
+
+    @property
     def balancing_symbol(self) -> str:
         """The letter of what balances the driving link."""
-        return self.statics.driving.symbol
+        return self.balancing.symbol
 
     # What there is to show -------------------------------------------------------------------
 
@@ -200,7 +206,7 @@ def require_dynamics(problem: Problem) -> None:
         raise ProblemError(problem.name, [fault])
 
 
-@lru_cache(maxsize=32)
+@remembered
 def force_reading(solution: Solution, index: int) -> ForceReading:
     """Return the forces of a position; kept, since several views of a sheet show them."""
     return ForceReading(solution, index)

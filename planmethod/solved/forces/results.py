@@ -78,10 +78,9 @@ def _reactions(board: Board) -> Iterator[Quantity]:
 
 def _balances(planned: Planned) -> Iterator[Quantity]:
     """Yield what balances the driver, by the force plans and by the lever."""
-    driving = planned.driving
-    quantity, kind = "moment", QuantityKind.MOMENT
-    if driving.force is not None:
-        quantity, kind = "force", QuantityKind.THRUST
-    yield Quantity(kind, driving.balance, "dr", row=f"driving.{quantity}")
+    balancing = planned.board.draft.problem.drive.balancing
+    kind = QuantityKind.MOMENT if balancing.turns else QuantityKind.THRUST
+    row = balancing.quantity
+    yield Quantity(kind, planned.driving.balance, "dr", row=f"driving.{row}")
     if planned.lever is not None:
-        yield Quantity(kind, planned.lever.balance, "lever", row=f"lever.{quantity}")
+        yield Quantity(kind, planned.lever.balance, "lever", row=f"lever.{row}")

@@ -101,7 +101,7 @@ class Sweep:
         self._draft = results.draft
         self.program = results.program.needed_for([r.name for r in (*chosen, *moved)])
         self.steps = len(self.program.steps)
-        self.driver = "phi" if problem.drive.is_crank else "s"
+        self.driver = problem.drive.coordinate.name
         data = drive_data(problem, results.draft, np.zeros(1))
         data.update(results.numbers)
         self.constants: dict[str, complex | float] = {

@@ -6,7 +6,7 @@ from planmethod.note.narrate.forces.formulas import mass_lines
 from planmethod.note.narrate.given import given, point_name
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language
-from planmethod.plans.forces.polygons import BALANCING_FORCE, BALANCING_MOMENT, reaction_symbol
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.load_records import Couple, Load, Over, Table
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
@@ -46,5 +46,4 @@ def _load(solution: Solution, load: Load | Couple, words: Language) -> str:
 def cycle_wanted(solution: Solution, say: Notation) -> str:
     """Return what is to be found in all positions, as one line of symbols."""
     symbols = [reaction_symbol(joint.on, joint.by) for joint in statics_of(solution).reactions]
-    balancing = BALANCING_MOMENT if solution.problem.drive.is_crank else BALANCING_FORCE
-    return ", ".join([*symbols, say.symbol(balancing)])
+    return ", ".join([*symbols, say.symbol(solution.problem.drive.balancing.symbol)])

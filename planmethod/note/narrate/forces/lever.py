@@ -31,7 +31,6 @@ class LeverVoice:
         self.telling, self.reading = telling, telling.reading
         self.said, self.words = telling.said, telling.words
         self.lever = LeverReading(telling.reading, common=True)
-        self.is_force = telling.reading.statics.driving.force is not None
 
     def items(self) -> Iterator[list[str]]:
         """Tell the steps."""
@@ -133,7 +132,7 @@ class LeverVoice:
         exact = self.telling.exactly(float(self.reading.statics.lever[self.reading.index]))
         unit = lever_unit(self.reading, self.telling.notation)
         end = "."
-        if not self.is_force and value:
+        if self.reading.balancing.turns and value:
             end = self.said.directed.format(sense=self.telling.sense(value))
         size = self.telling.notation.found(abs(value))
         letters = self.telling.notation.symbol(symbol)

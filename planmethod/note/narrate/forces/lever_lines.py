@@ -46,7 +46,7 @@ def difference(reading: ForceReading) -> float | None:
 
 def lever_unit(reading: ForceReading, say: Notation) -> str:
     """Return the unit of what balances the driving link."""
-    return say.units["N·m" if reading.statics.driving.force is None else "N"]
+    return say.units[reading.balancing.unit]
 
 
 def lever_lines(reading: ForceReading, words: Language) -> list[str]:

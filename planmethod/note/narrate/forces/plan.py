@@ -60,13 +60,13 @@ class ForceVoice:
 
     def freed(self) -> list[str]:
         """Tell which reactions take the place of the links that were taken away."""
-        said, driving = self.said, self.statics.driving
+        said = self.said
         outer = [r for r in self.statics.board.reactions if self._is_outer(r)]
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
         drive = self.telling.solution.problem.drive.link
         if self.plan.links == (drive,):
             symbol = self.telling.plain(self.reading.balancing_symbol)
-            template = said.and_moment if driving.force is None else said.and_force
+            template = said.and_balance[self.reading.balancing.quantity]
             balancing = template.format(symbol=symbol)
             return [
                 said.freed_driver.format(reactions=reactions, balancing=balancing),

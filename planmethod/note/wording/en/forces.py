@@ -33,8 +33,10 @@ FORCES = ForceWording(
     reaction="{symbol} {by} in point {point}",
     from_frame="by the frame",
     from_link="by link {link}",
-    and_moment="the balancing moment {symbol}",
-    and_force="the balancing force {symbol} along the guide",
+    and_balance={
+        "moment": "the balancing moment {symbol}",
+        "force": "the balancing force {symbol} along the guide",
+    },
     components="The reaction {whole} is taken in two components: the tangential {tangential} ⊥ "
     "{line} and the normal {normal} ∥ {line}.",
     passed_on="The groups before have given {reactions}.",

@@ -18,8 +18,7 @@ NOTE = Wording(
     title_protocol="Construction of the plans, step by step",
     title_results="Results",
     source="Source: {source}",
-    position_crank="Position {number} of {count}: {symbol} = {value}°",
-    position_slider="Position {number} of {count}: {symbol} = {value} m",
+    position="Position {number} of {count}: {symbol} = {value}",
     formula="Structural formula: {formula}",
     given="Given: {given}.",
     given_count=" ({count} positions)",
@@ -141,8 +140,10 @@ NOTE = Wording(
         "{joint} {links}: the force is nothing, there is a moment only; at the edges of the slider "
         "{length}\u00a0m long acts the couple {first} and {second}."
     ),
-    balance_moment="Balancing moment on the driving link: {value} {unit}.",
-    balance_force="Balancing force on the driving link: {value} {unit}.",
+    balance={
+        "moment": "Balancing moment on the driving link: {value} {unit}.",
+        "force": "Balancing force on the driving link: {value} {unit}.",
+    },
     lever_stands="The driving link stands: there is no Zhukovsky lever.",
     lever_note=(
         "From the readings: force plans {plans} {unit}, Zhukovsky lever {lever} {unit}, difference "

@@ -34,8 +34,10 @@ FORCES = ForceWording(
     reaction="{symbol} {by} в точке {point}",
     from_frame="со стороны стойки",
     from_link="со стороны звена {link}",
-    and_moment="уравновешивающий момент {symbol}",
-    and_force="уравновешивающую силу {symbol} вдоль направляющей",
+    and_balance={
+        "moment": "уравновешивающий момент {symbol}",
+        "force": "уравновешивающую силу {symbol} вдоль направляющей",
+    },
     components="Реакцию {whole} представляем двумя составляющими: касательной {tangential} ⊥ "
     "{line} и нормальной {normal} ∥ {line}.",
     passed_on="Из расчёта предыдущих групп известно: {reactions}.",

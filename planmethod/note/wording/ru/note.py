@@ -18,8 +18,7 @@ NOTE = Wording(
     title_protocol="Протокол построения планов",
     title_results="Результаты",
     source="Источник: {source}",
-    position_crank="Положение {number} из {count}: {symbol} = {value}°",
-    position_slider="Положение {number} из {count}: {symbol} = {value} м",
+    position="Положение {number} из {count}: {symbol} = {value}",
     formula="Формула строения: {formula}",
     given="Дано: {given}.",
     given_count=" ({count} полож.)",
@@ -141,8 +140,10 @@ NOTE = Wording(
         "{joint} {links}: сила равна нулю, есть только момент; на краях ползуна длиной "
         "{length}\u00a0м действует пара сил {first} и {second}."
     ),
-    balance_moment="Уравновешивающий момент на ведущем звене: {value} {unit}.",
-    balance_force="Уравновешивающая сила на ведущем звене: {value} {unit}.",
+    balance={
+        "moment": "Уравновешивающий момент на ведущем звене: {value} {unit}.",
+        "force": "Уравновешивающая сила на ведущем звене: {value} {unit}.",
+    },
     lever_stands="Начальное звено неподвижно: рычага Жуковского нет.",
     lever_note=(
         "По снятым отрезкам: планы сил {plans} {unit}, рычаг Жуковского {lever} {unit}, "

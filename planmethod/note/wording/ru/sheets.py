@@ -60,8 +60,10 @@ SHEETS = SheetWording(
     difference="расхождение, %",
     wanted_cycle="Определить за цикл: {wanted}.",
     load_table="{name} = {name}({over}), до {largest}",
-    balance_moment="Уравновешивающий момент {symbol}",
-    balance_force="Уравновешивающая сила {symbol}",
+    balance={
+        "moment": "Уравновешивающий момент {symbol}",
+        "force": "Уравновешивающая сила {symbol}",
+    },
     legend_exact="линия — точно;",
     legend_plans="— по планам сил;",
     legend_lever="— по рычагу Жуковского",
