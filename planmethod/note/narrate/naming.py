@@ -25,6 +25,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
+from planmethod.plans.draft import DimensionKind
 from planmethod.plans.model import (
     FACTS,
     MOTION,
@@ -103,7 +104,7 @@ class Names:
             points = list(body.points)
             for i, p in enumerate(points):
                 for q in points[i + 1 :]:
-                    yield (q, p) if f"l_{q}{p}" in self.construction.draft.numbers else (p, q)
+                    yield (q, p) if self.construction.draft.has_length(q, p) else (p, q)
 
     # Points ----------------------------------------------------------------------------------
 
@@ -111,8 +112,9 @@ class Names:
         """Return a point's letter or name."""
         if name in self.letters:
             return self.letters[name][0]
-        if "~" in name:
-            return self._own(name, name.partition("~")[0] + "′")
+        foot_of = self.construction.draft.feet.get(name)
+        if foot_of is not None:
+            return self._own(name, foot_of + "′")
         if isinstance(self.step.get(name), Touch):
             return self._own(name, "T")
         return self.guides.get(name) or self._lowered(name)
@@ -202,9 +204,10 @@ class Names:
     def guide(self, line: LineName) -> str | None:
         """Return the name of the frame's guide that a line is, or None."""
         step = self.step[line]
-        if isinstance(step, AtAngle) and step.to is None and step.angle.startswith("angle_"):
-            return step.angle.removeprefix("angle_")
-        return None
+        if not isinstance(step, AtAngle) or step.to is not None:
+            return None
+        told = self.construction.draft.dimensions.get(step.angle)
+        return None if told is None else told.of[0]
 
     def value_of(self, angle: NumberName) -> float:
         """Return a given angle, degrees."""
@@ -277,17 +280,12 @@ class Names:
                 return f"({self.segment(tail, head)})"
             case Compute():
                 return self._lowered(number.strip("|"))
-            case _ if number.startswith("e_"):
-                return self._offset(number)
             case _:
+                told = self.construction.draft.dimensions.get(number)
+                if told is not None and told.kind is DimensionKind.OFFSET:
+                    return f"e_{{{told.of[0]}}}"  # without the link it is counted from
                 letter, _, index = number.partition("_")
                 return f"{letter}_{{{index}}}" if index else letter
-
-    def _offset(self, number: NumberName) -> str:
-        """Return the symbol of an offset: its name without the link it is counted from."""
-        text = number.removeprefix("e_")
-        points = {p for body in self.solution.problem.bodies.values() for p in body.points}
-        return f"e_{{{max((p for p in points if text.startswith(p)), key=len, default='')}}}"
 
     def is_inverse_scale(self) -> bool:
         """Tell whether scales are written as millimetres per unit."""
