@@ -198,7 +198,7 @@ def _ask(blank: HardRow, problem: Problem, position: float, *, many: bool) -> Ha
     except PlanMethodError as error:
         return replace(blank, told=_say(error))
     if said:
-        return replace(blank, outcome=Outcome.WARNED, told=" ".join(said))
+        return replace(blank, outcome=Outcome.WARNED, told=" ".join(map(str, said)))
     return replace(blank, outcome=Outcome.GOOD, warned=0.0)
 
 

@@ -19,7 +19,7 @@ FORCES = {
     "planmethod.solved.forces.statics",
     "planmethod.plans.forces.dyads",
     "planmethod.render.forces.cut",
-    "planmethod.note.narrate.forces.formulas",
+    "planmethod.note.narrate.forces.statement",
 }
 
 

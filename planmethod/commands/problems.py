@@ -106,8 +106,8 @@ def stem(problem: Problem) -> str:
     return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
 
 
-def warn(problem: Problem, said: str) -> None:
-    """Say what a user should know of a problem's results."""
+def warn(problem: Problem, said: object) -> None:
+    """Say what a user should know of a problem's results: a sentence, or a record of one."""
     click.echo(f"Warning: {problem.name}: {said}", err=True)
 
 
@@ -156,6 +156,6 @@ def solution_of(
         if len(solution.positions) < 2:
             raise
         raise AssemblyError(f"{error}{hint}") from error
-    for said in warnings(solution):
-        warn(problem, said)
+    for doubt in warnings(solution):
+        warn(problem, doubt)
     return solution

@@ -253,7 +253,7 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
     return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)
 
 
-def _tell(problem: Problem, gaps: Gaps, doubts: tuple[str, ...], partial: bool) -> None:
+def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:
     """Refuse or report positions without results; report the doubts about the others."""
     if gaps.count and not partial:
         raise AssemblyError(gaps.refusal() + (HINT if len(gaps.reason) > 1 else ""))

@@ -112,9 +112,9 @@ class Notation:
         """Return a computed number, four digits of it."""
         return self.number(significant(value))
 
-    def short(self, value: float) -> str:
-        """Return a number that goes on into a formula, no more than five digits."""
-        return self.number(trimmed(value, 5))
+    def short(self, value: float, digits: int = 5) -> str:
+        """Return a number that goes on into a formula, no more than so many digits."""
+        return self.number(trimmed(value, digits))
 
     def ruled(self, value: float) -> str:
         """Return a length that a ruler has measured, mm; of a finer ruler with more digits."""

@@ -171,7 +171,7 @@ class _Writer(Steps):
         drive = self.solution.problem.drive
         if section.group is not None or not drive.is_crank or drive.acceleration != 0:
             return []
-        symbol = plain_text(f"ω_{{{drive.link}}}")
+        symbol = f"ω_{{{drive.link}}}"
         return [self.words.constant_speed.format(symbol=symbol, link=drive.link)]
 
     def _known_turning(self, section: Section) -> list[str]:
@@ -182,7 +182,7 @@ class _Writer(Steps):
         own = {step.out for step in section.steps}
         for link in section.group.links:
             if link not in omega:
-                index = plain_text(f"_{{{link}}}")
+                index = f"_{{{link}}}"
                 lines.append(self.words.translating.format(link=link, index=index))
             elif omega[link] not in own:
                 other = self.names.owner(omega[link])
@@ -190,8 +190,8 @@ class _Writer(Steps):
                     self.words.shared_turning.format(
                         link=link,
                         other=other,
-                        symbol=plain_text(f"ω_{{{link}}}"),
-                        same=plain_text(f"ω_{{{other}}}"),
+                        symbol=f"ω_{{{link}}}",
+                        same=f"ω_{{{other}}}",
                     )
                 )
         return lines

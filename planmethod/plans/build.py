@@ -80,20 +80,20 @@ class Construction:
 class _Cutter:
     """Cut the growing list of steps into sections."""
 
-    steps: list[Step]
+    draft: Draft
     start: int = 0
     sections: list[Section] = field(default_factory=list)
 
     def cut(self, kind: PlanKind, group: AssurGroup | None = None, *, frame: bool = False) -> None:
-        steps = tuple(self.steps[self.start :])
+        steps = tuple(self.draft.b.steps[self.start :])
         self.sections.append(Section(kind, group, steps, frame))
-        self.start = len(self.steps)
+        self.start = self.draft.note_plan(kind, self.start)
 
 
 def draw_positions(problem: Problem, groups: Iterable[AssurGroup], choice: Choice) -> Draft:
     """Plan the position plan of the driver and the given groups."""
     draft = Draft(problem, choice)
-    _positions(draft, groups, _Cutter(draft.b.steps))
+    _positions(draft, groups, _Cutter(draft))
     return draft
 
 
@@ -110,7 +110,7 @@ def _positions(draft: Draft, groups: Iterable[AssurGroup], cutter: _Cutter) -> N
 def build(problem: Problem, structure: Structure, choice: Choice) -> Construction:
     """Plan all three plans, group by group in the order of kinematic analysis."""
     draft = Draft(problem, choice)
-    cutter = _Cutter(draft.b.steps)
+    cutter = _Cutter(draft)
     _positions(draft, structure.groups, cutter)
     velocity = Motion.start(PlanKind.VELOCITY, draft)
     acceleration = Motion.start(PlanKind.ACCELERATION, draft)

@@ -7,14 +7,16 @@ import copy
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.program import Builder
-from planmethod.construct.steps import LineName, NumberName, PointName, Side, Way
+from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Slide
 
 TINY = 1e-12
@@ -55,6 +57,35 @@ class Closing:
             for sign, place in ((1, positions), (-1, np.asarray(self.start))):
                 passed += sign * np.floor((place - change) / self.turn)
         return np.where(passed % 2 == 0, 1.0, -1.0)
+
+
+class DimensionKind(Enum):
+    """What a given number tells (вид размера), and how its name begins."""
+
+    LENGTH = "l_"  # distance of two points
+    ALONG = "x_"  # from a point along a line
+    ACROSS = "y_"  # and across it
+    OFFSET = "e_"  # of a point from a guide
+    ANGLE = "angle_"  # of a link or of a guide, degrees
+    WAY = "s"  # of the driving slider
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """Given number of a construction, in metres or in millimetres of the drawing (размер).
+
+    Attributes
+    ----------
+    kind : DimensionKind
+    of : tuple of str
+        Points that it places or lies between; the link or guide that an angle turns.
+    letters : str
+        What its length on the drawing is called.
+    """
+
+    kind: DimensionKind
+    of: tuple[str, ...]
+    letters: str
 
 
 Choice = Mapping[tuple[str, ...], Closing]
@@ -109,6 +140,14 @@ class Draft:
         Own axis of a link whose direction is not told by two of its points.
     read : list of (str, str)
         Distances that are read on the drawing because no given length tells them.
+    dimensions : dict of NumberName to Dimension
+        What known numbers of the data tell, and the same on the drawing.
+    feet : dict of PointName to str
+        Feet of offsets, and the point that each is of.
+    plans : dict of Name to PlanKind
+        Plan that a step belongs to.
+    letters : dict of PointName to str
+        What points of the velocity and acceleration plans are called, as far as it is told early.
     """
 
     problem: Problem
@@ -122,8 +161,10 @@ class Draft:
     mu_l: NumberName = field(init=False)
     origin: complex = field(init=False)
     read: list[tuple[str, str]] = field(default_factory=list)
-    _feet: int = 0
-    _drawn: set[str] = field(default_factory=set)
+    dimensions: dict[NumberName, Dimension] = field(default_factory=dict)
+    feet: dict[PointName, str] = field(default_factory=dict)
+    plans: dict[Name, PlanKind] = field(default_factory=dict)
+    letters: dict[PointName, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.mu_l = self.b.known("mu_l")
@@ -134,9 +175,15 @@ class Draft:
         other = copy.copy(self)
         other.b = self.b.copy()
         other.numbers, other.read = dict(self.numbers), list(self.read)
-        other.axes, other._drawn = dict(self.axes), set(self._drawn)
+        other.axes, other.plans = dict(self.axes), dict(self.plans)
+        other.dimensions, other.feet = dict(self.dimensions), dict(self.feet)
         other.placed = {link: list(points) for link, points in self.placed.items()}
         return other
+
+    def note_plan(self, kind: PlanKind, start: int) -> int:
+        """Note the plan of the steps from a number on; return how many there are by now."""
+        self.plans.update((step.out, kind) for step in self.b.steps[start:])
+        return len(self.b.steps)
 
     # Numbers -------------------------------------------------------------------------------
 
@@ -149,6 +196,20 @@ class Draft:
             return self.b.known(name)
         return NumberName(name)
 
+    def dimension(self, kind: DimensionKind, value: float, *of: str, host: str = "") -> NumberName:
+        """Take a dimension as known, m or degrees; ``host`` is the link it is counted from."""
+        letters = "".join(of) + host
+        whole = kind.value + letters
+        name = self.known(whole, value)
+        shown = letters if kind is DimensionKind.LENGTH else whole
+        self.dimensions[name] = Dimension(kind, of, shown + name[len(whole) :])
+        return name
+
+    def has_length(self, p: str, q: str) -> bool:
+        """Tell whether the distance of two points is given, in this order."""
+        known = Dimension(DimensionKind.LENGTH, (p, q), p + q)
+        return known in self.dimensions.values()
+
     def branch(self, point: str, closing: Closing) -> NumberName | None:
         """Return the number that tells a point's side in each position; None if it stays."""
         if not closing.changes:
@@ -160,9 +221,9 @@ class Draft:
     def length(self, link: str, p: str, q: str) -> NumberName:
         """Return the given distance of two points of a link, m."""
         points = self.problem.bodies[link].points
-        if f"l_{q}{p}" in self.numbers:
+        if self.has_length(q, p):
             p, q = q, p
-        return self.known(f"l_{p}{q}", abs(points[q] - points[p]))
+        return self.dimension(DimensionKind.LENGTH, abs(points[q] - points[p]), p, q)
 
     def measured(self, p: str, q: str) -> NumberName:
         """Return the distance of two places read on the drawing, mm."""
@@ -192,10 +253,11 @@ class Draft:
 
     def drawn(self, metres: NumberName) -> NumberName:
         """Return a known length in millimetres of the drawing."""
-        name = f"|{metres.removeprefix('l_')}|"
-        if name in self._drawn:
-            return NumberName(name)
-        self._drawn.add(name)
+        dimension = self.dimensions[metres]
+        name = NumberName(f"|{dimension.letters}|")
+        if name in self.dimensions:
+            return name
+        self.dimensions[name] = dimension
         return self.b.compute(name, (metres, 1), (self.mu_l, -1))
 
     def size(self, link: str) -> float:
@@ -216,13 +278,13 @@ class Draft:
         """Return the names of all points placed so far."""
         return {point for here in self.placed.values() for point in here}
 
-    def turned(self, line: LineName, through: PointName, angle: float, name: str) -> LineName:
-        """Return a line through a point at an angle (degrees) to another."""
+    def turned(self, line: LineName, through: PointName, angle: float, of: str) -> LineName:
+        """Return a line through a point at an angle (degrees) to another, that a link has."""
         if angle == 0:
             return self.b.parallel(through, line)
         if angle == 90:
             return self.b.perpendicular(through, line)
-        return self.b.at_angle(through, line, self.known(name, angle))
+        return self.b.at_angle(through, line, self.dimension(DimensionKind.ANGLE, angle, of))
 
     def axis(self, link: str) -> LineName:
         """Return a line with the direction of a link's own axis."""
@@ -236,7 +298,7 @@ class Draft:
             line = (
                 self.b.join(PointName(q), PointName(p))
                 if abs(beta) == 180
-                else self.turned(line, PointName(p), -beta, f"angle_{link}")
+                else self.turned(line, PointName(p), -beta, link)
             )
         self.axes[link] = line
         return line
@@ -279,13 +341,13 @@ class Draft:
         at = origin
         if abs(w.real) > TINY * size or not across:
             length = self.drawn(
-                self.known(f"x_{point}", w.real)
+                self.dimension(DimensionKind.ALONG, w.real, point)
                 if across or w.real < 0
-                else self.known(f"l_{origin}{point}", w.real)
+                else self.dimension(DimensionKind.LENGTH, w.real, origin, point)
             )
             at = self.b.lay_off(self._foot(point) if across else point, origin, line, length)
         if across:
-            length = self.drawn(self.known(f"y_{point}", w.imag))
+            length = self.drawn(self.dimension(DimensionKind.ACROSS, w.imag, point))
             at = self.b.lay_off(point, at, self.b.perpendicular(at, line), length)
         return self.mark_placed(point)
 
@@ -294,9 +356,11 @@ class Draft:
         for point in self.problem.bodies[link].points:
             self.locate(link, point)
 
-    def _foot(self, of: str) -> str:
-        self._feet += 1
-        return f"{of}~{self._feet}"
+    def _foot(self, of: str) -> PointName:
+        """Return the name of the next foot of an offset of a point."""
+        foot = PointName(f"{of}~{len(self.feet) + 1}")
+        self.feet[foot] = of
+        return foot
 
     def in_line(self, link: str, *places: str) -> bool:
         """Tell whether places of a link lie on one line, wherever sliders stand on it."""
@@ -334,13 +398,15 @@ class Draft:
         """Return the directed slide line, its host being placed."""
         base = self.base(slide)
         if slide.host == FRAME:
-            return self.b.at_angle(base, None, self.known(f"angle_{slide.label}", slide.angle))
+            angle = self.dimension(DimensionKind.ANGLE, slide.angle, slide.label)
+            return self.b.at_angle(base, None, angle)
         if slide.towards is not None:
             return self.b.join(base, self.locate(slide.host, slide.towards))
         from_x = self.angle_from_x(slide)
         if from_x is not None:
-            return self.b.at_angle(base, None, self.known(f"angle_{slide.slider}", from_x))
-        return self.turned(self.axis(slide.host), base, slide.angle, f"angle_{slide.slider}")
+            angle = self.dimension(DimensionKind.ANGLE, from_x, slide.slider)
+            return self.b.at_angle(base, None, angle)
+        return self.turned(self.axis(slide.host), base, slide.angle, slide.slider)
 
     def angle_from_x(self, slide: Slide) -> float | None:
         """Return the angle of a slide line from +x where its host does not turn, degrees.
@@ -374,7 +440,7 @@ class Draft:
         size = max(self.size(slide.slider), self.size(slide.host))
         if abs(across) <= TINY * size:
             return Track(base, line)
-        length = self.drawn(self.known(f"e_{point}{known}", across))
+        length = self.drawn(self.dimension(DimensionKind.OFFSET, across, point, host=known))
         foot = self.b.lay_off(self._foot(point), base, self.b.perpendicular(base, line), length)
         return Track(foot, self.b.parallel(foot, line))
 
@@ -386,18 +452,16 @@ class Draft:
         """Note the direction of the body that a prismatic pair turns together with ``known``."""
         from_x = self.angle_from_x(slide)
         if known == slide.host and from_x is not None:
-            angle = self.known(f"angle_{slide.slider}", from_x)
+            angle = self.dimension(DimensionKind.ANGLE, from_x, slide.slider)
             self.axes[slide.slider] = self.b.at_angle(at, None, angle)
         elif known == slide.host:
             self.axes[slide.slider] = (
                 self.b.parallel(at, self.line(slide))
                 if known == FRAME or self.placed.get(known)
-                else self.turned(self.axis(known), at, slide.angle, f"angle_{slide.slider}")
+                else self.turned(self.axis(known), at, slide.angle, slide.slider)
             )
         else:
-            self.axes[slide.host] = self.turned(
-                self.axis(known), at, -slide.angle, f"angle_{slide.host}"
-            )
+            self.axes[slide.host] = self.turned(self.axis(known), at, -slide.angle, slide.host)
 
     def across(self, slide: Slide, host_point: str, slider_point: str) -> float:
         """Return how far left of the host's point the slider's point lies across the line, m."""

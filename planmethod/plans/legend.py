@@ -21,7 +21,7 @@ ZERO = "0"
 
 
 class QuantityKind(Enum):
-    """Kind of a quantity (вид величины): its unit, its columns, what of it the hand finds."""
+    """Kind of a quantity (вид величины): its letters, unit, plan, columns; see `KindFacts`."""
 
     PLACE = "place"
     VELOCITY = "velocity"
@@ -38,67 +38,84 @@ class QuantityKind(Enum):
     THRUST = "thrust"  # on the driving slider, along its guide
 
     @property
+    def letter(self) -> str:
+        """What the name begins with by which it is asked for: ``omega``."""
+        return _FACTS[self].letter
+
+    @property
+    def sign(self) -> str:
+        """Letter of the symbol: ``ω``."""
+        return _FACTS[self].sign or _FACTS[self].letter
+
+    @property
     def unit(self) -> str:
         """Unit in SI; degrees of a direction."""
-        return _FACTS[self][0]
+        return _FACTS[self].unit
+
+    @property
+    def plan(self) -> PlanKind:
+        """Plan that it is found on."""
+        return _FACTS[self].plan
 
     @property
     def columns(self) -> tuple[str, ...]:
         """What the names of the columns of a table end with; none where the label is the name."""
-        return _FACTS[self][1]
+        return _FACTS[self].columns
 
     @property
     def is_number(self) -> bool:
         """Whether it is one number and not a vector."""
-        return self in _NUMBERS
+        return _FACTS[self].is_number
 
     @property
     def is_size(self) -> bool:
         """Whether the hand finds its size alone, without a sign."""
-        return self in _SIZES
+        return _FACTS[self].is_size
 
     @property
     def is_force(self) -> bool:
         """Whether it belongs to the force analysis."""
-        return self in (QuantityKind.REACTION, QuantityKind.MOMENT, QuantityKind.THRUST)
+        return self.plan is PlanKind.FORCE
 
 
-_FACTS: dict[QuantityKind, tuple[str, tuple[str, ...]]] = {
-    QuantityKind.PLACE: ("m", (".x", ".y")),
-    QuantityKind.VELOCITY: ("m/s", (".vx", ".vy")),
-    QuantityKind.ACCELERATION: ("m/s²", (".ax", ".ay")),
-    QuantityKind.DIRECTION: ("deg", (".phi_deg",)),
-    QuantityKind.UNIT: ("1", (".cos", ".sin")),
-    QuantityKind.OMEGA: ("1/s", (".omega",)),
-    QuantityKind.EPSILON: ("1/s²", (".epsilon",)),
-    QuantityKind.SLIDING: ("m/s", ()),
-    QuantityKind.CORIOLIS: ("m/s²", ()),
-    QuantityKind.RELATIVE: ("m/s²", ()),
-    QuantityKind.REACTION: ("N", (".x", ".y", "")),
-    QuantityKind.MOMENT: ("N·m", ("",)),
-    QuantityKind.THRUST: ("N", ("",)),
+TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
+"""Kinds of what is told of links."""
+
+
+@dataclass(frozen=True, slots=True)
+class KindFacts:
+    """What goes with a kind of quantity; see the properties of `QuantityKind`."""
+
+    letter: str
+    unit: str
+    plan: PlanKind
+    columns: tuple[str, ...] = ()
+    sign: str = ""
+    is_number: bool = False
+    is_size: bool = False
+
+
+_POSITION, _V, _A, _F = (
+    PlanKind.POSITION,
+    PlanKind.VELOCITY,
+    PlanKind.ACCELERATION,
+    PlanKind.FORCE,
+)
+_FACTS: dict[QuantityKind, KindFacts] = {
+    QuantityKind.PLACE: KindFacts("", "m", _POSITION, (".x", ".y")),
+    QuantityKind.VELOCITY: KindFacts("v", "m/s", _V, (".vx", ".vy"), is_size=True),
+    QuantityKind.ACCELERATION: KindFacts("a", "m/s²", _A, (".ax", ".ay"), is_size=True),
+    QuantityKind.DIRECTION: KindFacts("phi", "deg", _POSITION, (".phi_deg",), "φ"),
+    QuantityKind.UNIT: KindFacts("u", "1", _POSITION, (".cos", ".sin")),
+    QuantityKind.OMEGA: KindFacts("omega", "1/s", _V, (".omega",), "ω", is_number=True),
+    QuantityKind.EPSILON: KindFacts("epsilon", "1/s²", _A, (".epsilon",), "ε", is_number=True),
+    QuantityKind.SLIDING: KindFacts("v", "m/s", _V, is_number=True, is_size=True),
+    QuantityKind.CORIOLIS: KindFacts("ak", "m/s²", _A, is_number=True, is_size=True),
+    QuantityKind.RELATIVE: KindFacts("ar", "m/s²", _A, is_number=True, is_size=True),
+    QuantityKind.REACTION: KindFacts("F", "N", _F, (".x", ".y", ""), is_size=True),
+    QuantityKind.MOMENT: KindFacts("M", "N·m", _F, ("",), is_number=True),
+    QuantityKind.THRUST: KindFacts("F", "N", _F, ("",), is_number=True),
 }
-_NUMBERS = frozenset(
-    {
-        QuantityKind.OMEGA,
-        QuantityKind.EPSILON,
-        QuantityKind.SLIDING,
-        QuantityKind.CORIOLIS,
-        QuantityKind.RELATIVE,
-        QuantityKind.MOMENT,
-        QuantityKind.THRUST,
-    }
-)
-_SIZES = frozenset(
-    {
-        QuantityKind.VELOCITY,
-        QuantityKind.ACCELERATION,
-        QuantityKind.SLIDING,
-        QuantityKind.CORIOLIS,
-        QuantityKind.RELATIVE,
-        QuantityKind.REACTION,
-    }
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,26 +124,51 @@ class Quantity:
 
     Attributes
     ----------
-    label : str
-        How it is asked for: ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``,
-        ``epsilon_2``, ``v_B3/2``, ``ak_B3/2``, ``ar_B3/2``; ``u_2``, the direction ``phi_2`` as a
-        unit vector. Of forces ``F_B_2/1`` (on link 2 from link 1), ``M_B_2/1`` (its moment),
-        ``M_dr`` or ``F_dr``, ``M_lever`` or ``F_lever``.
     kind : QuantityKind
     name : Name
         Step that makes it: a point of a plan (its vector is from the pole), a number, or for a
         direction the line of the link's own axis; `ZERO` for what is zero by nature.
     of : str
-        Point or link; of a force the beginning of its columns: ``F.B.2-1``.
+        Point, link, or pair; of a reaction its joint and links, ``B_2/1`` (on link 2 from 1).
     size : NumberName or None
         Number that the hand finds for it; None of places and directions.
+    row : str
+        What the names of its columns begin with, if not with ``of``: ``F.B.2-1``.
+    shown : str
+        Its symbol as rich text, if not the letter of its kind with ``of`` as an index.
+    opposite : str
+        How the reaction is called that acts back.
     """
 
-    label: str
     kind: QuantityKind
     name: Name
     of: str
     size: NumberName | None = None
+    row: str = ""
+    shown: str = ""
+    opposite: str = ""
+
+    @property
+    def label(self) -> str:
+        """How it is asked for.
+
+        ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``,
+        ``ak_B3/2``, ``ar_B3/2``; ``u_2``, the direction ``phi_2`` as a unit vector. Of forces
+        ``F_B_2/1``, ``M_B_2/1`` (its moment), ``M_dr`` or ``F_dr``, ``M_lever`` or ``F_lever``.
+        """
+        return f"{self.kind.letter}_{self.of}" if self.kind.letter else self.of
+
+    @property
+    def symbol(self) -> str:
+        """Its symbol as rich text: ``ω_{2}``."""
+        sign = self.kind.sign
+        return self.shown or (f"{sign}_{{{self.of}}}" if sign else self.of)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of its columns in a table of numbers: ``B.vx``, ``B.vy``; ``v_B3/2``."""
+        stem = self.row or self.of
+        return tuple(stem + end for end in self.kind.columns) or (self.label,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,30 +208,28 @@ def motion_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
     velocity, acceleration = kin.velocity, kin.acceleration
     zero = draft.known(ZERO, 0.0)
     for name, at in velocity.named.items():
-        yield Quantity(name, QuantityKind.PLACE, PointName(at[1]), name)
-        for motion, letter, kind in (
-            (velocity, "v", QuantityKind.VELOCITY),
-            (acceleration, "a", QuantityKind.ACCELERATION),
+        yield Quantity(QuantityKind.PLACE, PointName(at[1]), name)
+        for motion, kind in (
+            (velocity, QuantityKind.VELOCITY),
+            (acceleration, QuantityKind.ACCELERATION),
         ):
-            yield Quantity(
-                f"{letter}_{name}", kind, motion.point[at], name, motion.size(at) or zero
-            )
+            yield Quantity(kind, motion.point[at], name, motion.size(at) or zero)
     for link in draft.problem.mechanism.links:
         axis = draft.axis(link)
-        yield Quantity(f"phi_{link}", QuantityKind.DIRECTION, axis, link)
-        yield Quantity(f"u_{link}", QuantityKind.UNIT, axis, link)
+        yield Quantity(QuantityKind.DIRECTION, axis, link)
+        yield Quantity(QuantityKind.UNIT, axis, link)
         omega, epsilon = kin.omega.get(link, zero), kin.epsilon.get(link, zero)
-        yield Quantity(f"omega_{link}", QuantityKind.OMEGA, omega, link, omega)
-        yield Quantity(f"epsilon_{link}", QuantityKind.EPSILON, epsilon, link, epsilon)
+        yield Quantity(QuantityKind.OMEGA, omega, link, omega)
+        yield Quantity(QuantityKind.EPSILON, epsilon, link, epsilon)
     values = acceleration.segments.values
     for r in kin.relatives.values():
         assert r.a_start is not None and r.a_turned is not None and r.a_head is not None
-        yield Quantity(r.label("v"), QuantityKind.SLIDING, r.speed, r.point, r.speed)
+        yield Quantity(QuantityKind.SLIDING, r.speed, r.name, r.speed)
         # A guide that does not turn makes no Coriolis acceleration.
         turned = values.get((r.a_start, r.a_turned), zero)
-        yield Quantity(r.label("ak"), QuantityKind.CORIOLIS, turned, r.point, turned)
+        yield Quantity(QuantityKind.CORIOLIS, turned, r.name, turned)
         along = values[r.a_turned, r.a_head]
-        yield Quantity(r.label("ar"), QuantityKind.RELATIVE, along, r.point, along)
+        yield Quantity(QuantityKind.RELATIVE, along, r.name, along)
 
 
 def plan_segments(draft: Draft, motions: tuple[Motion, Motion]) -> Iterator[PlanSegment]:

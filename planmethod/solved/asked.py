@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from planmethod.plans.legend import QuantityKind
 from planmethod.solved.results import Results, UnknownResultError, results_of
 from planmethod.solved.solution import Solution
 
@@ -33,8 +34,9 @@ def results_for(
         from planmethod.solved.forces.results import with_forces
 
         return with_forces(solution, results)
+    letters = {kind.letter for kind in QuantityKind if kind.is_force}
     for label in other:
-        if label == "forces" or label.startswith(("F_", "M_")):
+        if label == "forces" or label.partition("_")[0] in letters:
             raise UnknownResultError(
                 f"no result {label!r}: the problem has no loads. Give the masses in [dynamics] and "
                 "the loads in [[loads]]."

@@ -20,7 +20,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import PointName
-from planmethod.errors import AssemblyError, Fault, ProblemError
+from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import draw_positions
@@ -28,6 +28,7 @@ from planmethod.plans.draft import Closing, Draft
 from planmethod.plans.motion.position import has_two_closings, inner_point, parallelogram
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.solved.changes import changes
+from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain
 
 TIE = 1e-9
@@ -238,23 +239,20 @@ def _judge(
     ]
     able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
     if not able.size:
-        _, program, trace = both[0]
-        raise AssemblyError(explain(problem, program, trace, positions, unit_scales=True))
-    name = problem.drive.coordinate.name
+        draft, program, trace = both[0]
+        raise PositionError(explain(draft, program, trace, positions))
     found = list(_places(problem, both, int(able[0])))[:-1]
     size = max(abs(point - found[0]) for point in found)
     apart = abs(_at(both[0][2], rule.point, positions) - _at(both[1][2], rule.point, positions))
     # A dead position tells the closings of nothing: the next one that is asked does.
     distinct = able[apart[able] > TIE * size]
     if not distinct.size:
-        raise AssemblyError(
-            f"{problem.name}: at {name} = {positions[able[0]]:.12g} both closings put {rule.point} "
-            "at one place: the mechanism stands in a dead position, from which it may go on either "
-            "way. Ask another position."
-        )
+        place = Place.of(problem, positions, int(able[0]))
+        raise PositionError(Failure(Cause.TOGETHER, place, rule.point, problem=problem.name))
     first = int(distinct[0])
     plus, minus = float(scores[0][first]), float(scores[1][first])
-    where = f"{name} = {positions[first]:.12g}"
+    place = Place.of(problem, positions, first)
+    where = place.driver
     said = _said(rule)
     if abs(plus - minus) <= TIE * size:
         raise ProblemError(
@@ -271,10 +269,8 @@ def _judge(
     if rule.where is not Where.NEAR and min(plus, minus) > TIE * size:
         raise ProblemError(problem.name, [_ambiguous(rule, both, first, where)])
     if rule.where is not Where.NEAR and max(plus, minus) <= 0:
-        raise AssemblyError(
-            f"'{said}' holds for neither closing at {where}: they miss it by {-plus:.6g} m and "
-            f"{-minus:.6g} m. Check the lengths or the rule assembly.{rule.point}."
-        )
+        missed = (-plus, -minus)
+        raise PositionError(Failure(Cause.NEITHER, place, said, (rule.point,), missed))
     return Closing(1 if plus > minus else -1, start=float(positions[first]))
 
 

@@ -1,8 +1,9 @@
-"""Why a plan cannot be closed: the step that failed, in the words and numbers of the drawing."""
+"""Why a plan cannot be closed: the step that failed, with its numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -25,8 +26,9 @@ from planmethod.construct.steps import (
     Touch,
     operands,
 )
-from planmethod.plans.model import FACTS, PlanKind
-from planmethod.problem.model import Problem
+from planmethod.plans.draft import Draft
+from planmethod.plans.model import PlanKind
+from planmethod.solved.failures import Cause, Failure, Place
 
 
 def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]:
@@ -46,33 +48,26 @@ def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]
 
 
 def explain(
-    problem: Problem,
-    program: Program,
-    trace: Trace,
-    positions: npt.NDArray[np.float64],
-    *,
-    unit_scales: bool = False,
-) -> str:
-    """Say which step fails at the first position that fails, with its numbers and what to check.
+    draft: Draft, program: Program, trace: Trace, positions: npt.NDArray[np.float64]
+) -> Failure:
+    """Return which step fails at the first position that fails, with its numbers.
 
     Parameters
     ----------
-    unit_scales : bool
-        The trace was read at unit scales: lengths are metres, not millimetres of a plan.
+    draft : Draft
+        From which the program comes.
+    trace : Trace
+        Read at unit scales.
     """
+    problem = draft.problem
     first = failing(program, trace, len(positions))
     bad = np.flatnonzero(first >= 0)
     if not bad.size:
-        return f"{problem.name}: a value is not finite although every step exists."
+        place = Place.of(problem, positions, 0)
+        return Failure(Cause.NOT_FINITE, place, problem=problem.name)
     index = int(bad[0])
     step = program.steps[int(first[index])]
-    place = problem.drive.coordinate.told(f"{positions[index] + 0.0:.12g}")
-    where = f"position {index + 1} ({place})"
     alike = int((first == first[index]).sum()) - 1
-    more = f" The same holds at {alike} more of {len(positions)} positions." if alike else ""
-    if bad.size - 1 > alike:
-        more += f" Other steps fail at {bad.size - 1 - alike} positions."
-    length = "m" if unit_scales else "mm"
 
     def real(key: Any) -> float:
         value = np.asarray(trace.value[key], dtype=float)
@@ -82,14 +77,13 @@ def explain(
         value = np.asarray(trace.value[key], dtype=complex)
         return complex(value if value.ndim == 0 else value[index])
 
+    place = Place.of(problem, positions, index)
     ends = _without_length(step, program, point)
     if ends is not None:
-        p, q = ends
-        return (
-            f"Cannot go on at {where}: {p} and {q} coincide, so that the line {p}{q} has no "
-            "direction. The mechanism stands in a dead position there; ask another one." + more
-        )
-    return _sentence(step, where, length, real, point) + more
+        found = Failure(Cause.NO_DIRECTION, place, points=ends)
+    else:
+        found = _failure(step, place, draft, real, point)
+    return replace(found, alike=alike, others=bad.size - 1 - alike, count=len(positions))
 
 
 def _without_length(
@@ -108,61 +102,25 @@ def _without_length(
     return None
 
 
-def _sentence(step: Step, where: str, unit: str, real: Any, point: Any) -> str:
-    if step.out.startswith(FACTS[PlanKind.FORCE].prefix):
-        return (
-            f"Cannot close the force plan at {where}: the mechanism stands in a dead position, "
-            "where no forces balance the loads. Ask another position."
-        )
+def _failure(step: Step, place: Place, draft: Draft, real: Any, point: Any) -> Failure:
+    plan = draft.plans[step.out]
+    if plan in (PlanKind.FORCE, PlanKind.LEVER):
+        return Failure(Cause.FORCES, place)
+    letter = draft.letters.get(PointName(step.out), str(step.out))
     match step:
         case MeetCircles(out, a, r, b, q, _):
             gap, one, two = abs(point(b) - point(a)), real(r), real(q)
-            arcs = f"arcs from {a} ({one:.4g} {unit}) and {b} ({two:.4g} {unit})"
-            if gap == 0 and one == two:
-                return (
-                    f"Cannot place {out} at {where}: {arcs} coincide, {a} and {b} being at one "
-                    "place. This dead position is a change point: the mechanism may go on either "
-                    "way. Ask another one."
-                )
             miss = max(gap - one - two, abs(one - two) - gap)
-            return (
-                f"Cannot place {out} at {where}: {arcs} do not meet, |{a}{b}| = {gap:.4g} {unit}. "
-                f"Check l_{a}{out}, l_{b}{out}. The arcs miss by {miss:.4g} {unit}."
-            )
+            cause = Cause.SAME_ARCS if gap == 0 and one == two else Cause.ARCS
+            return Failure(cause, place, out, (a, b), (one, two, gap, miss))
         case MeetLineCircle(out, _, a, r, _):
-            return (
-                f"Cannot place {out} at {where}: the arc from {a} ({real(r):.4g} {unit}) does not "
-                f"reach the guide of {out}. Check l_{a}{out} and the place of the guide."
-            )
-        case Touch(out, a, r, b, _):
-            gap = abs(point(b) - point(a))
-            return (
-                f"Cannot turn the slotted link about {a} at {where}: its line stands off {a} by "
-                f"{real(r):.4g} {unit}, but {b} is only {gap:.4g} {unit} away. Check the offset."
-            )
-        case MeetLines(out, _, _):
-            if ":" not in out:
-                return (
-                    f"Cannot place {out} at {where}: its two guides are parallel. "
-                    "Ask another position, or check their angles."
-                )
-            plan = "velocity" if out.startswith("v:") else "acceleration"
-            return (
-                f"Cannot close the {plan} plan at {where}: the rays that meet in "
-                f"{_letter(out)} are parallel, the mechanism stands in a dead position. Ask "
-                "another position: there the velocities are not determined by the driver."
-            )
-        case Similar(out, _, _, _, one, two):
-            return (
-                f"Cannot find {_letter(out)} by similarity at {where}: {one} and {two} of its "
-                "triangle coincide. Ask another position."
-            )
+            return Failure(Cause.ARC, place, out, (a,), (real(r),))
+        case Touch(_, a, r, b, _):
+            return Failure(Cause.TANGENT, place, "", (a, b), (real(r), abs(point(b) - point(a))))
+        case MeetLines():
+            cause = Cause.GUIDES if plan is PlanKind.POSITION else Cause.RAYS
+            return Failure(cause, place, letter, plan=plan)
+        case Similar(_, _, _, _, one, two):
+            return Failure(Cause.SIMILAR, place, letter, (one, two))
         case _:
-            return (
-                f"Step {step.out} is impossible at {where}: two points that give a direction "
-                "coincide there. Ask another position."
-            )
-
-
-def _letter(plan_point: str) -> str:
-    return plan_point.split(":")[-1].lower()
+            return Failure(Cause.STEP, place, step.out)

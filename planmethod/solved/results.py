@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -81,8 +80,8 @@ class Results:
             known = [result.label for result in self.all]
             known += [word for word in WHOLE if self.find(word)]
             # Of a reaction the one that acts back is meant, before any other that is spelt alike.
-            turned = re.sub(r"^([FM]_.+_)(.+)/(.+)$", r"\1\3/\2", label)
-            near = [turned] if turned in known else get_close_matches(label, known, 1)
+            near = [result.label for result in self.all if result.opposite == label]
+            near = near or get_close_matches(label, known, 1)
             hint = f"; did you mean {near[0]!r}?" if near else ""
             raise UnknownResultError(f"no result {label!r}{hint} Known: {', '.join(known)}.")
         return found

@@ -5,12 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from planmethod.construct.steps import PointName
-from planmethod.errors import AssemblyError, PlanMethodError
+from planmethod.errors import PlanMethodError
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
 from planmethod.solved.changes import changes
 from planmethod.solved.closings import drive_data
+from planmethod.solved.failures import (
+    Cause,
+    Contradiction,
+    Doubt,
+    Failure,
+    MoreDoubts,
+    Passed,
+    Place,
+    PositionError,
+)
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import error_bound
@@ -37,31 +47,40 @@ LIMIT = 1e-7
 class SelfCheckError(PlanMethodError):
     """The plans of a solution contradict each other: a mistake of ours (exit code 5)."""
 
+    def __init__(self, found: Contradiction) -> None:
+        self.found = found
+        super().__init__(str(found))
 
-def warnings(solution: Solution) -> list[str]:
-    """Return what a user should know of the accuracy: a sentence for each doubtful position.
+
+def warnings(solution: Solution) -> list[Doubt | MoreDoubts]:
+    """Return what a user should know of the accuracy: a doubt for each doubtful position.
 
     Of many positions the worst few are named and the rest counted.
     """
-    estimate = error_bound(solution)
-    doubtful = np.flatnonzero(estimate > DOUBTFUL)
-    named = doubtful
-    if len(doubtful) > MOST_NAMED:
-        named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MOST_NAMED:]])
-    said = [
-        f"{_place(solution, i)} is {_nature(solution, i)}: the worst of its results is good to "
-        f"about {estimate[i]:.0e} of its value."
-        for i in map(int, named)
-    ]
-    if len(named) < len(doubtful):
-        said.append(
-            f"so are {len(doubtful) - len(named)} more of {len(estimate)} positions, less badly."
-        )
+    found = doubts(solution)
+    worst = sorted(range(len(found)), key=lambda k: found[k].bound)[-MOST_NAMED:]
+    said: list[Doubt | MoreDoubts] = [found[k] for k in sorted(worst)]
+    if len(worst) < len(found):
+        said.append(MoreDoubts(len(found) - len(worst), len(solution.positions)))
     return said
 
 
-def changed_branches(solution: Solution) -> list[str]:
-    """Return what a user should know of change points between the positions: a sentence a group.
+def doubts(solution: Solution) -> list[Doubt]:
+    """Return all doubtful positions."""
+    estimate = error_bound(solution)
+    return [
+        Doubt(
+            Place.of(solution.problem, solution.positions, i),
+            bool(solution.margin[i] < NEAR),
+            float(solution.margin[i]),
+            float(estimate[i]),
+        )
+        for i in map(int, np.flatnonzero(estimate > DOUBTFUL))
+    ]
+
+
+def changed_branches(solution: Solution) -> list[Passed]:
+    """Return what a user should know of change points between the positions, group by group.
 
     The way goes from the first position of the file, where the closings are chosen, to all asked
     ones. A group that keeps a parallelogram or goes on continuously has nothing to be told of.
@@ -87,39 +106,17 @@ def changed_branches(solution: Solution) -> list[str]:
         slack = AT * (high - low)
         passed = [place for place in found if low + slack < place < high - slack]
         if passed:
-            said.append(_change(solution, group, passed))
+            said.append(_passed(solution, group, tuple(passed)))
     return said
 
 
-def _change(solution: Solution, group: AssurGroup, found: list[float]) -> str:
-    places = " and ".join(dict.fromkeys(f"{round(place, 4) + 0.0:.10g}" for place in found))
-    told = solution.problem.drive.coordinate.told
-    text = (
-        f"links {', '.join(group.links)} pass a change point at {told(places)}, from "
-        "which the mechanism may go on either way: the side that was chosen in the first position "
-        "is kept, so that one branch of the motion passes into another there."
-    )
+def _passed(solution: Solution, group: AssurGroup, places: tuple[float, ...]) -> Passed:
+    coordinate = solution.problem.drive.coordinate
     if group.signature == "RPR":
-        return text
-    c = inner_point(group)
-    ways = [f'{c} = {{ near = [x, y], keep = "continuous" }} for the motion that goes on smoothly']
-    quadrilateral = parallelogram(solution.problem, group) if group.signature == "RRR" else None
-    if quadrilateral is not None and quadrilateral.is_one:
-        ways.insert(0, f'{c} = {{ keep = "parallel" }} for the parallelogram')
-    return f"{text} Say in [assembly] {', '.join(ways)}."
-
-
-def _place(solution: Solution, i: int) -> str:
-    place = solution.problem.drive.coordinate.told(f"{solution.positions[i]:.12g}")
-    return f"position {i + 1} ({place})"
-
-
-def _nature(solution: Solution, i: int) -> str:
-    """Return why a position is badly conditioned."""
-    margin = solution.margin[i]
-    if margin < NEAR:
-        return f"next to a dead position (margin {margin:.1e})"
-    return "badly conditioned (its results hang on small differences of large values)"
+        return Passed(group.links, places, coordinate)
+    found = parallelogram(solution.problem, group) if group.signature == "RRR" else None
+    parallel = found is not None and found.is_one
+    return Passed(group.links, places, coordinate, inner_point(group), parallel)
 
 
 def _refuse_spoilt(solution: Solution) -> None:
@@ -127,16 +124,15 @@ def _refuse_spoilt(solution: Solution) -> None:
     if not spoilt.size:
         return
     i = int(spoilt[0])
-    more = f" So do {spoilt.size - 1} other positions." if spoilt.size > 1 else ""
-    near = solution.margin[i] < NEAR
-    why = (
-        f"stands so near a dead position (margin {solution.margin[i]:.1e}) that rounding"
-        if near
-        else "hangs on such small differences of large values that rounding"
-    )
-    raise AssemblyError(
-        f"{solution.problem.name}: {_place(solution, i)} {why} spoils its results.{more} Ask a "
-        "position further away."
+    margin = float(solution.margin[i])
+    raise PositionError(
+        Failure(
+            Cause.SPOILT_NEAR if margin < NEAR else Cause.SPOILT,
+            Place.of(solution.problem, solution.positions, i),
+            margin=margin,
+            problem=solution.problem.name,
+            alike=spoilt.size - 1,
+        )
     )
 
 
@@ -150,7 +146,7 @@ def verify(solution: Solution) -> None:
     ------
     SelfCheckError
         With the link, the position and the size of the contradiction.
-    AssemblyError
+    PositionError
         When a position is so badly conditioned that its results mean nothing.
     """
     _refuse_spoilt(solution)
@@ -174,7 +170,7 @@ def verify(solution: Solution) -> None:
                 ("acceleration", a - turn * place, _largest(solution, "acceleration")),
             )
             for what, error, size in checks:
-                _judge(solution, f"{what} of {q} about {p} on link {link}", np.abs(error), size)
+                _judge(solution, (what, q, p, link), np.abs(error), size)
 
 
 def _between(solution: Solution, p: str, q: str) -> Complexes:
@@ -191,13 +187,12 @@ def _largest(solution: Solution, field: str) -> Reals:
     return np.asarray(np.max(values, axis=0), dtype=float)
 
 
-def _judge(solution: Solution, what: str, error: Reals, size: Reals) -> None:
+def _judge(solution: Solution, what: tuple[str, str, str, str], error: Reals, size: Reals) -> None:
     # Near a dead position the plan magnifies rounding: there only gross errors are ours.
     limit = LIMIT * size / np.maximum(solution.margin, 1e-9)
     bad = np.flatnonzero(~(error <= np.maximum(limit, 1e-300)))
     if bad.size:
         i = int(bad[0])
-        raise SelfCheckError(
-            f"{solution.problem.name}: the {what} is off by {error[i]:.3g} (largest value "
-            f"{size[i]:.3g}) at position {i + 1}. This is a fault of planmethod: please report it."
-        )
+        place = Place.of(solution.problem, solution.positions, i)
+        name = solution.problem.name
+        raise SelfCheckError(Contradiction(name, place, *what, float(error[i]), float(size[i])))

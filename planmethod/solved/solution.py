@@ -16,15 +16,15 @@ from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import PointName
-from planmethod.errors import AssemblyError
+from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build
-from planmethod.plans.legend import Quantity
+from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import choose_closings, drive_data
+from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
 from planmethod.solved.scaling import Views, choose_scales, own_scale
@@ -146,14 +146,13 @@ class Solution(Remembering):
 
         Raises
         ------
-        AssemblyError
+        PositionError
             When a step is impossible in some position.
         """
         reading, program = self.read(Float64()), self.construction.program
         if (failing(program, reading.trace, len(self.positions)) >= 0).any():
-            raise AssemblyError(
-                explain(self.problem, program, reading.trace, self.positions, unit_scales=True)
-            )
+            draft = self.construction.draft
+            raise PositionError(explain(draft, program, reading.trace, self.positions))
         return reading
 
     @cached_property
@@ -226,13 +225,7 @@ class Solution(Remembering):
         zero = np.zeros(self.positions.shape)
         result: dict[str, LinkMotion] = {}
         for link in self.problem.mechanism.links:
-            if link in draft.axes:
-                direction = self.si.course(draft.axes[link])
-            else:
-                p, q = draft.reference(link)
-                points = self.problem.bodies[link].points
-                drawn = self.si.vector(PointName(p), PointName(q))
-                direction = drawn * np.conj(points[q] - points[p])
+            direction = self.si.course(draft.axes[link])
             angle: Reals = np.degrees(np.angle(direction))
             omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
             result[link] = LinkMotion(
@@ -265,6 +258,26 @@ class Solution(Remembering):
     def legend(self) -> dict[str, Quantity]:
         """Every quantity of the motion by its label."""
         return {quantity.label: quantity for quantity in self.construction.legend}
+
+    def quantities(self, *kinds: QuantityKind) -> dict[str, list[Quantity]]:
+        """Return the quantities of the motion of some kinds by what they are of."""
+        found: dict[str, list[Quantity]] = {}
+        for quantity in self.construction.legend:
+            if quantity.kind in kinds:
+                found.setdefault(quantity.of, []).append(quantity)
+        return found
+
+    def exact(self, quantity: Quantity) -> Reals:
+        """Return a quantity of the motion, SI and degrees, ndarray of shape (n,).
+
+        A size where the hand finds nothing else. Places are told by `place`.
+        """
+        if quantity.kind is QuantityKind.DIRECTION:
+            return self.links[quantity.of].phi_deg
+        if quantity.kind.is_number:
+            value = self.si.number(NumberName(quantity.name))
+            return np.abs(value) if quantity.kind.is_size else value
+        return np.abs(self.si.point(quantity.name))
 
     def read_off(self, label: str) -> Reals:
         """Return a quantity as the hand finds it, SI, ndarray of shape (n,).

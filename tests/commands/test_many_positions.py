@@ -22,6 +22,7 @@ from planmethod.commands.output import bar
 from planmethod.note.records.spreadsheet import csv_rows, large_table
 from planmethod.plans.model import MOTION
 from planmethod.problem import load
+from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.many import positions as many
 from planmethod.solved.many.positions import BLOCK, SAMPLE, Gaps, blocks, evenly, examine
 from planmethod.solved.many.sweep import Sweep
@@ -32,6 +33,7 @@ SIX_LINK = str(path_of("levers/six-link"))
 VARIANTS = str(path_of("levers/task12-variants"))
 
 SPOILT = "179.999"
+TURN = load(Path(EX1)).drive.coordinate
 
 
 @pytest.fixture(autouse=True)
@@ -461,27 +463,43 @@ def test_gaps_are_told_in_the_order_of_their_first_positions() -> None:
     codes = np.array([-1, 9, 2, 2, -1, 9, 9], np.int16)
     asked = []
 
-    def tell(index: int) -> str:
+    def tell(index: int) -> Failure:
         asked.append(index)
-        return f"at {index}."
+        return Failure(Cause.AT_LIMIT, Place(index + 1, 30.0 * index, TURN))
 
     gaps = Gaps.of(codes, tell)
     assert asked == [1, 2]
     assert gaps.reason.tolist() == [-1, 0, 1, 1, -1, 0, 0]
     assert gaps.count == 5
+    first = "Position 2 (phi = 30 deg) is at an impossible one. "
     assert gaps.sentences == (
-        "at 1. The same holds at 2 more of 7 positions.",
-        "at 2. The same holds at 1 more of 7 positions.",
+        first + "The same holds at 2 more of 7 positions.",
+        "Position 3 (phi = 60 deg) is at an impossible one. "
+        "The same holds at 1 more of 7 positions.",
     )
-    assert gaps.refusal() == (
-        "at 1. The same holds at 2 more of 7 positions. Other steps fail at 2 positions."
-    )
-    other = Gaps.of(np.array([-1, 0], np.int16), lambda index: "spoilt.")
+    assert gaps.refusal() == gaps.sentences[0] + " Other steps fail at 2 positions."
+    other = Gaps.of(np.array([-1, 0], np.int16), tell)
     joined = gaps.joined(np.array([0, 4]), other)
     assert joined.reason.tolist() == [-1, 0, 1, 1, 2, 0, 0]
-    assert joined.told == ("at 1.", "at 2.", "spoilt.")
+    assert joined.told == (*gaps.told, *other.told)
     nothing = Gaps.of(np.full(3, -1, np.int16), tell)
-    assert nothing.count == 0 and nothing.told == nothing.sentences == ()
+    assert nothing.count == 0 and not nothing.told and not nothing.sentences
+
+
+@pytest.mark.parametrize("cause", Cause)
+def test_what_is_true_of_every_position_of_a_kind_has_no_number_of_one(cause: Cause) -> None:
+    """Radii hold for all; the place, the margin and distances between moving points do not."""
+    facts = Failure(cause, Place(7, 30.5, TURN), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5))
+    facts = replace(facts, margin=1e-9, problem="ex")
+    other = replace(facts, place=Place(8, 60.5, TURN), margin=2e-9)
+    moved = (1.0, 2.0, 6.25, 7.5) if cause is not Cause.TANGENT else (1.0, 5.0)
+    other = replace(other, lengths=moved)
+    own = cause not in (Cause.NOT_FINITE, Cause.TOGETHER, Cause.NEITHER)
+    if own:
+        assert "position 7 (phi = 30.5 deg)" in str(facts).replace("Position", "position")
+        assert str(facts.numbered(8)) == str(facts).replace("osition 7 (", "osition 8 (")
+        assert facts.general == other.general
+    assert (str(facts) == str(other)) == (cause is Cause.NOT_FINITE)
 
 
 @pytest.mark.parametrize("count", [0, 1, SAMPLE, SAMPLE + 1, 10 * SAMPLE])

@@ -8,21 +8,18 @@ from functools import cache
 
 import pytest
 from cases import each, some
+from lettered import closing_lines, lever_lines, moment_lines
 from loaded import loaded_problem
 from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
 
 from benchmarks.hard_problems import rocker
 from planmethod.errors import AssemblyError
-from planmethod.note.narrate.forces.formulas import closing_formula
-from planmethod.note.narrate.forces.lever_lines import lever_equation
-from planmethod.note.narrate.forces.moment_lines import moment_text
 from planmethod.note.plaintext import plain_text
 from planmethod.note.protocol import protocol
 from planmethod.note.wording import language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem import loads
-from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
@@ -323,17 +320,13 @@ def test_the_force_of_a_guide_acts_where_it_is_told() -> None:
 
 @pytest.mark.parametrize("name", LOADED)
 def test_the_protocol_has_the_formulas_of_the_sheet(name: str) -> None:
+    """Each line but the sum in letters, whose links the protocol tells in a sentence."""
     reading, text = ForceReading(worked(name), 0), told(name, "ru")
-    say = language("ru").say
-    for plan in reading.plans:
-        for edge in plan.reactions:
-            assert plain_text(closing_formula(reading, edge, say)) in text
-        for equation in plan.moments:
-            sheet = moment_text(reading, equation, say)
-            if sheet is not None and sheet.result:
-                assert plain_text(sheet.result) in text
-                assert plain_text("; ".join(sheet.arms)) in text
-    assert plain_text(lever_equation(LeverReading(reading), say)) in text
+    for number, plan in enumerate(reading.plans):
+        lines = [line for line in moment_lines(reading, plan) if not line.startswith("Σ")]
+        for line in (*closing_lines(reading, number), *lines):
+            assert plain_text(line) in text
+    assert plain_text(lever_lines(reading)[0]) in text
 
 
 # Odd problems -------------------------------------------------------------------------------------

@@ -7,12 +7,12 @@ from functools import cache
 from importlib.resources import files
 
 import pytest
-from test_forces_sheet import arrows, computed, couples, shown, turned, views
+from lettered import computed, place_lines
+from test_forces_sheet import arrows, couples, shown, turned, views
 from worked import path_of
 
 from planmethod import loads
-from planmethod.note.narrate.forces.formulas import statement, wanted
-from planmethod.note.narrate.forces.guides import place_lines
+from planmethod.note.narrate.forces.statement import statement, wanted
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
@@ -222,7 +222,7 @@ def test_formulas_of_places_compute_to_what_they_say(
     problem: Problem, index: int, count: int
 ) -> None:
     at = reading(problem, index)
-    lines = [line for plan in at.plans for line in place_lines(at, plan, RU.say)]
+    lines = [line for plan in at.plans for line in place_lines(at, plan)]
     matches = [match for line in lines if (match := PLACE.match(line))]
     assert len(matches) == count
     for match in matches:
@@ -232,7 +232,7 @@ def test_formulas_of_places_compute_to_what_they_say(
 
 def test_formulas_of_the_crosshead() -> None:
     at = reading(crosshead(), 1)
-    lines = place_lines(at, at.plans[0], RU.say)
+    lines = place_lines(at, at.plans[0])
     assert lines[0].startswith("l_{30} = M_{30}/F_{30} = 12,00/")
     assert lines[1] == "l_{30} > a_{30}/2 = 0,04 м"
     assert lines[2].startswith("F^{'}_{30} = F_{30}·(l_{30} − a_{30}/2)/a_{30} = ")
@@ -247,7 +247,7 @@ def test_formulas_of_the_crosshead() -> None:
 
 def test_a_force_through_the_joint_has_no_distance() -> None:
     at = reading(loads(path_of("levers/six-link").read_text("utf-8"), name="six-link"))
-    assert place_lines(at, at.plans[0], RU.say) == ["l_{42} = l_{50} = 0"]
+    assert place_lines(at, at.plans[0]) == ["l_{42} = l_{50} = 0"]
 
 
 def test_the_table_tells_distances_and_edges() -> None:

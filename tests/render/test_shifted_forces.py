@@ -8,14 +8,12 @@ from itertools import chain
 
 import numpy as np
 import pytest
+from lettered import computed, lever_lines, load_lines, moment_lines
 from loaded import with_resultant
-from test_forces_sheet import arrows, computed, couples, shown, views, within
+from test_forces_sheet import arrows, couples, shown, views, within
 from worked import drawn_sheets, problem_of
 
 from planmethod.note.audit.quantities import Quantities
-from planmethod.note.narrate.forces.formulas import load_lines
-from planmethod.note.narrate.forces.lever_lines import lever_lines
-from planmethod.note.narrate.forces.moment_lines import plan_moments
 from planmethod.note.wording import language
 from planmethod.problem.selector import parse_selector
 from planmethod.render.control.remarks import Severity
@@ -109,7 +107,7 @@ def test_the_couple_is_gone_and_the_others_stay(name: str) -> None:
 @pytest.mark.parametrize("name", SHIFTED)
 def test_moments_have_the_arm_of_the_shifted_line(name: str) -> None:
     reading, link = reading_of(name), SHIFTED[name]
-    told = [line for plan in reading.plans for line in plan_moments(reading, plan, RU.say)]
+    told = [line for plan in reading.plans for line in moment_lines(reading, plan)]
     assert not any(f"M_{{Φ{link}}}" in line for line in told)
     pivot = {"2": "C", "3": "O3"}[link]
     hand = Quantities(reading.solution)
@@ -144,7 +142,7 @@ def test_the_arm_is_that_of_force_and_couple(name: str) -> None:
 
 
 def test_texts_tell_the_shift_and_what_stays() -> None:
-    loads = load_lines(reading_of("levers/six-link"), RU.say)
+    loads = load_lines(reading_of("levers/six-link"))
     h, _ = shift_and_force("levers/six-link")
     (line,) = (line for line in loads if line.startswith("h_{2} = M_{Φ2}/Φ_{2} = "))
     assert line.endswith(" м")
@@ -172,7 +170,7 @@ def test_the_lever_has_the_force_beside_the_centre_of_mass(name: str) -> None:
     assert length == pytest.approx(h * abs(omega) / lever.per_mm, rel=1e-9)
     (hung,) = (force for force in lever.forces if force.symbol == f"Φ_{{{link}}}")
     assert hung.at == shift.line[1]
-    (told,) = (line for line in lever_lines(reading, RU) if line.startswith(f"(s_{{{link}}}t_"))
+    (told,) = (line for line in lever_lines(reading) if line.startswith(f"(s_{{{link}}}t_"))
     read = float(told.rpartition(" = ")[2].removesuffix(" мм").replace(",", "."))
     assert read == pytest.approx(length, abs=0.3)  # from readings to half a millimetre
     (view,) = views(sheet_of(name), "velocity")

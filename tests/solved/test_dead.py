@@ -56,7 +56,7 @@ def test_near_the_change_point_the_estimate_covers_the_error(phi: str) -> None:
 
 
 def test_a_doubtful_position_is_told_with_its_margin() -> None:
-    (said,) = warnings(parallelogram("[50, 0.02]"))
+    (said,) = map(str, warnings(parallelogram("[50, 0.02]")))
     assert said.startswith("position 2 (phi = 0.02 deg) is next to a dead position (margin ")
 
 

@@ -251,11 +251,11 @@ def test_what_is_laid_off_follows_from_what_was_read(name: str) -> None:
         turning = omega.get(r.to, 0.0)
         assert k == pytest.approx(2 * abs(turning) * v, rel=1e-12, abs=1e-12)
     normals = [value for segment, value in lengths.items() if segment.split("-")[1][:2] == "n_"]
-    trace = solution.by_hand.value
+    trace, draft = solution.by_hand.value, solution.construction.draft
     read_arms = {
-        float(np.ravel(value)[0]) * solution.scales[PlanKind.POSITION].per_mm
-        for key, value in trace.items()
-        if key.startswith("(")
+        float(np.ravel(trace[draft.measured_before(p, q)])[0])
+        * solution.scales[PlanKind.POSITION].per_mm
+        for p, q in draft.read
     }
     arms = {
         link: {

@@ -1,4 +1,4 @@
-"""Formulas of a protocol: symbols, the numbers put in, the result with its unit."""
+"""Formulas as rich text: symbols, the numbers put in, the result with its unit (формулы)."""
 
 from __future__ import annotations
 
@@ -8,12 +8,9 @@ import numpy as np
 
 from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
 from planmethod.note.narrate.naming import SCALE_KIND, Names
-from planmethod.note.plaintext import found, given, plain_text
+from planmethod.note.wording import language
 from planmethod.plans.model import FACTS, PlanKind, Vector
 from planmethod.solved.solution import Solution
-
-_POWER = {1: "", 2: "²", 3: "³"}
-
 
 NOTHING = 1e-9
 """Length, mm, below which a segment is a point."""
@@ -28,6 +25,8 @@ class Formulas:
     def __init__(self, solution: Solution, names: Names, index: int) -> None:
         self.solution, self.names, self.index = solution, names, index
         self.words = names.words
+        self.language = language(names.words.lang)
+        self.notation = self.language.say
 
     # Values ----------------------------------------------------------------------------------
 
@@ -63,11 +62,14 @@ class Formulas:
 
     def unit(self, key: str) -> str:
         """Return a unit in the language."""
-        return self.words.units[key]
+        return self.notation.units[key]
 
-    def exactly(self, value: float) -> str:
-        """Return the exact value in brackets."""
-        return self.words.exact.format(value=found(value, self.words))
+    def exactly(self, value: float, unit: str = "") -> str:
+        """Return the exact value in brackets; on a sheet nothing: its table has it."""
+        if self.names.on_sheet:
+            return ""
+        told = f"{self.notation.found(value)} {unit}".rstrip()
+        return self.words.exact.format(value=told)
 
     def product(
         self,
@@ -94,30 +96,29 @@ class Formulas:
         above: list[tuple[str, str]] = []
         below: list[tuple[str, str]] = []
         if factor != 1.0:
-            above.append((given(factor, self.words),) * 2)
+            above.append((self.notation.given(factor),) * 2)
         for symbol, value, power, is_scale in factors:
             if is_scale and self.names.is_inverse_scale():
                 value, power = 1.0 / value, -power
-            text = given(value, self.words, 5)
-            mark = _POWER.get(abs(power), f"^{abs(power)}")
+            text = self.notation.short(value)
+            mark = "" if abs(power) == 1 else f"^{{{abs(power)}}}"
             if mark and "·" in text:
                 text = f"({text})"
             (above if power > 0 else below).append((symbol + mark, text + mark))
         return _over(above, below, 0), _over(above, below, 1)
 
     def formula(
-        self, symbol: str, sides: tuple[str, str], value: float, unit: str, more: str = ""
+        self, symbol: str, sides: Sequence[str], value: float, unit: str, more: str = ""
     ) -> str:
         """Return ``symbol = in symbols = in numbers = value unit``, nothing twice."""
-        number = given(value, self.words, 4)
-        result = f"{number} {self.unit(unit)}"
-        parts = [symbol, *sides] if symbol else list(sides)
-        if sides[1] == number:
-            parts.pop()
-        return " = ".join([*parts, result]) + more
+        number = self.notation.short(value, 4)
+        parts = [symbol, *(side for side in sides if side != number), f"{number} {self.unit(unit)}"]
+        return " = ".join(parts) + more
 
     def laid(self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None) -> list[str]:
         """Return how a length to be laid off on a plan is computed: the quantity, then the length.
+
+        On a sheet the quantity, if it is not given, tells both.
 
         Parameters
         ----------
@@ -128,28 +129,28 @@ class Formulas:
         """
         (value, _), (scale, _) = step.powers
         length, mu = abs(self.number(step.out)), self.per_mm(kind)
-        symbol = plain_text(vector.symbol) if vector else self.names.symbol(value)
+        symbol = vector.symbol if vector else self.names.symbol(value)
         made, lines = self.names.step[value], []
-        if isinstance(made, Compute):
-            sides = self.product(made.powers, made.factor)
-            lines.append(self.formula(symbol, sides, length * mu, FACTS[kind].unit, ";"))
-        sides = self.fraction(
+        sides: tuple[str, ...] = self.fraction(
             [(symbol, _shown(length * mu), 1, False), (self.names.symbol(scale), mu, -1, True)]
         )
+        if isinstance(made, Compute):
+            product = self.product(made.powers, made.factor)
+            lines.append(self.formula(symbol, product, length * mu, FACTS[kind].unit, ";"))
+            sides = () if self.names.on_sheet else sides
         lines.append(self.formula(segment, sides, length, "mm", "."))
-        return lines
+        return ["  ".join(lines)] if self.names.on_sheet else lines
 
     def read(self, step: Compute, kind: PlanKind) -> str:
         """Return a quantity from the read segment that shows it."""
         symbol = self.names.symbol(step.out)
         powers = step.powers[::-1] if self.names.is_inverse_scale() else step.powers
-        exact = self.exactly(abs(self.exact(step.out)))
+        exact, unit = abs(self.exact(step.out)), FACTS[kind].unit
         if not self.readable(step.out):
-            told = f"{found(abs(self.exact(step.out)), self.words)} {self.unit(FACTS[kind].unit)}"
-            return self.words.unreadable_value.format(symbol=symbol, exact=told)
-        return self.formula(
-            symbol, self.product(powers), abs(self.number(step.out)), FACTS[kind].unit, exact
-        )
+            told = self.exactly(exact, self.unit(unit))
+            return f"{symbol} {self.language.sheets.unreadable}{told}"
+        value = abs(self.number(step.out))
+        return self.formula(symbol, self.product(powers), value, unit, self.exactly(exact))
 
 
 def _shown(value: float) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import Notation, trimmed, with_unit
 from planmethod.note.wording import Language
+from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Body, Problem, Slide
 from planmethod.solved.solution import Solution
 
@@ -150,20 +151,40 @@ def asked_links(solution: Solution) -> list[str]:
     ]
 
 
+MOTION_KINDS = (
+    QuantityKind.VELOCITY,
+    QuantityKind.OMEGA,
+    QuantityKind.ACCELERATION,
+    QuantityKind.EPSILON,
+)
+"""Kinds of quantities that a sheet tells, in their order."""
+
+TURNINGS = (QuantityKind.OMEGA, QuantityKind.EPSILON)
+"""Kinds of quantities of links; the others are of points."""
+
+
+def told(solution: Solution, *kinds: QuantityKind) -> list[Quantity]:
+    """Return the quantities of the motion that a sheet tells, kind by kind.
+
+    Of points and links those of `asked_points` and `asked_links`.
+    """
+    still = {*solution.points} - {*asked_points(solution)}
+    driven = {*solution.links} - {*asked_links(solution)}
+    return [
+        quantity
+        for kind in kinds
+        for of, quantities in solution.quantities(kind).items()
+        for quantity in quantities
+        if of not in (driven if kind in TURNINGS else still)
+    ]
+
+
 def wanted(solution: Solution) -> str:
     """Return what is to be found, as one line of symbols."""
-    points, links = asked_points(solution), asked_links(solution)
-    symbols = [f"v_{{{p}}}" for p in points] + [f"ω_{{{k}}}" for k in links]
-    symbols += [f"a_{{{p}}}" for p in points] + [f"ε_{{{k}}}" for k in links]
-    return ", ".join(symbols)
+    return ", ".join(quantity.symbol for quantity in told(solution, *MOTION_KINDS))
 
 
-def solution_peak(solution: Solution, symbol: str) -> float:
-    """Return the largest value of v, a (points), ω or ε (links) in all positions of a solution."""
-    if symbol in "va":
-        field = "velocity" if symbol == "v" else "acceleration"
-        values = [np.abs(getattr(motion, field)) for motion in solution.points.values()]
-    else:
-        field = "omega" if symbol == "ω" else "epsilon"
-        values = [np.abs(getattr(motion, field)) for motion in solution.links.values()]
-    return float(np.max(values))
+def solution_peak(solution: Solution, kind: QuantityKind) -> float:
+    """Return the largest value of a kind of quantities in all positions of a solution."""
+    found = [quantity for each in solution.quantities(kind).values() for quantity in each]
+    return float(np.max([np.abs(solution.exact(quantity)) for quantity in found]))

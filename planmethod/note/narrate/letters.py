@@ -27,12 +27,6 @@ def _primed(letter: str) -> str:
     return f"{head}′_{{{tail}" if brace else f"{head}′"
 
 
-def segment(problem: Problem, plan: Plan, tail: PointName, head: PointName) -> str:
-    """Return a segment by its ends' first letters: ``(bc)``."""
-    letters = shown_letters(problem, plan)
-    return f"({letters[tail][0]}{letters[head][0]})"
-
-
 def mark(*points: str) -> str:
     """Return names of mechanism points in rich text: ``mark("O3", "A")`` gives ``O_{3}A``."""
     return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)

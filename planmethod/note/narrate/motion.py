@@ -7,7 +7,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.formulas import NOTHING, Formulas
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import SCALE_KIND, Names
-from planmethod.note.plaintext import given, plain_text
+from planmethod.note.plaintext import given
 from planmethod.plans.model import PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.solved.solution import Solution
@@ -45,18 +45,12 @@ class MotionVoice:
     def lay_off(self, step: LayOff) -> list[str]:
         """Tell a vector laid off from what is known of it."""
         names, words = self.names, self.words
-        vector, made = names.vector(step.origin, step.out), names.step[step.length]
-        plan = names.plan_of(step.out)
-        assert isinstance(made, Compute) and plan is not None
-        segment = names.segment(step.origin, step.out)
-        length = abs(self.say.number(step.length))
-        symbol = plain_text(vector.symbol) if vector else segment
-        point = names.point(step.out)
+        vector, point = names.vector(step.origin, step.out), names.point(step.out)
+        segment, length = names.segment(step.origin, step.out), abs(self.say.number(step.length))
         if length < NOTHING:
-            of = names.of(step.origin)
+            symbol, of = vector.symbol if vector else segment, names.of(step.origin)
             return [words.zero_length.format(symbol=symbol, point=point, of=of)]
-        lines = self.say.laid(made, f"({segment})", plan.kind, vector)
-        direction, sense = self._sense(step, made, vector)
+        direction, sense = self._sense(step, vector)
         text = words.lay_off_vector.format(
             of=names.of(step.origin),
             direction=direction,
@@ -66,12 +60,26 @@ class MotionVoice:
             point=point,
             coincide=self.coincide(step.out),
         )
-        return [*lines, text]
+        return [*self.laid(step), text]
 
-    def _sense(self, step: LayOff, made: Compute, vector: Vector | None) -> tuple[str, str]:
+    def laid(self, step: LayOff) -> list[str]:
+        """Return the formulas of a vector that is laid off, and of its length."""
+        plan, made = self.names.plan_of(step.out), self._made(step)
+        assert plan is not None
+        segment = self.names.segment(step.origin, step.out)
+        vector = self.names.vector(step.origin, step.out)
+        return self.say.laid(made, f"({segment})", plan.kind, vector)
+
+    def _made(self, step: LayOff) -> Compute:
+        made = self.names.step[step.length]
+        assert isinstance(made, Compute)
+        return made
+
+    def _sense(self, step: LayOff, vector: Vector | None) -> tuple[str, str]:
         """Return direction and sense of a vector that is laid off."""
         words, names = self.words, self.names
-        value, known = self.say.number(step.length), self.names.step[made.powers[0][0]]
+        value = self.say.number(step.length)
+        known = names.step[self._made(step).powers[0][0]]
         powers = known.powers if isinstance(known, Compute) else ()
         if vector is not None and vector.kind is VectorKind.NORMAL:
             assert vector.direction is not None
@@ -108,12 +116,25 @@ class MotionVoice:
 
     def compute(self, step: Compute) -> list[str]:
         """Tell a number that is a result; one that is laid off is told there."""
-        for kind, table in (
-            (PlanKind.VELOCITY, self.kin.omega),
-            (PlanKind.ACCELERATION, self.kin.epsilon),
-        ):
-            if step.out in table.values():
-                return self._turning(step, kind)
+        kind = self._turned(step)
+        return self.value(step) if kind is None else self._turning(step, kind)
+
+    def _turned(self, step: Compute) -> PlanKind | None:
+        """Return the plan by which a step is how a link turns; None of other steps."""
+        tables = {PlanKind.VELOCITY: self.kin.omega, PlanKind.ACCELERATION: self.kin.epsilon}
+        return next((k for k, table in tables.items() if step.out in table.values()), None)
+
+    def found(self, step: Compute) -> list[str]:
+        """Return the formulas of a number that is a result, without sentences."""
+        kind = self._turned(step)
+        if kind is None:
+            return self.value(step)
+        symbol = self.names.symbol(step.out)
+        alike = [f"{own} = {symbol}" for _, own in self._alike(step, kind)]
+        return [self._turning_formula(step), *alike]
+
+    def value(self, step: Compute) -> list[str]:
+        """Return the formula of what a segment stands for by its length; none of other steps."""
         if not self.is_value(step):
             return []
         plan = self._values[step.out]
@@ -126,7 +147,7 @@ class MotionVoice:
                     assert relative.a_turned is not None and relative.a_head is not None
                     ends = (relative.a_turned, relative.a_head)
                 vector, whole = self.names.vector(*ends), self.names.symbol(step.out)
-                own = plain_text(vector.symbol) if vector else whole
+                own = vector.symbol if vector else whole
                 return [text.replace(whole, f"{whole} = {own}", 1) if own != whole else text]
         return [text]
 
@@ -147,62 +168,80 @@ class MotionVoice:
             lines = [words.turning_zero.format(symbol=symbol, segment=segment)]
         else:
             sense = self._turn(value)
-            exact = self.say.exactly(abs(self.say.exact(step.out)))
-            sides = self.say.product(step.powers, step.factor)
-            more = f"{exact}, {sense}."
-            unit = self.solution.legend[str(step.out)].kind.unit
             said = {"place": read.place, "joint": read.joint, "link": link, "sense": sense}
             lines = [
-                self.say.formula(symbol, sides, abs(value), unit, more),
+                f"{self._turning_formula(step)}.",
                 words.turning.format(segment=f"({segment})", **said),
             ]
-        table = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon
-        letter = symbol[0]
-        for other, number in table.items():
-            if number == step.out and other != link and self._same_group(link, other):
-                own = plain_text(f"{letter}_{{{other}}}")
-                lines.append(
-                    words.shared_turning.format(link=other, other=link, symbol=own, same=symbol)
-                )
-        return lines
+        group_of = self.solution.structure.group_of
+        return lines + [
+            words.shared_turning.format(link=other, other=link, symbol=own, same=symbol)
+            for other, own in self._alike(step, kind)
+            if group_of(other) == group_of(link)
+        ]
 
-    def _same_group(self, one: str, other: str) -> bool:
-        structure = self.solution.structure
-        return structure.group_of(one) == structure.group_of(other)
+    def _turning_formula(self, step: Compute) -> str:
+        """Return how fast a link turns, and which way if it does."""
+        value = self.say.number(step.out)
+        more = self.say.exactly(abs(self.say.exact(step.out)))
+        sides = self.say.product(step.powers, step.factor)
+        unit = self.solution.legend[str(step.out)].kind.unit
+        more += f", {self._turn(value)}" if value else ""
+        return self.say.formula(self.names.symbol(step.out), sides, abs(value), unit, more)
+
+    def _alike(self, step: Compute, kind: PlanKind) -> list[tuple[str, str]]:
+        """Return the other links that turn so, and the symbols of that."""
+        table = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon
+        own, letter = self.names.owner(step.out), self.names.symbol(step.out)[0]
+        others = [k for k, number in table.items() if number == step.out and k != own]
+        return [(other, f"{letter}_{{{other}}}") for other in others]
 
     def similar(self, step: Similar) -> list[str]:
         """Tell a point found by similarity."""
-        names, words, say = self.names, self.words, self.say
+        names, words = self.names, self.words
         point, coincide = names.point(step.out), self.coincide(step.out)
         b, c = names.point(step.plan_b), names.point(step.plan_c)
-        link_b, link_c = say.place(step.link_b), say.place(step.link_c)
-        ratio = (say.place(step.link_s) - link_b) / (link_c - link_b)
-        side = abs(say.number(step.side))
-        if abs(ratio) < COLLINEAR or side == 0:
+        ratio, parts = self._ratio(step), self.parts(step)
+        if abs(ratio) < COLLINEAR or self.say.number(step.side) == 0:
             return [words.similar_same.format(point=point, other=b, coincide=coincide)]
         if abs(ratio - 1) < COLLINEAR:
             return [words.similar_same.format(point=point, other=c, coincide=coincide)]
-
-        def part(start: PointName) -> str:
-            made = names.step[self._length(start, step.out)]
-            assert isinstance(made, Compute)
-            segment = f"({names.segment(start, step.out)})"
-            return say.formula(segment, say.product(made.powers), abs(say.number(made.out)), "mm")
-
-        first = part(step.plan_b)
         said = {"point": point, "coincide": coincide}
-        if abs(ratio.imag) >= COLLINEAR * abs(ratio):
-            link = f"{step.link_b}{step.link_c}{step.link_s}"
-            text = words.similar_triangle.format(plan=f"{b}{c}{point}", link=link, **said)
-            return [first + ",", part(step.plan_c) + ".", text]
+        if len(parts) > 1:
+            plan, link = self.triangles(step)
+            text = words.similar_triangle.format(plan=plan, link=link, **said)
+            return [parts[0] + ",", parts[1] + ".", text]
         said |= {"of": names.of(step.plan_b), "part": names.segment(step.plan_b, step.out)}
         if 0 < ratio.real < 1:
-            return [first + ".", words.similar_on.format(segment=f"{b}{c}", **said)]
+            return [parts[0] + ".", words.similar_on.format(segment=f"{b}{c}", **said)]
         ends = (f"{b}{c}", c) if ratio.real > 1 else (f"{c}{b}", b)
         return [
-            first + ".",
+            parts[0] + ".",
             words.similar_beyond.format(segment=ends[0], beyond=ends[1], **said),
         ]
+
+    def _ratio(self, step: Similar) -> complex:
+        """Return the vector to a point of a link over that along the side it is found from."""
+        s, b, c = (self.say.place(point) for point in (step.link_s, step.link_b, step.link_c))
+        return (s - b) / (c - b)
+
+    def parts(self, step: Similar) -> list[str]:
+        """Return the formulas of a point found by similarity: its distance from one end or two."""
+        is_corner = abs(self._ratio(step).imag) >= COLLINEAR * abs(self._ratio(step))
+        lines = []
+        for start in (step.plan_b, step.plan_c)[: 1 + is_corner]:
+            made = self.names.step[self._length(start, step.out)]
+            assert isinstance(made, Compute)
+            sides, length = self.say.product(made.powers), abs(self.say.number(made.out))
+            segment = f"({self.names.segment(start, step.out)})"
+            lines.append(self.say.formula(segment, sides, length, "mm"))
+        return lines
+
+    def triangles(self, step: Similar) -> tuple[str, str]:
+        """Return the similar triangles, on the plan and on the link, by their corners."""
+        plan = map(self.names.point, (step.plan_b, step.plan_c, step.out))
+        link = map(self.names.point, (step.link_b, step.link_c, step.link_s))
+        return "".join(plan), "".join(link)
 
     def _length(self, tail: PointName, head: PointName) -> NumberName:
         """Return the number of a segment's length."""
@@ -220,7 +259,7 @@ class MotionVoice:
             if head is None:
                 continue
             index = self._index(relative.start, relative.head)
-            symbol = plain_text(f"a^{{k}}_{{{index}}}")
+            symbol = f"a^{{k}}_{{{index}}}"
             if relative.to == FRAME:
                 lines.append(
                     self.words.no_coriolis_frame.format(symbol=symbol, guide=self._track(head))
@@ -240,5 +279,5 @@ class MotionVoice:
 
     def _track(self, vector: Vector) -> str:
         if vector.direction is None:
-            return plain_text(vector.symbol)
+            return vector.symbol
         return self.names.base(vector.direction)

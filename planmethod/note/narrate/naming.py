@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -24,6 +25,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
+from planmethod.plans.draft import DimensionKind
 from planmethod.plans.model import (
     FACTS,
     MOTION,
@@ -39,8 +41,9 @@ from planmethod.plans.motion.board import pole_letter
 from planmethod.problem.model import Convention
 from planmethod.solved.solution import Solution
 
+_DIGITS = re.compile(r"\d+")
 SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
-SCALE_SYMBOL = {kind: f"μ_{FACTS[kind].letter}" for kind in MOTION}
+SCALE_SYMBOL = {kind: f"μ_{{{FACTS[kind].letter}}}" for kind in MOTION}
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +57,22 @@ class Course:
 
 
 class Names:
-    """Names for the reader, of one solution in one language (обозначения).
+    """Names for the reader, of one solution in one language, as rich text (обозначения).
 
     Points of the plans are called by their letters, points of the mechanism by their own names,
     the feet of offsets by a prime, numbers by their symbols, lines by what they are parallel to.
+
+    Parameters
+    ----------
+    solution : Solution
+    words : Wording
+    on_sheet : bool
+        For formulas that are lettered: an index is lowered there, so that the ``3`` of ``O3`` is
+        one as well, and no dash need keep the ends of a segment apart.
     """
 
-    def __init__(self, solution: Solution, words: Wording) -> None:
-        self.solution, self.words = solution, words
+    def __init__(self, solution: Solution, words: Wording, *, on_sheet: bool = False) -> None:
+        self.solution, self.words, self.on_sheet = solution, words, on_sheet
         self.construction = solution.construction
         self.kin = solution.construction.kinematics
         problem = solution.problem
@@ -70,7 +81,7 @@ class Names:
         self.poles: set[PointName] = set()
         for plan in self.construction.plans:
             for at, letters in shown_letters(problem, plan).items():
-                self.letters[at] = [plain_text(letter) for letter in letters]
+                self.letters[at] = letters
             assert plan.pole is not None
             self.poles.add(plan.pole)
         self.guides = {
@@ -93,7 +104,7 @@ class Names:
             points = list(body.points)
             for i, p in enumerate(points):
                 for q in points[i + 1 :]:
-                    yield (q, p) if f"l_{q}{p}" in self.construction.draft.numbers else (p, q)
+                    yield (q, p) if self.construction.draft.has_length(q, p) else (p, q)
 
     # Points ----------------------------------------------------------------------------------
 
@@ -101,11 +112,15 @@ class Names:
         """Return a point's letter or name."""
         if name in self.letters:
             return self.letters[name][0]
-        if "~" in name:
-            return self._own(name, name.partition("~")[0] + "′")
+        foot_of = self.construction.draft.feet.get(name)
+        if foot_of is not None:
+            return self._own(name, foot_of + "′")
         if isinstance(self.step.get(name), Touch):
             return self._own(name, "T")
-        return self.guides.get(name, str(name))
+        return self.guides.get(name) or self._lowered(name)
+
+    def _lowered(self, name: str) -> str:
+        return _DIGITS.sub(r"_{\g<0>}", name) if self.on_sheet else name
 
     def _own(self, name: PointName, text: str) -> str:
         """Return the name of an auxiliary point, with as many primes as keep it apart."""
@@ -131,7 +146,8 @@ class Names:
     def segment(self, tail: PointName, head: PointName) -> str:
         """Return a segment by its ends: ``bc``, ``BC``, ``b–n_CB``."""
         one, two = self.point(tail), self.point(head)
-        return f"{one}–{two}" if "_" in one + two else one + two
+        apart = "_" in plain_text(one + two) and not self.on_sheet
+        return f"{one}–{two}" if apart else one + two
 
     # Lines -----------------------------------------------------------------------------------
 
@@ -188,9 +204,10 @@ class Names:
     def guide(self, line: LineName) -> str | None:
         """Return the name of the frame's guide that a line is, or None."""
         step = self.step[line]
-        if isinstance(step, AtAngle) and step.to is None and step.angle.startswith("angle_"):
-            return step.angle.removeprefix("angle_")
-        return None
+        if not isinstance(step, AtAngle) or step.to is not None:
+            return None
+        told = self.construction.draft.dimensions.get(step.angle)
+        return None if told is None else told.of[0]
 
     def value_of(self, angle: NumberName) -> float:
         """Return a given angle, degrees."""
@@ -252,7 +269,7 @@ class Names:
     def symbol(self, number: NumberName) -> str:
         """Return the symbol of a number: ``l_BC``, ``ω₂``, ``(bc)``, ``μ_v``."""
         if number in self._roles:
-            return plain_text(self._roles[number])
+            return self._roles[number]
         if number in SCALE_KIND:
             return SCALE_SYMBOL[SCALE_KIND[number]]
         step = self.step[number]
@@ -262,15 +279,13 @@ class Names:
             case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
                 return f"({self.segment(tail, head)})"
             case Compute():
-                return number.strip("|")
+                return self._lowered(number.strip("|"))
             case _:
-                return self._offset(number) if number.startswith("e_") else str(number)
-
-    def _offset(self, number: NumberName) -> str:
-        """Return the symbol of an offset: its name without the link it is counted from."""
-        text = number.removeprefix("e_")
-        points = {p for body in self.solution.problem.bodies.values() for p in body.points}
-        return f"e_{max((p for p in points if text.startswith(p)), key=len, default='')}"
+                told = self.construction.draft.dimensions.get(number)
+                if told is not None and told.kind is DimensionKind.OFFSET:
+                    return f"e_{{{told.of[0]}}}"  # without the link it is counted from
+                letter, _, index = number.partition("_")
+                return f"{letter}_{{{index}}}" if index else letter
 
     def is_inverse_scale(self) -> bool:
         """Tell whether scales are written as millimetres per unit."""
@@ -302,11 +317,7 @@ class Names:
             return ""
         vectors = [*(equation.left for equation in plan.equations), *plan.vectors]
         return next(
-            (
-                plain_text(v.symbol)
-                for v in vectors
-                if v.head == head and v.kind is VectorKind.ABSOLUTE
-            ),
+            (v.symbol for v in vectors if v.head == head and v.kind is VectorKind.ABSOLUTE),
             "",
         )
 
@@ -336,7 +347,7 @@ class Names:
 
     def pole(self, kind: PlanKind) -> str:
         """Return the letter of a plan's pole."""
-        return plain_text(pole_letter(self.solution.problem, kind))
+        return pole_letter(self.solution.problem, kind)
 
 
 def _reduced(angle: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from planmethod.note.plaintext import NO_BREAK, heading, wrap
+from planmethod.note.plaintext import NO_BREAK, heading, plain_text, wrap
 from planmethod.note.wording import Wording
 
 INDENT = " " * 5
@@ -36,14 +36,15 @@ class Steps:
         self.lines += [*blank, f"{self._chapter}.{self._part}. {title}", ""]
 
     def item(self, lines: Sequence[str], *, more: bool = False) -> None:
-        """Write a numbered step; ``more`` goes on with the last one."""
+        """Write a numbered step of rich text; ``more`` goes on with the last one."""
         if not lines:
             return
         if not more:
             self._step += 1
         for i, line in enumerate(lines):
             first = f"{self._step:>3}) " if i == 0 and not more else INDENT
-            self.lines += wrap(self._unit.sub(NO_BREAK, line), first=first, rest=INDENT)
+            text = self._unit.sub(NO_BREAK, plain_text(line))
+            self.lines += wrap(text, first=first, rest=INDENT)
 
     def formulas(self, lines: Sequence[str]) -> None:
         """Write lines that must not be wrapped, such as an equation over its underlines."""

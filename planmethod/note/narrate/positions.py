@@ -17,6 +17,9 @@ from planmethod.construct.steps import (
 from planmethod.note.narrate.formulas import NOTHING, Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import NO_BREAK, given
+from planmethod.plans.draft import DimensionKind
+
+COORDINATES = (DimensionKind.ALONG, DimensionKind.ACROSS)
 
 
 class PositionVoice:
@@ -25,6 +28,8 @@ class PositionVoice:
     def __init__(self, names: Names, say: Formulas) -> None:
         self.names, self.say, self.words = names, say, names.words
         self._told: set[Name] = set()
+        draft = names.construction.draft
+        self._dimensions, self._feet = draft.dimensions, draft.feet
 
     def guide(self, step: AtAngle, guide: str) -> str:
         """Tell a guide of the frame."""
@@ -75,14 +80,14 @@ class PositionVoice:
         equals = f"{NO_BREAK}={NO_BREAK}"
         number = given(abs(self.say.number(name)), self.words, 5)
         value = f"{number}{NO_BREAK}{self.say.unit('mm')}"
-        symbol = "" if _is_coordinate(name) else names.symbol(name)
+        symbol = "" if self._is_coordinate(name) else names.symbol(name)
         if ends is not None:
             symbol = "" if ends[0] in names.guides else names.segment(*ends)
         if name in self._told or not isinstance(step, Compute):
             return f"{symbol}{equals}{value}" if symbol else value
         self._told.add(name)
         metres = None
-        if ends is not None and _is_distance(name, ends):
+        if ends is not None and self._is_distance(name, ends):
             metres = f"l_{names.axis(symbol)}"
         sides = self.say.product(step.powers, step.factor, called=metres)
         return equals.join([*([symbol] if symbol else []), *sides, value])
@@ -155,12 +160,13 @@ class PositionVoice:
         )
         return [text]
 
+    def _is_distance(self, name: NumberName, ends: tuple[PointName, PointName]) -> bool:
+        """Tell whether a coordinate of a point is its distance from another: no foot is between."""
+        dimension, names = self._dimensions.get(name), self.names
+        between = any(end in self._feet or end in names.guides for end in ends)
+        return dimension is not None and dimension.kind in COORDINATES and not between
 
-def _is_distance(name: NumberName, ends: tuple[PointName, PointName]) -> bool:
-    """Tell whether a coordinate of a point is its distance from another: no foot is between."""
-    return name[1:3] in ("x_", "y_") and not any("~" in end or ":" in end for end in ends)
-
-
-def _is_coordinate(name: NumberName) -> bool:
-    """Tell whether a length has no ends to be called by: an offset or a coordinate."""
-    return name == "|s|" or name[1:3] in ("x_", "y_", "e_")
+    def _is_coordinate(self, name: NumberName) -> bool:
+        """Tell whether a length has no ends to be called by: an offset or a coordinate."""
+        dimension = self._dimensions.get(name)
+        return dimension is not None and dimension.kind is not DimensionKind.LENGTH

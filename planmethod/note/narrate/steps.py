@@ -36,7 +36,7 @@ from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.motion import MotionVoice
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.positions import PositionVoice
-from planmethod.note.plaintext import fixed, given, plain_text
+from planmethod.note.plaintext import fixed, given
 from planmethod.solved.solution import Solution
 
 
@@ -104,6 +104,21 @@ class Narrator:
             case _:
                 assert_never(step)
 
+    def write(self, step: Step) -> list[str]:
+        """Return the formulas of a step of a velocity or acceleration plan, without sentences."""
+        if not self.say.readable(step.out) and not self.is_reading(step):
+            return self._unreadable(step)
+        match step:
+            case LayOff():
+                return self.motion.laid(step)
+            case Compute():
+                return self.motion.found(step)
+            case Similar():
+                parts, corners = self.motion.parts(step), self.motion.triangles(step)
+                return parts if len(parts) == 1 else [" ∼ ".join(f"△{c}" for c in corners), *parts]
+            case _:
+                return []
+
     def _unreadable(self, step: Step) -> list[str]:
         """Tell a step that divides by what the ruler reads as 0; none of those that follow."""
         if not self._can(step):
@@ -150,7 +165,7 @@ class Narrator:
         else:
             text = words.draw_at_angle.format(of=of, base=base, angle=given(abs(angle), words))
         if ray is not None:
-            text += words.carries.format(symbol=plain_text(ray.symbol))
+            text += words.carries.format(symbol=ray.symbol)
         return [text + "."]
 
     def _relation(self, line: LineName) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from planmethod.mechanism.structure import Structure
 from planmethod.note.numbers import finite_or_none, plain
+from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.plans.motion.board import pole_letter
 from planmethod.solved.errors.motion import drafting_of
@@ -16,8 +17,8 @@ from planmethod.solved.solution import Segment, Solution
 SCHEMA = 1
 """Version of the record's shape."""
 
-LONG = {"ak": "a_coriolis", "ar": "a_rel"}
-"""Names in the record of what is called shorter in the labels of drafting errors."""
+LONG = {QuantityKind.CORIOLIS: "a_coriolis", QuantityKind.RELATIVE: "a_rel"}
+"""Names in the record of what is asked for by a shorter one."""
 
 
 def structure_record(structure: Structure) -> dict[str, Any]:
@@ -69,13 +70,18 @@ def _hand(solution: Solution, index: int) -> dict[str, Any]:
     """Return what follows from the read segments, and one sigma of each quantity."""
     spreads = drafting_of(solution).spreads
 
-    def told(label: str) -> dict[str, float | None]:
-        """Return a quantity and its sigma; the name is the first part of the label."""
-        name = LONG.get(label.split("_")[0], label.split("_")[0])
-        spread = spreads.get(label)
-        sigma = 0.0 if spread is None else finite_or_none(spread.sigma[index])
-        value = finite_or_none(solution.read_off(label)[index])
-        return {name: value, f"sigma_{name}": sigma}
+    def told(quantities: list[Quantity]) -> dict[str, float | None]:
+        """Return quantities and their sigmas."""
+        record: dict[str, float | None] = {}
+        for quantity in quantities:
+            name, spread = (
+                LONG.get(quantity.kind, quantity.kind.letter),
+                spreads.get(quantity.label),
+            )
+            record[name] = finite_or_none(solution.read_off(quantity.label)[index])
+            sigma = 0.0 if spread is None else finite_or_none(spread.sigma[index])
+            record[f"sigma_{name}"] = sigma
+        return record
 
     def place(name: str) -> dict[str, float | None]:
         return {
@@ -83,27 +89,21 @@ def _hand(solution: Solution, index: int) -> dict[str, Any]:
             for axis in ("x", "y")
         }
 
-    sliding = solution.construction.kinematics.relatives.values()
+    points = solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
+    links = solution.quantities(QuantityKind.OMEGA, QuantityKind.EPSILON)
+    sliding = solution.quantities(
+        QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
+    )
     return {
         "ruler": solution.hand.ruler,
         "profile": solution.profile.name,
         "points": {
-            name: {**told(f"v_{name}"), **told(f"a_{name}"), **place(name)}
-            for name in solution.points
+            name: {**told(quantities), **place(name)} for name, quantities in points.items()
         },
-        "links": {
-            name: {**told(f"omega_{name}"), **told(f"epsilon_{name}")} for name in solution.links
-        },
+        "links": {name: told(quantities) for name, quantities in links.items()},
         "relative": [
-            {
-                "point": r.point,
-                "of": r.of,
-                "to": r.to,
-                **told(r.label("v")),
-                **told(r.label("ak")),
-                **told(r.label("ar")),
-            }
-            for r in sliding
+            {"point": r.point, "of": r.of, "to": r.to, **told(sliding[r.name])}
+            for r in solution.construction.kinematics.relatives.values()
         ],
         "monte_carlo": [label for label, spread in spreads.items() if spread.drawn[index]],
     }
@@ -119,6 +119,10 @@ def record(solution: Solution) -> dict[str, Any]:
     with ``[dynamics]``: see `planmethod.note.tables.forces`.
     """
     segments = {kind: solution.segments(kind) for kind in MOTION}
+    links = {
+        name: {q.kind.columns[0].removeprefix("."): solution.exact(q) for q in quantities}
+        for name, quantities in solution.quantities(*TURNING).items()
+    }
     positions = []
     for i, asked in enumerate(solution.positions):
         entry: dict[str, Any] = {solution.problem.drive.coordinate.column: plain(asked)}
@@ -133,12 +137,8 @@ def record(solution: Solution) -> dict[str, Any]:
             for name, point in solution.points.items()
         }
         entry["links"] = {
-            name: {
-                "phi_deg": plain(link.phi_deg[i]),
-                "omega": plain(link.omega[i]),
-                "epsilon": plain(link.epsilon[i]),
-            }
-            for name, link in solution.links.items()
+            name: {key: plain(values[i]) for key, values in columns.items()}
+            for name, columns in links.items()
         }
         entry["relative"] = [
             {

@@ -12,6 +12,7 @@ import numpy as np
 
 from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
 from planmethod.note.wording import wording
+from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, with_force_scale
@@ -65,10 +66,10 @@ def motion_columns(solution: Solution) -> dict[str, Reals]:
             add(f"{name}.{letter}x", vector.real)
             add(f"{name}.{letter}y", vector.imag)
             add(f"{name}.{letter}", np.hypot(vector.real, vector.imag))
-    for name, link in solution.links.items():
-        add(f"{name}.phi_deg", link.phi_deg)
-        add(f"{name}.omega", link.omega)
-        add(f"{name}.epsilon", link.epsilon)
+    for quantities in solution.quantities(*TURNING).values():
+        for quantity in quantities:
+            (name,) = quantity.columns
+            add(name, solution.exact(quantity))
     for kind in MOTION:
         for segment in solution.segments(kind):
             add(f"{kind.value}.{segment.name}.exact", segment.exact)

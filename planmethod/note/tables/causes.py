@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import assert_never
 
-import numpy as np
-
 from planmethod.construct.steps import (
     AtAngle,
     Carry,
@@ -28,11 +26,12 @@ from planmethod.construct.steps import (
     Total,
     Touch,
 )
-from planmethod.note.narrate.given import asked_links, asked_points
+from planmethod.note.narrate.given import MOTION_KINDS, told
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.tables.sigmas import label_of, marked
+from planmethod.note.tables.sigmas import marked
+from planmethod.plans.legend import Quantity
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
@@ -57,62 +56,49 @@ class Causes:
             PlanKind.VELOCITY: names.words.plan_velocity,
             PlanKind.ACCELERATION: names.words.plan_acceleration,
         }
-        self._plan: dict[str, str] = {
-            step.out: titles[section.kind][:1].lower() + titles[section.kind][1:]
-            for section in names.construction.sections
-            for step in section.steps
-        }
+        self._titles = {kind: title[:1].lower() + title[1:] for kind, title in titles.items()}
 
     def lines(self, index: int) -> list[str]:
         """Return the worst result of a position and its largest causes; none if none is known."""
         worst = self._worst(index)
         if worst is None:
             return []
-        symbol, name, value, sigma = worst
+        quantity, value, sigma = worst
         words = self.words
         result = words.worst_result.format(
-            symbol=plain_text(f"{symbol}_{{{name}}}"),
+            symbol=plain_text(quantity.symbol),
             value=spoken(rounded_to(value, sigma), words),
             sigma=spoken(sigma_text(sigma), words),
-            unit=words.units[self.solution.legend[label_of(symbol, name)].kind.unit],
+            unit=words.units[quantity.kind.unit],
             part=fixed(100 * sigma / abs(value), words, 0 if sigma > 0.02 * abs(value) else 1),
         )
         lines = [words.table_causes, *wrap(result)]
-        causes = drafting_of(self.solution).causes(label_of(symbol, name), index)
+        causes = drafting_of(self.solution).causes(quantity.label, index)
         for stroke, share in causes[:MOST]:
             part = f"{100 * share:.0f} %"
             lines += wrap(self.tell(stroke), first=f"  {part:>5}  ", rest=" " * 9)
         return lines
 
-    def _worst(self, index: int) -> tuple[str, str, float, float] | None:
-        """Return symbol, name, value and sigma of the result with the largest error for its size.
+    def _worst(self, index: int) -> tuple[Quantity, float, float] | None:
+        """Return the result with the largest error for its size, its value and sigma.
 
         What is lost in its error, or found by random draws, has no causes of first order.
         """
-        s = self.solution
-        found = []
-        for name in asked_points(s):
-            motion = s.points[name]
-            found += [
-                ("v", name, np.abs(motion.velocity)),
-                ("a", name, np.abs(motion.acceleration)),
-            ]
-        for name in asked_links(s):
-            found += [("ω", name, s.links[name].omega), ("ε", name, s.links[name].epsilon)]
         known = []
-        for symbol, name, values in found:
-            value = float(values[index])
-            sigma, mark = marked(drafting_of(s), label_of(symbol, name), index)
+        for quantity in told(self.solution, *MOTION_KINDS):
+            value = float(self.solution.exact(quantity)[index])
+            sigma, mark = marked(drafting_of(self.solution), quantity.label, index)
             if not mark and 0.0 < SHORT * sigma <= abs(value):
-                known.append((symbol, name, value, sigma))
-        return max(known, key=lambda each: each[3] / abs(each[2]), default=None)
+                known.append((quantity, value, sigma))
+        return max(known, key=lambda each: each[2] / abs(each[1]), default=None)
 
     def tell(self, stroke: str) -> str:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
         step = self.names.step[PointName(stroke)]
-        text = self._stroke(step)
-        plan = self._plan.get(stroke) or self._plan.get(getattr(step, "head", ""), "")
-        return f"{text} ({plan})" if plan else text
+        text = plain_text(self._stroke(step))
+        plans = self.names.construction.draft.plans
+        plan = plans.get(step.out) or plans.get(getattr(step, "head", step.out))
+        return text if plan is None else f"{text} ({self._titles[plan]})"
 
     def _stroke(self, step: Step) -> str:
         names, words = self.names, self.words

@@ -13,8 +13,6 @@ from planmethod.plans.legend import QuantityKind
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Examined, Verdict, examine
 
-SYMBOL = {"omega": "ω", "epsilon": "ε", "phi": "φ"}
-
 
 def judged(solution: Solution, digits: int) -> list[Examined]:
     """Return every position of a solution before the referee: what moves, each result once."""
@@ -22,8 +20,7 @@ def judged(solution: Solution, digits: int) -> list[Examined]:
     found = examine(solution.problem, [float(p) for p in solution.positions], digits=digits)
 
     def worth(verdict: Verdict) -> bool:
-        head, _, tail = verdict.label.partition("_")
-        return verdict.kind is not QuantityKind.UNIT and (tail or head) not in fixed
+        return verdict.kind is not QuantityKind.UNIT and verdict.quantity.of not in fixed
 
     return [
         replace(position, verdicts=tuple(filter(worth, position.verdicts))) for position in found
@@ -52,12 +49,11 @@ def _row(verdict: Verdict, words: Wording) -> list[str]:
     value = "; ".join(parts).replace(".", words.decimal)
     kappa = f"{verdict.kappa:.1e}" if verdict.kappa < 1e300 else "—"
     numbers = (f"{verdict.error:.1e}", kappa, f"{verdict.multiple:.2f}")
-    return [_shown(verdict.label), value, *(text.replace(".", words.decimal) for text in numbers)]
-
-
-def _shown(label: str) -> str:
-    head, _, tail = label.partition("_")
-    return plain_text(f"{SYMBOL.get(head, head)}_{{{tail}}}") if tail else label
+    return [
+        plain_text(verdict.quantity.symbol),
+        value,
+        *(text.replace(".", words.decimal) for text in numbers),
+    ]
 
 
 def _parts(verdict: Verdict) -> tuple[Any, Any]:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
-import numpy as np
-
-from planmethod.note.narrate.given import asked_links, asked_points
-from planmethod.note.narrate.naming import SCALE_SYMBOL, Names
+from planmethod.note.narrate.given import told
+from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import (
     columns_text,
@@ -21,11 +19,12 @@ from planmethod.note.plaintext import (
     table,
     wrap,
 )
-from planmethod.note.tables.sigmas import Sigmas, label_of, levelled
-from planmethod.note.wording import Wording, wording
+from planmethod.note.tables.sigmas import Sigmas, levelled
+from planmethod.note.wording import Wording, language, wording
+from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.model import Convention
 from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Segment, Solution
 
 FEW = 3
@@ -87,16 +86,9 @@ def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
 
 def scale_texts(solution: Solution, words: Wording) -> list[str]:
     """Return the scales as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit where the file says so."""
-    texts = []
-    for kind, scale in solution.scales.items():
-        unit, mm = words.units[FACTS[kind].unit], words.units["mm"]
-        inner = f"({unit})" if "/" in unit else unit
-        if solution.problem.scales.convention is Convention.MM_PER_UNIT:
-            value, per = 1.0 / scale.per_mm, f"{mm}/{inner}"
-        else:
-            value, per = scale.per_mm, f"{inner}/{mm}"
-        texts.append(f"{SCALE_SYMBOL[kind]} = {given(value, words)} {per}")
-    return texts
+    say, convention = language(words.lang).say, solution.problem.scales.convention
+    scales = solution.scales.values()
+    return [plain_text(scale_inscription(scale, convention, say)) for scale in scales]
 
 
 def position_line(solution: Solution, words: Wording, index: int) -> str:
@@ -160,18 +152,21 @@ def moving_points(solution: Solution) -> list[str]:
 
 
 def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
-    rows = []
+    rows, quantities = [], solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
     for name in moving_points(solution):
-        point = solution.points[name]
-        place = point.place[i]
+        place = solution.points[name].place[i]
         row = [name, *(_place(solution, float(x), words) for x in (place.real, place.imag))]
-        for symbol, vector in (("v", point.velocity), ("a", point.acceleration)):
-            label = label_of(symbol, name)
-            read = solution.read_off(label)
-            row += [found(float(abs(vector[i])), words), found(float(read[i]), words)]
-            row += sigmas.cell(label, i)
+        for quantity in quantities[name]:
+            row += _found(solution, quantity, i, sigmas)
         rows.append(row)
     return rows
+
+
+def _found(solution: Solution, quantity: Quantity, i: int, sigmas: Sigmas) -> list[str]:
+    """Return a quantity in one position: exact, as the hand finds it, and its error."""
+    exact, read = solution.exact(quantity)[i], solution.read_off(quantity.label)[i]
+    told = [found(float(value), sigmas.words) for value in (exact, read)]
+    return [*told, *sigmas.cell(quantity.label, i)]
 
 
 def _place(solution: Solution, metres: float, words: Wording) -> str:
@@ -196,12 +191,18 @@ def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> 
 
 def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
-    for name, link in solution.links.items():
-        row = [name, fixed(float(link.phi_deg[i]), words)]
-        for symbol, exact in (("ω", link.omega[i]), ("ε", link.epsilon[i])):
-            label = label_of(symbol, name)
-            row += [found(float(exact), words), found(float(solution.read_off(label)[i]), words)]
-            row += [*sigmas.cell(label, i), _sense(exact, words)]
+    for name, quantities in solution.quantities(*TURNING).items():
+        known = {quantity.kind: quantity for quantity in quantities}
+        direction = known.pop(QuantityKind.DIRECTION, None)
+        row = [name, "—"]
+        if direction is not None:
+            row[1] = fixed(float(solution.exact(direction)[i]), words)
+        for kind in (QuantityKind.OMEGA, QuantityKind.EPSILON):
+            if kind in known:
+                row += _found(solution, known[kind], i, sigmas)
+                row.append(_sense(solution.exact(known[kind])[i], words))
+            else:
+                row += ["—", "—", *sigmas.cell(None, i), "—"]
         rows.append(row)
     return rows
 
@@ -214,15 +215,13 @@ def _sense(value: float, words: Wording) -> str:
 
 def _sliding(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
-    told = solution.construction.kinematics.relatives.values()
-    for relative, named in zip(solution.relatives, told, strict=True):
+    quantities = solution.quantities(
+        QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
+    )
+    for relative in solution.construction.kinematics.relatives.values():
         row = [words.sliding_row.format(point=relative.point, of=relative.of, to=relative.to)]
-        exact = (relative.velocity, relative.coriolis, relative.acceleration)
-        for symbol, vector in zip(("v", "ak", "ar"), exact, strict=True):
-            label = named.label(symbol)
-            read = float(solution.read_off(label)[i])
-            row += [found(abs(complex(vector[i])), words), found(read, words)]
-            row += sigmas.cell(label, i)
+        for quantity in quantities[relative.name]:
+            row += _found(solution, quantity, i, sigmas)
         rows.append(row)
     return rows
 
@@ -238,10 +237,12 @@ def _segments(
 
     if kind is PlanKind.POSITION:
         return [[_joined(s), *lengths(s)] for s in segments]
-    mu = solution.scales[kind].per_mm
+    motions = (names.kin.velocity, names.kin.acceleration)
+    values = next(motion.segments for motion in motions if motion.kind is kind)
     for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
-        value = found(mu * float(segment.read[i]), words)
-        name = names.segment(vector.tail, vector.head)
+        number = solution.by_hand.number(values.known((vector.tail, vector.head)))
+        value = found(abs(float(number[i])), words)
+        name = plain_text(names.segment(vector.tail, vector.head))
         rows.append([plain_text(vector.symbol), name, *lengths(segment), value])
     return rows
 
@@ -281,34 +282,27 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
         [words.number, *(str(i + 1) for i in range(len(solution.positions)))],
         [symbol, *(given(float(p), words) for p in solution.positions)],
     ]
-    points, links = asked_points(solution), asked_links(solution)
 
-    def column(head: str, values: Iterable[float]) -> list[str]:
-        return [plain_text(head), *(found(float(value), words) for value in values)]
-
-    def read_column(symbol: str, name: str) -> list[str]:
-        return column(f"{symbol}_{{{name}}}", solution.read_off(label_of(symbol, name)))
+    def column(quantity: Quantity, values: Reals) -> list[str]:
+        cells = [found(float(value), words) for value in values]
+        return [plain_text(quantity.symbol), *cells]
 
     places = []
     for name in moving_points(solution):
         place = solution.points[name].place
         for axis, values in (("x", place.real), ("y", place.imag)):
-            told = [_place(solution, float(value), words) for value in values]
-            places.append([plain_text(f"{axis}_{{{name}}}"), *told])
-    v = [column(f"v_{{{p}}}", np.abs(solution.points[p].velocity)) for p in points]
-    v += [column(f"ω_{{{k}}}", solution.links[k].omega) for k in links]
-    a = [column(f"a_{{{p}}}", np.abs(solution.points[p].acceleration)) for p in points]
-    a += [column(f"ε_{{{k}}}", solution.links[k].epsilon) for k in links]
-    read_v = [read_column("v", p) for p in points]
-    read_v += [read_column("ω", k) for k in links]
-    read_a = [read_column("a", p) for p in points]
-    read_a += [read_column("ε", k) for k in links]
+            cells = [_place(solution, float(value), words) for value in values]
+            places.append([plain_text(f"{axis}_{{{name}}}"), *cells])
+    speeds = told(solution, QuantityKind.VELOCITY, QuantityKind.OMEGA)
+    changes = told(solution, QuantityKind.ACCELERATION, QuantityKind.EPSILON)
+    v, a = ([column(q, solution.exact(q)) for q in each] for each in (speeds, changes))
+    read_v, read_a = (
+        [column(q, solution.read_off(q.label)) for q in each] for each in (speeds, changes)
+    )
     errors = []
-    for symbol in "vωaε" if sigmas.asked else "":
-        for name in points if symbol in "va" else links:
-            label = label_of(symbol, name)
-            cells = [sigmas.cell(label, i)[0] for i in range(len(solution.positions))]
-            errors.append([plain_text(f"{symbol}_{{{name}}}"), *levelled(cells)])
+    for quantity in (*speeds, *changes) if sigmas.asked else ():
+        cells = [sigmas.cell(quantity.label, i)[0] for i in range(len(solution.positions))]
+        errors.append([plain_text(quantity.symbol), *levelled(cells)])
     lines: list[str] = []
     for title, columns in (
         (words.many_places, places),

@@ -29,15 +29,6 @@ def marked(errors: Errors, label: str, index: int) -> tuple[float, str]:
     return float(spread.sigma[index]), DRAWN if spread.drawn[index] else ""
 
 
-LABEL = {"v": "v", "a": "a", "ω": "omega", "ε": "epsilon"}
-"""What the drafting errors call the quantities of the result tables."""
-
-
-def label_of(symbol: str, name: str) -> str:
-    """Return the label of a result: ``ω`` of link ``2`` is ``omega_2``."""
-    return f"{LABEL[symbol]}_{name}"
-
-
 class Sigmas:
     """Cells of the drafting errors, none where they are not asked for.
 

@@ -110,7 +110,6 @@ class Wording:
     turning: str
     turning_zero: str
     unreadable: str
-    unreadable_value: str
     unreadable_points: str
     similar_on: str
     similar_beyond: str

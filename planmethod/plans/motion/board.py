@@ -87,7 +87,9 @@ class Motion:
 
     def name(self, point: str) -> str:
         """Return the plan's name of a point."""
-        return FACTS[self.kind].prefix + point
+        name = FACTS[self.kind].prefix + point
+        self.draft.letters[PointName(name)] = point.lower()
+        return name
 
     def sharers(self, point: str, link: str) -> list[str]:
         """Return the other links that a point is a revolute joint of."""

@@ -51,9 +51,14 @@ class Relative:
     a_turned: PointName | None = None
     a_head: PointName | None = None
 
+    @property
+    def name(self) -> str:
+        """What its quantities are of: ``B3/2``."""
+        return f"{self.point}{self.of}/{self.to}"
+
     def label(self, letter: str) -> str:
         """Return how one of its quantities is asked for: ``v_B3/2``, ``ak_B3/2``."""
-        return f"{letter}_{self.point}{self.of}/{self.to}"
+        return f"{letter}_{self.name}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from planmethod.construct.steps import LineName, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Prismatic, Revolute
-from planmethod.plans.draft import Closing, Draft, side, way
+from planmethod.plans.draft import Closing, Dimension, DimensionKind, Draft, side, way
 from planmethod.problem.model import Problem, Slide
 
 EQUAL = 1e-9
@@ -44,6 +44,7 @@ def place_driver(draft: Draft) -> None:
         return
     slide = draft.problem.slides[drive.link]
     s = draft.b.compute("|s|", (draft.b.known("s"), 1), (draft.mu_l, -1))
+    draft.dimensions[s] = Dimension(DimensionKind.WAY, (slide.pin,), "s")
     track = draft.path(slide, FRAME, slide.pin)
     draft.b.lay_off(slide.pin, track.origin, track.line, s)
     draft.mark_placed(slide.pin)
@@ -210,12 +211,13 @@ def _place_rpr(draft: Draft, group: AssurGroup, sign: int) -> None:
         line = draft.b.join(p, q) if sign > 0 else draft.b.join(q, p)
     else:
         # The line through the slider's joint touches a circle about the host's joint.
-        radius = draft.drawn(draft.known(f"e_{q}{host.link}", abs(across)))
+        offset = draft.dimension(DimensionKind.OFFSET, abs(across), q, host=host.link)
+        radius = draft.drawn(offset)
         foot = draft.b.touch(f"T_{q}_{host.link}", p, radius, q, side(sign * across))
         # Joined over the tangent, not turned from its short radius: that keeps the digits.
         line = draft.b.join(foot, q) if sign > 0 else draft.b.join(q, foot)
     draft.axes[slider.link] = draft.b.parallel(q, line)
-    draft.axes[host.link] = draft.turned(line, p, -slide.angle, f"angle_{host.link}")
+    draft.axes[host.link] = draft.turned(line, p, -slide.angle, host.link)
 
 
 def rpr_parts(draft: Draft, group: AssurGroup) -> tuple[Slide, Lead, Lead]:

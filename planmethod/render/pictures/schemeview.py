@@ -13,6 +13,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name, solution_peak
 from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
+from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
@@ -121,11 +122,11 @@ def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
     else:
         centre, other, radius = start + 0.4 * (end - start), end, 8.0 * scheme.factor
     turn = angle_of(other - centre)
-    for symbol, value, shift in (
-        ("ω", float(motion.omega[scheme.index]), 0.0),
-        ("ε", float(motion.epsilon[scheme.index]), 3.5 * scheme.factor),
+    for kind, value, shift in (
+        (QuantityKind.OMEGA, float(motion.omega[scheme.index]), 0.0),
+        (QuantityKind.EPSILON, float(motion.epsilon[scheme.index]), 3.5 * scheme.factor),
     ):
-        if is_nothing(value, solution_peak(scheme.solution, symbol)):
+        if is_nothing(value, solution_peak(scheme.solution, kind)):
             continue
         sense = 1 if value > 0 else -1
         middle, sweep = turn, 70.0
@@ -139,18 +140,18 @@ def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
             middle=middle,
             sweep=sweep,
             length=3.5 * scheme.factor,
-            tag=f"{symbol} {link}",
+            tag=f"{kind.sign} {link}",
         )
         view.arrows += arrow
         tail = centre + (radius + shift) * cis(middle - sense * sweep / 2)
         view.labels.append(
             Label(
-                typeset(f"{symbol}_{{{link}}}", SMALL if others else scheme.letter_height),
+                typeset(f"{kind.sign}_{{{link}}}", SMALL if others else scheme.letter_height),
                 tail,
                 along=(tail, centre + (radius + shift) * cis(middle)) if others else None,
                 prefer=tail - centre,
                 gap=0.8,
-                name=f"{symbol} {link}",
+                name=f"{kind.sign} {link}",
             )
         )
 

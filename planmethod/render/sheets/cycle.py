@@ -9,8 +9,9 @@ import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
-from planmethod.note.narrate.forces.formulas import link_names
+from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import MINUS, Notation, half_up, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
@@ -35,7 +36,7 @@ from planmethod.render.pictures.diagram import (
 )
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Viewed, named, scale_inscription
+from planmethod.render.sheets.views import Viewed, named
 from planmethod.solved.cycle import Cycle, Peak, Piece, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of

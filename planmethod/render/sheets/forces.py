@@ -5,23 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from planmethod.note.narrate.forces.formulas import (
-    closing_lines,
-    link_names,
-    load_lines,
-    plan_title,
-    statement,
-    wanted,
-)
-from planmethod.note.narrate.forces.guides import place_lines
-from planmethod.note.narrate.forces.lever_lines import lever_lines
-from planmethod.note.narrate.forces.moment_lines import moment_lines
+from planmethod.note.narrate.forces.common import Telling, lettered
+from planmethod.note.narrate.forces.lever import LeverVoice
+from planmethod.note.narrate.forces.loads import LoadVoice
+from planmethod.note.narrate.forces.moments import MomentVoice
+from planmethod.note.narrate.forces.plan import ForceVoice
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+from planmethod.note.narrate.forces.statement import link_names, plan_title, statement, wanted
 from planmethod.note.narrate.letters import direction_text
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import Language
-from planmethod.plans.forces.polygons import ForcePlan, Share
+from planmethod.plans.forces.polygons import Share
 from planmethod.plans.model import Known, PlanKind
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.ellipses import vertex_ellipses
@@ -41,7 +36,7 @@ from planmethod.render.layout.equations import balance_block, formula_block
 from planmethod.render.pictures.ellipses import told_ellipses
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated, unbroken
-from planmethod.render.sheets.views import Viewed, named, scale_inscription, shown_position
+from planmethod.render.sheets.views import Viewed, named, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
@@ -157,7 +152,7 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     """Return "Дано" with masses and loads, "Определить", and the computed loads."""
     reading = _reading(solution, indices, manner)
     words, said = manner.words, manner.words.sheets
-    loads = load_lines(reading, words.say)
+    loads = LoadVoice(lettered(reading, words)).formulas()
     return stated(
         statement(reading, words),
         said.wanted.format(wanted=wanted(reading, words.say)),
@@ -171,16 +166,13 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the equations of a force plan: moments with arms, forces, what the plan gives."""
     reading = _reading(solution, indices, manner)
-    plan, say = reading.plans[manner.entry.number], manner.words.say
+    number, say, telling = manner.entry.number, manner.words.say, lettered(reading, manner.words)
+    plan, voice = reading.plans[number], MomentVoice(telling, reading.plans[number])
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     before = [one for one in plan.moments if one.force is not None]
     after = [one for one in plan.moments if one.force is None]
     moments = [
-        [
-            formula_block(line, height, width=width)
-            for one in some
-            for line in moment_lines(reading, one, say)
-        ]
+        [formula_block(line, height, width=width) for one in some for line in voice.lines(one)]
         for some in (before, after)
     ]
     balances: list[Block] = []
@@ -192,27 +184,30 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         ]
         head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
         balances.append(balance_block(head, terms, height, width=width))
-    found = paragraph(_closing(reading, plan, manner.words), height, width=width)
+    found = paragraph(_closing(telling, number), height, width=width)
     blocks = [*moments[0], *balances, found, *moments[1]]
-    blocks += [formula_block(line, height, width=width) for line in place_lines(reading, plan, say)]
+    blocks += [formula_block(line, height, width=width) for line in voice.places()]
     return Column(blocks, gap=3.0)
 
 
-def _closing(reading: ForceReading, plan: ForcePlan, words: Language) -> str:
+def _closing(telling: Telling, number: int) -> str:
     """Return what a force plan gives; of one whose forces are all nothing, that there is none."""
-    if drawn_edges(reading, reading.plans.index(plan)):
-        found = unbroken(closing_lines(reading, plan, words.say))
-        return words.sheets.from_plan.format(found=found)
-    wholes = (edge for edge in plan.reactions if edge.share is Share.WHOLE)
-    zeros = " = ".join(words.say.symbol(edge.symbol) for edge in wholes)
-    return words.sheets.all_zero.format(zeros=zeros)
+    reading, said = telling.reading, telling.language.sheets
+    reactions = reading.plans[number].reactions
+    if drawn_edges(reading, number):
+        voice = ForceVoice(telling, reading.plans[number], number)
+        return said.from_plan.format(found=unbroken([voice.closing(edge) for edge in reactions]))
+    wholes = (edge for edge in reactions if edge.share is Share.WHOLE)
+    return said.all_zero.format(zeros=" = ".join(telling.symbol(edge.symbol) for edge in wholes))
 
 
 def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the equation of the lever, and how far it is from the force plans."""
     reading = _reading(solution, indices, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    told = lever_lines(reading, manner.words)
+    told = [manner.words.sheets.lever_stands]
+    if reading.statics.hung is not None:
+        told = LeverVoice(lettered(reading, manner.words)).lines()
     lines = [formula_block(line, height, width=width) for line in told]
     title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
     return Column([*title, *lines], gap=3.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.forces.lever_lines import both_balances, difference
+from planmethod.note.narrate.forces.lever import both_balances, difference
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import alike
 from planmethod.note.wording import Language

@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from math import inf
 
-import numpy as np
-
-from planmethod.note.narrate.given import asked_links, asked_points, solution_peak
+from planmethod.note.narrate.given import MOTION_KINDS, solution_peak, told
 from planmethod.note.numbers import Notation, alike, is_nothing
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
-from planmethod.note.tables.sigmas import DRAWN, label_of, marked
+from planmethod.note.tables.sigmas import DRAWN, marked
 from planmethod.note.wording import Language
+from planmethod.plans.legend import Quantity
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
 from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
@@ -35,12 +33,12 @@ def _sense(value: float) -> int:
 
 
 def _sigma_rows(
-    solution: Solution, symbol: str, name: str, index: int, say: Notation
+    solution: Solution, quantity: Quantity, index: int, say: Notation
 ) -> tuple[Cell, Cell]:
     """Return what was read on the drawing, to the place of its error, and the error."""
-    read = float(solution.read_off(label_of(symbol, name))[index])
-    sigma, mark = marked(drafting_of(solution), label_of(symbol, name), index)
-    turns = symbol in "ωε"
+    read = float(solution.read_off(quantity.label)[index])
+    sigma, mark = marked(drafting_of(solution), quantity.label, index)
+    turns = quantity.kind.is_number
     return (
         Cell(say.number(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
         Cell(say.number(sigma_text(sigma)) + mark, 0 if turns else None),
@@ -63,15 +61,15 @@ def result_columns(
     """
     alone, said, say = len(solution.positions) == 1, words.sheets, words.say
 
-    def column(symbol: str, name: str, unit: str, numbers: Reals) -> TableColumn:
-        peak = solution_peak(solution, symbol)
+    def column(quantity: Quantity) -> TableColumn:
+        numbers, peak = solution.exact(quantity), solution_peak(solution, quantity.kind)
         shown = [float(numbers[i]) for i in indices]
         shown = [0.0 if is_nothing(value, peak) else value for value in shown]
         texts = alike([abs(value) for value in shown])
-        turns = symbol in "ωε"
+        turns = quantity.kind.is_number
         errors = [(0.0, "") for _ in shown]
         if sigma:
-            errors = [marked(drafting_of(solution), label_of(symbol, name), i) for i in indices]
+            errors = [marked(drafting_of(solution), quantity.label, i) for i in indices]
         cells = []
         for text, value, (error, mark) in zip(texts, shown, errors, strict=True):
             written = say.number(as_long(text, abs(value), error))
@@ -79,22 +77,11 @@ def result_columns(
                 written += f" ± {say.number(sigma_text(error))}{mark}"
             cells.append(Cell(written, _sense(value) if turns else None))
         if sigma and alone:
-            cells += _sigma_rows(solution, symbol, name, indices[0], say)
-        return TableColumn(f"{symbol}_{{{name}}}", tuple(cells), unit=say.units[unit])
+            cells += _sigma_rows(solution, quantity, indices[0], say)
+        return TableColumn(quantity.symbol, tuple(cells), unit=say.units[quantity.kind.unit])
 
-    points, links = asked_points(solution), asked_links(solution)
-    motions = [solution.points[name] for name in points]
-    turns = [solution.links[link] for link in links]
-    columns: list[TableColumn] = []
-    for symbol, unit, names, values in (
-        ("v", "m/s", points, [np.abs(motion.velocity) for motion in motions]),
-        ("ω", "1/s", links, [turn.omega for turn in turns]),
-        ("a", "m/s²", points, [np.abs(motion.acceleration) for motion in motions]),
-        ("ε", "1/s²", links, [turn.epsilon for turn in turns]),
-    ):
-        if not kinds or symbol in kinds:
-            pairs = zip(names, values, strict=True)
-            columns += [column(symbol, name, unit, numbers) for name, numbers in pairs]
+    shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]
+    columns = [column(quantity) for quantity in told(solution, *shown)]
     if sigma and alone:
         columns.insert(0, TableColumn("", (said.exact, said.read, "±σ")))
     return columns if alone else [*position_columns(solution, indices, words), *columns]

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from planmethod.construct.scale import Scale
 from planmethod.note.narrate.letters import shown_letters
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation, is_nothing, with_unit
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
-from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row
@@ -27,16 +27,6 @@ PER_ROW = {2: 2, 3: 3, 4: 4, 5: 5}
 
 CAPTION = 3.5
 """Height of the letters of one of many plans, and of its caption, mm."""
-
-
-def scale_inscription(scale: Scale, convention: Convention, say: Notation) -> str:
-    """Return the inscription under a view: ``μ_v = 0,05 (м/с)/мм`` or ``μ_v = 20 мм/(м/с)``."""
-    letter = scale.symbol.removeprefix("mu_")
-    unit, mm = say.units[scale.unit], say.units["mm"]
-    grouped = f"({unit})" if "/" in unit or "·" in unit else unit
-    if convention is Convention.MM_PER_UNIT:
-        return f"μ_{{{letter}}} = {say.given(1.0 / scale.per_mm)} {mm}/{grouped}"
-    return f"μ_{{{letter}}} = {say.given(scale.per_mm)} {grouped}/{mm}"
 
 
 @dataclass(frozen=True)

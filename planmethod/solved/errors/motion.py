@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cached_property, partial
 
@@ -22,12 +22,6 @@ from planmethod.solved.errors.drawing import (
 )
 from planmethod.solved.errors.spread import DRAWS, Errors
 from planmethod.solved.solution import Solution
-
-PLAN_OF = {
-    **dict.fromkeys(("velocity", "v", "omega"), PlanKind.VELOCITY),
-    **dict.fromkeys(("acceleration", "a", "epsilon", "ak", "ar"), PlanKind.ACCELERATION),
-}
-"""Plan that a quantity is taken from, by the beginning of its label."""
 
 
 class Drafting(Errors):
@@ -52,15 +46,37 @@ class Drafting(Errors):
             len(solution.positions),
             solution.profile,
             frozenset(str(plan.pole) for plan in solution.construction.plans),
-            tuple(map(self._known_absent, _items(solution))),
+            tuple(self._items()),
             _plan_points(solution),
         )
         super().__init__(drawing, draws=draws, seed=seed)
 
-    def _known_absent(self, item: Item) -> Item:
+    def _items(self) -> Iterator[Item]:
+        """Yield every quantity that the drawing gives."""
+        solution, construction = self.solution, self.solution.construction
+        for segment in construction.segments:
+            size = number(segment.drawn, size=True)
+            item = Item(segment.label, (segment.drawn,), size, ItemKind.LENGTH)
+            yield self._known_absent(item, segment.kind)
+        origin, mu_l = construction.draft.origin, solution.scales[PlanKind.POSITION].per_mm
+        for quantity in construction.legend:
+            if quantity.kind is QuantityKind.PLACE:
+                place = PointName(quantity.name)
+                for axis, part in (("x", "real"), ("y", "imag")):
+                    take = _coordinate(place, mu_l, part, getattr(origin, part))
+                    yield Item(f"{axis}_{quantity.of}", (place,), take)
+            elif quantity.size is not None:
+                sized = quantity.kind.is_size
+                kind = ItemKind.LENGTH if sized else ItemKind.NUMBER
+                take = number(quantity.size, size=sized)
+                item = Item(quantity.label, (quantity.size,), take, kind)
+                yield self._known_absent(item, quantity.kind.plan)
+
+    def _known_absent(self, item: Item, kind: PlanKind) -> Item:
         """Return an item that knows where its plan is drawn by nobody, having no vector."""
-        kind = PLAN_OF.get(item.label.split(".")[0].split("_")[0])
-        return item if kind is None else replace(item, absent=lambda: self._absent[kind])
+        if kind is PlanKind.POSITION:
+            return item
+        return replace(item, absent=lambda: self._absent[kind])
 
     @cached_property
     def _absent(self) -> dict[PlanKind, Flags]:
@@ -87,25 +103,6 @@ def _plan_points(solution: Solution) -> tuple[PointName, ...]:
         for end in (vector.tail, vector.head)
     }
     return tuple(sorted(ends | {PointName(p) for p in solution.construction.draft.points()}))
-
-
-def _items(solution: Solution) -> Iterable[Item]:
-    """Yield every quantity that the drawing gives."""
-    construction = solution.construction
-    for segment in construction.segments:
-        size = number(segment.drawn, size=True)
-        yield Item(segment.label, (segment.drawn,), size, ItemKind.LENGTH)
-    origin, mu_l = construction.draft.origin, solution.scales[PlanKind.POSITION].per_mm
-    for quantity in construction.legend:
-        if quantity.kind is QuantityKind.PLACE:
-            place = PointName(quantity.name)
-            for axis, part in (("x", "real"), ("y", "imag")):
-                take = _coordinate(place, mu_l, part, getattr(origin, part))
-                yield Item(f"{axis}_{quantity.of}", (place,), take)
-        elif quantity.size is not None:
-            sized = quantity.kind.is_size
-            kind = ItemKind.LENGTH if sized else ItemKind.NUMBER
-            yield Item(quantity.label, (quantity.size,), number(quantity.size, size=sized), kind)
 
 
 def _coordinate(place: PointName, mu: float, part: str, origin: float) -> Callable[[Trace], Number]:

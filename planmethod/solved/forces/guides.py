@@ -95,6 +95,16 @@ class Guided:
         return abs(self.reading.read_number(self.reaction.couple))
 
     @property
+    def is_read(self) -> bool:
+        """Whether the force is something, on the paper too."""
+        return not self.is_none and self.read_force > 0
+
+    @property
+    def read_distance(self) -> float:
+        """How far from the joint the force acts that is read, m."""
+        return self.read_moment / self.read_force
+
+    @property
     def centred(self) -> bool:
         """Whether the middle of the contact lies across the guide from the joint."""
         middle = abs(float(self.contact.middle[self.reading.index]))

@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from planmethod.construct.arithmetic import Number
+from planmethod.construct.steps import Name
 from planmethod.plans.forces.board import SCALE, Board, Reaction
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces
@@ -59,19 +61,26 @@ def _plain(value: Number) -> complex | float:
 def _reactions(board: Board) -> Iterator[Quantity]:
     b = board.draft.b
     for reaction in board.reactions:
-        force, index = reaction.force, f"{reaction.joint}_{reaction.on}/{reaction.by}"
+        force, on, by = reaction.force, reaction.on, reaction.by
         vector = b.carry(board.name("R"), board.pole, force.tail, force.head)
-        yield Quantity(f"F_{index}", QuantityKind.REACTION, vector, force_row(reaction))
+        told: list[tuple[QuantityKind, Name, str]] = [
+            (QuantityKind.REACTION, vector, force_row(reaction))
+        ]
         if reaction.couple is not None:
-            moment = moment_row(reaction)
-            yield Quantity(f"M_{index}", QuantityKind.MOMENT, reaction.couple, moment)
+            told.append((QuantityKind.MOMENT, reaction.couple, moment_row(reaction)))
+        for kind, name, row in told:
+            shown = reaction_symbol(on, by, letter=kind.letter)
+            back = f"{kind.letter}_{reaction.joint}_{by}/{on}"
+            yield Quantity(
+                kind, name, f"{reaction.joint}_{on}/{by}", row=row, shown=shown, opposite=back
+            )
 
 
 def _balances(planned: Planned) -> Iterator[Quantity]:
     """Yield what balances the driver, by the force plans and by the lever."""
     balancing = planned.board.draft.problem.drive.balancing
-    letter, row = balancing.letter, balancing.quantity
     kind = QuantityKind.MOMENT if balancing.turns else QuantityKind.THRUST
-    yield Quantity(f"{letter}_dr", kind, planned.driving.balance, f"driving.{row}")
+    row = balancing.quantity
+    yield Quantity(kind, planned.driving.balance, "dr", row=f"driving.{row}")
     if planned.lever is not None:
-        yield Quantity(f"{letter}_lever", kind, planned.lever.balance, f"lever.{row}")
+        yield Quantity(kind, planned.lever.balance, "lever", row=f"lever.{row}")

@@ -19,7 +19,6 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
-from planmethod.errors import AssemblyError
 from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import SCALE, Board, Force, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
@@ -28,6 +27,7 @@ from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
+from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import Contact, JointForce, contacts
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import Kept, singled
@@ -70,12 +70,15 @@ def plan_forces(
     single : mapping of str to Applied
         Couples that the force of inertia of their link stands for as well, by link.
     """
+    start = len(draft.b.steps)
     board = Board(draft, solution.construction.kinematics, solution.problem.dynamics)
     board.load(loads, single)
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
     driving = drive_forces(board)
-    return Planned(board, driving, hang(board, driving))
+    hung = hang(board, driving)
+    draft.note_plan(PlanKind.FORCE, start)
+    return Planned(board, driving, hung)
 
 
 class Statics(Remembering):
@@ -138,14 +141,12 @@ class Statics(Remembering):
 
         Raises
         ------
-        AssemblyError
+        PositionError
             Where a force plan does not close.
         """
         if not self.closes.all():
-            problem, at = self.solution.problem, self.solution.positions
-            raise AssemblyError(
-                explain(problem, self.program, self._si.trace, at, unit_scales=True)
-            )
+            draft, at = self.board.draft, self.solution.positions
+            raise PositionError(explain(draft, self.program, self._si.trace, at))
         return self._si
 
     @cached_property

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from planmethod.problem.model import Problem
+from planmethod.solved.failures import Doubt, Failure, MoreDoubts
 from planmethod.solved.many.positions import Codes, Gaps, blocks, evenly, examine, why
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.reading import Reals
@@ -34,7 +35,7 @@ class Swept:
     ----------
     sweep : Sweep
     gaps : Gaps
-    doubts : tuple of str
+    doubts : tuple of str, Doubt or MoreDoubts
 
     Raises
     ------
@@ -51,10 +52,10 @@ class Swept:
         some = evenly(np.flatnonzero(gaps.reason < 0))
         looked = examine(problem, positions[some], numbers=some)
         self._found = len(gaps.told)
-        if labels is None:
-            self.gaps, self.doubts = gaps.joined(some, looked.gaps), looked.doubts
-        else:
-            self.gaps, self.doubts = gaps, (*looked.spoilt, *looked.doubts)
+        self.doubts: tuple[str | Doubt | MoreDoubts, ...] = looked.doubts
+        self.gaps = gaps.joined(some, looked.gaps) if labels is None else gaps
+        if labels is not None:
+            self.doubts = (*looked.spoilt, *looked.doubts)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -73,9 +74,10 @@ class Swept:
             self.sweep.run(here, out=work[:, : len(here)], failed=failed[part])
         return failed
 
-    def _why(self, index: int) -> str:
+    def _why(self, index: int) -> Failure:
         position = float(self.positions[index])
-        return self.sweep.explain(position, number=index + 1) or why(self.problem, position, index)
+        found = self.sweep.failure(position) or why(self.problem, position)
+        return found.numbered(index + 1)
 
     def fill(self, out: Reals, part: slice) -> Reals:
         """Fill a buffer of shape (k, m) with the results of a part of the positions.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -14,6 +13,15 @@ from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.solved.failures import (
+    Cause,
+    Doubt,
+    Failure,
+    MoreDoubts,
+    Place,
+    PositionError,
+    same_at,
+)
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Reals
 from planmethod.solved.selfcheck import (
@@ -21,8 +29,8 @@ from planmethod.solved.selfcheck import (
     MOST_NAMED,
     SPOILT,
     SelfCheckError,
+    doubts,
     verify,
-    warnings,
 )
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import error_bound
@@ -40,15 +48,6 @@ _SPOILT = np.iinfo(np.int16).max
 """Code of a position whose steps exist and whose results rounding spoils."""
 
 
-_AT, _THE = re.compile(r" at position \d+ \([^)]*\)"), re.compile(r"position \d+ \([^)]*\)")
-
-
-def _general(reason: str) -> str:
-    """Return a reason without what is true of its own position only."""
-    text = _THE.sub("this position", _AT.sub("", reason))
-    return re.sub(r", \|\w+\| = .*", ".", re.sub(r" \(margin [^)]*\)", "", text))
-
-
 @dataclass(frozen=True, slots=True)
 class Gaps:
     """Positions without results, and why.
@@ -57,18 +56,18 @@ class Gaps:
     ----------
     reason : ndarray of int16 of shape (n,)
         -1 where there are results, else an index into ``told``.
-    told : tuple of str
+    told : tuple of Failure
         Why, for the first position of each kind; in the order of these positions.
     unforced : int
         The last kinds, so many, leave the motion as it is: only forces do not exist there.
     """
 
     reason: Codes
-    told: tuple[str, ...]
+    told: tuple[Failure, ...]
     unforced: int = 0
 
     @classmethod
-    def of(cls, codes: Codes, tell: Callable[[int], str]) -> Gaps:
+    def of(cls, codes: Codes, tell: Callable[[int], Failure]) -> Gaps:
         """Return the gaps of positions with codes (-1 where there is none).
 
         Parameters
@@ -95,24 +94,19 @@ class Gaps:
         """Positions where the motion exists, ndarray of shape (n,)."""
         return (self.reason < 0) | (self.reason >= len(self.told) - self.unforced)
 
-    def more(self, count: int) -> str:
-        """Return how many positions share the lot of one that was told."""
-        if count < 2:
-            return ""
-        return f" The same holds at {count - 1} more of {len(self.reason)} positions."
-
     @property
     def sentences(self) -> tuple[str, ...]:
         """Reasons, each with the number of positions that it holds for."""
         counts = np.bincount(self.reason[self.reason >= 0], minlength=len(self.told))
         return tuple(
-            text + self.more(int(count)) for text, count in zip(self.told, counts, strict=True)
+            f"{told}{same_at(int(count) - 1, len(self.reason))}"
+            for told, count in zip(self.told, counts, strict=True)
         )
 
     @property
     def kinds(self) -> tuple[str, ...]:
         """Reasons without the numbers of one position: they hold for every position of a kind."""
-        return tuple(_general(text) for text in self.told)
+        return tuple(told.general for told in self.told)
 
     def refusal(self) -> str:
         """Return the message of a request that is refused for its first impossible position."""
@@ -140,14 +134,14 @@ class Examined:
     ----------
     gaps : Gaps
         Positions without results.
-    doubts : tuple of str
+    doubts : tuple of Doubt or MoreDoubts
         Warnings about the others.
     spoilt : tuple of str
         Which gap is there only because rounding spoils the worst results; at most one sentence.
     """
 
     gaps: Gaps
-    doubts: tuple[str, ...]
+    doubts: tuple[Doubt | MoreDoubts, ...]
     spoilt: tuple[str, ...]
 
 
@@ -207,23 +201,26 @@ def examine(
         try:
             verify(solution)
         except SelfCheckError as error:
-            raise SelfCheckError(_renumbered(str(error), numbers[left])) from error
+            found = error.found
+            number = int(numbers[left][found.place.number - 1]) + 1
+            raise SelfCheckError(found.numbered(number)) from error
         if forces:
             from planmethod.solved.forces.statics import statics_of
 
             unforced[left] = statics_of(solution).failing
 
-    def tell(index: int) -> str:
-        return why(problem, float(positions[index]), int(numbers[index]), forces=forces)
+    def tell(index: int) -> Failure:
+        found = why(problem, float(positions[index]), forces=forces)
+        return found.numbered(int(numbers[index]) + 1)
 
     estimate[codes >= 0] = 0.0
     gaps = Gaps.of(codes, tell)
     kinds = sorted(set(gaps.reason[codes == _SPOILT].tolist()))
-    doubts = _doubts(problem, positions, numbers, estimate)
+    doubtful = _doubts(problem, positions, numbers, estimate)
     if forces:
         other = Gaps.of(unforced, tell)
         gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.told)))
-    return Examined(gaps, tuple(doubts), tuple(gaps.sentences[k] for k in kinds))
+    return Examined(gaps, tuple(doubtful), tuple(gaps.sentences[k] for k in kinds))
 
 
 def _listed(positions: Reals) -> list[float]:
@@ -242,8 +239,8 @@ def impossible_steps(solution: Solution) -> Codes:
     return np.full(solution.positions.shape, -1, np.int16)
 
 
-def why(problem: Problem, position: float, number: int, *, forces: bool = False) -> str:
-    """Return why one position has no results; its number, from 0, is for the message.
+def why(problem: Problem, position: float, *, forces: bool = False) -> Failure:
+    """Return why one position has no results.
 
     Parameters
     ----------
@@ -257,32 +254,25 @@ def why(problem: Problem, position: float, number: int, *, forces: bool = False)
             from planmethod.solved.forces.statics import statics_of
 
             _ = statics_of(alone).si
-    except AssemblyError as error:
-        return _renumbered(str(error), np.array([number]))
+    except PositionError as error:
+        return error.failure
     # Alone it can just be assembled: arrays round otherwise than single numbers do.
-    place = problem.drive.coordinate.told(f"{position:.10g}")
-    return f"Position {number + 1} ({place}) is at an impossible one."
+    return Failure(Cause.AT_LIMIT, Place.of(problem, alone.positions, 0))
 
 
-_NUMBER = re.compile(r"\bposition (\d+)(?= \((?:phi|s) = |\. This is a fault)")
-
-
-def _renumbered(text: str, numbers: Places) -> str:
-    """Return a message about some positions with the numbers they have among all."""
-    return _NUMBER.sub(lambda found: f"position {numbers[int(found[1]) - 1] + 1}", text)
-
-
-def _doubts(problem: Problem, positions: Reals, numbers: Places, estimate: Reals) -> Iterator[str]:
+def _doubts(
+    problem: Problem, positions: Reals, numbers: Places, estimate: Reals
+) -> Iterator[Doubt | MoreDoubts]:
     """Yield the warnings of `selfcheck.warnings` for all blocks together."""
     doubtful = np.flatnonzero(estimate > DOUBTFUL)
     if not doubtful.size:
         return
     named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MOST_NAMED:]])
-    for said in warnings(Solution(problem, positions=_listed(positions[named]))):
-        yield _renumbered(said, numbers[named])
+    for doubt in doubts(Solution(problem, positions=_listed(positions[named]))):
+        number = int(numbers[named][doubt.place.number - 1]) + 1
+        yield replace(doubt, place=replace(doubt.place, number=number))
     if len(named) < len(doubtful):
-        more = len(doubtful) - len(named)
-        yield f"so are {more} more of {len(positions)} positions, less badly."
+        yield MoreDoubts(len(doubtful) - len(named), len(positions))
 
 
 def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:

@@ -48,8 +48,7 @@ def rows_of(
         if result.kind is QuantityKind.PLACE:
             here = zip(parts, (origin.real, origin.imag), strict=True)
             parts = [written.tape.add(part, at) for part, at in here]
-        names = [result.of + end for end in result.kind.columns] or [result.label]
-        rows += [Row(name, result.label) for name in names]
+        rows += [Row(name, result.label) for name in result.columns]
         refs += parts
         mine = written.depends[result.name]
         depends += [mine | loaded if result.kind.is_force else mine] * len(parts)

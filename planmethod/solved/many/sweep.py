@@ -14,15 +14,15 @@ from planmethod.construct.compiled.straight import ImpossibleError, Straight, st
 from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import PlanMethodError
-from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.solved.asked import results_for
 from planmethod.solved.closings import drive_data
+from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.many.rows import Row, rows_of
 from planmethod.solved.results import Results
-from planmethod.solved.solution import Solution
+from planmethod.solved.solution import UNIT_SCALES, Solution
 
 if TYPE_CHECKING:
     from planmethod.solved.many.loads import LoadColumns
@@ -98,6 +98,7 @@ class Sweep:
         self.loads = self._changing(solution, results)
         # Loads against a motion are known only where all steps of that motion exist.
         moved = _motion(results) if self.loads is not None and self.loads.need_motion else []
+        self._draft = results.draft
         self.program = results.program.needed_for([r.name for r in (*chosen, *moved)])
         self.steps = len(self.program.steps)
         self.driver = problem.drive.coordinate.name
@@ -108,12 +109,12 @@ class Sweep:
             for name, value in data.items()
             if name != self.driver and name not in results.draft.branches
         }
-        hidden = ("mu_", FACTS[PlanKind.FORCE].prefix)
+        own = drive_data(problem, solution.construction.draft, np.zeros(1))
         self.branches = results.draft.branches
         self.parameters: dict[str, float] = {
             name: value
             for name, value in self.constants.items()
-            if isinstance(value, float) and not name.startswith(hidden)
+            if isinstance(value, float) and name in own and name not in (*UNIT_SCALES, ZERO)
         }
         self._check(varied)
         self.varied = tuple(varied)
@@ -300,18 +301,22 @@ class Sweep:
         str
             Empty if every step that the sweep needs exists there.
         """
-        if not np.isfinite(position):
-            return f"Position {number} is not a number ({position})."
+        found = self.failure(position)
+        return "" if found is None else str(found.numbered(number))
+
+    def failure(self, position: float) -> Failure | None:
+        """Return why a position is impossible; None if every step that is needed exists there."""
         at = np.array([position], dtype=float)
+        if not np.isfinite(position):
+            return Failure(Cause.NO_NUMBER, Place.of(self.problem, at, 0))
         data: dict[str, Any] = {**self.constants, self.driver: at}
         data.update({name: closing.branch(at) for name, closing in self.branches.items()})
         if self.loads is not None:
             data.update(zip(self.loads.names, self.loads.at(at), strict=True))
         trace = evaluate(self.program, data, Float64())
         if failing(self.program, trace, 1)[0] < 0:
-            return ""
-        said = explain(self.problem, self.program, trace, at, unit_scales=True)
-        return said.replace("position 1 (", f"position {number} (", 1)
+            return None
+        return explain(self._draft, self.program, trace, at)
 
 
 def sweep_variants(

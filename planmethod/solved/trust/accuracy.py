@@ -37,8 +37,7 @@ class Verdict:
 
     Attributes
     ----------
-    label : str
-        As in `Quantity`.
+    quantity : Quantity
     error : float
         |float64 - referee|, SI.
     size, reach : float
@@ -50,17 +49,25 @@ class Verdict:
         Condition number: reach over size, inf for a zero.
     value : complex or real number of mpmath
         What the referee finds, to all his digits; of a direction its unit vector.
-    kind : QuantityKind
     """
 
-    label: str
+    quantity: Quantity
     error: float
     size: float
     reach: float
     multiple: float
     kappa: float
     value: Number
-    kind: QuantityKind
+
+    @property
+    def label(self) -> str:
+        """How the result is asked for."""
+        return self.quantity.label
+
+    @property
+    def kind(self) -> QuantityKind:
+        """Kind of the result."""
+        return self.quantity.kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,4 +197,4 @@ def _verdict(result: Quantity, value: Number, error: float, span: float, largest
     unit = largest if nothing else span
     multiple = 0.0 if error == 0 else error / (UNIT_ROUNDOFF * unit) if unit else math.inf
     kappa = span / size if size else math.inf
-    return Verdict(result.label, error, size, span, multiple, kappa, value, result.kind)
+    return Verdict(result, error, size, span, multiple, kappa, value)

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
+from planmethod.plans.draft import DimensionKind
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.solved.reading import Reals
 from planmethod.solved.results import natural_size, results_of
@@ -25,6 +26,9 @@ SAFE = 2e-3
 
 FEW, BLOCK = 64, 256
 """Positions that are all looked at closely; positions looked at in one go."""
+
+PLACING = (DimensionKind.LENGTH, DimensionKind.ALONG, DimensionKind.ACROSS)
+"""Kinds of dimensions that tell how large a mechanism is."""
 
 JUDGED = (
     QuantityKind.PLACE,
@@ -77,7 +81,11 @@ def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
 def _extent(solution: Solution) -> float:
     """Return the size of what places are differences of: the longest length or distance given."""
     draft = solution.construction.draft
-    lengths = [abs(v) for name, v in draft.numbers.items() if name.startswith(("l_", "x_", "y_"))]
+    lengths = [
+        abs(draft.numbers[name])
+        for name, dimension in draft.dimensions.items()
+        if dimension.kind in PLACING and name in draft.numbers
+    ]
     lengths += [abs(place) for place in draft.places.values()]
     if not solution.problem.drive.is_crank:
         lengths.append(float(np.max(np.abs(solution.positions))))

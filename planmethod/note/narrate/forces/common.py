@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
 
-from planmethod.note import wording
+from planmethod.construct.steps import Name, Step
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
-from planmethod.note.plaintext import given, plain_text
+from planmethod.note.numbers import MINUS
+from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Edge
+from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.reading import ForceReading
 
 QUARTERS = {0.0: "way_right", 90.0: "way_up", 180.0: "way_left", 270.0: "way_down"}
@@ -19,14 +22,24 @@ STRAIGHT = 1e-6
 
 
 class Telling:
-    """What the voices of the force analysis share: a reading, names, a language."""
+    """What the voices of the force analysis share: a reading, names, a language.
+
+    What is given and what a table shows is exact; all else is as the hand has it: arms that it
+    measures with the ruler, forces that it read on one plan and that go on into the next.
+    """
 
     def __init__(self, reading: ForceReading, say: Formulas) -> None:
         self.reading, self.solution, self.say = reading, reading.solution, say
         self.names: Names = say.names
-        self.words = say.words
-        language = wording.language(say.words.lang)
-        self.said, self.notation = language.forces, language.say
+        self.words, self.language, self.notation = say.words, say.language, say.notation
+        self.said, self.units = self.language.forces, self.notation.units
+        self.found, self.short, self.ruled = (
+            self.notation.found,
+            self.notation.short,
+            self.notation.ruled,
+        )
+        self.symbol = self.notation.symbol
+        self.step: dict[Name, Step] = {s.out: s for s in reading.statics.program.steps}
 
     def sense(self, value: float) -> str:
         """Return the sense of a moment."""
@@ -36,13 +49,18 @@ class Telling:
         """Return the exact value in brackets."""
         return self.say.exactly(abs(value))
 
-    def plain(self, rich: str) -> str:
-        """Return rich text of the force analysis, or a symbol, as plain."""
-        return plain_text(self.notation.symbol(rich))
+    def scaled(self, text: str, per_mm: float, *, back: bool = False) -> str:
+        """Return millimetres times the scale of their drawing, or over it: ``70,0/250``.
 
-    def found(self, value: float) -> str:
-        """Return a computed number."""
-        return plain_text(self.notation.found(value))
+        ``back``: what is to be millimetres there.
+        """
+        is_inverse = self.names.is_inverse_scale()
+        sign, scale = "·" if is_inverse is back else "/", 1.0 / per_mm if is_inverse else per_mm
+        return f"{text}{sign}{self.short(scale)}"
+
+    def on_drawing(self, text: str) -> str:
+        """Return millimetres of the position plan as metres."""
+        return self.scaled(text, self.say.per_mm(PlanKind.POSITION))
 
     def way(self, vector: complex) -> str:
         """Return the way that a vector points."""
@@ -50,7 +68,7 @@ class Telling:
         for quarter, phrase in QUARTERS.items():
             if abs((angle - quarter + 180.0) % 360.0 - 180.0) < STRAIGHT:
                 return str(getattr(self.said, phrase))
-        return self.said.way_angle.format(angle=given(angle, self.words, 4))
+        return self.said.way_angle.format(angle=self.short(angle, 4))
 
     def base(self, edge: Edge) -> str:
         """Return what the direction of a force is told by: ``BC`` of ``∥ BC``."""
@@ -58,6 +76,27 @@ class Telling:
         return self.names.base(edge.direction)
 
 
+def lettered(reading: ForceReading, words: Language) -> Telling:
+    """Return what the voices share where they letter a sheet."""
+    names = Names(reading.solution, words.note, on_sheet=True)
+    return Telling(reading, Formulas(reading.solution, names, reading.index))
+
+
 def closed(lines: Sequence[str]) -> list[str]:
     """Return the parts of a list with semicolons between them and a full stop at the end."""
     return [*(f"{line};" for line in lines[:-1]), *(f"{line}." for line in lines[-1:])]
+
+
+def arm_symbol(symbol: str) -> str:
+    """Return the letter of a force's arm: ``h_{G2}`` of ``G_{2}``."""
+    return f"h_{{{re.sub(r'[_^{},]', '', symbol)}}}"
+
+
+def signed_sum(terms: Sequence[tuple[float, str]]) -> str:
+    """Return terms with their signs; a positive one first, if there is any."""
+    ordered = sorted(terms, key=lambda term: term[0] < 0)
+    text = ""
+    for value, term in ordered:
+        sign = MINUS if value < 0 else "+"
+        text += f" {sign} {term}" if text else (f"{MINUS}{term}" if value < 0 else term)
+    return text

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planmethod.note.narrate.forces.formulas import mass_lines
+from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given, point_name
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language

@@ -1,65 +1,172 @@
-"""The sentences of the Zhukovsky lever (рычаг Жуковского)."""
+"""The Zhukovsky lever: its formulas and sentences (рычаг Жуковского)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from planmethod.note.narrate.forces.common import Telling
-from planmethod.note.narrate.forces.formulas import signed_sum
-from planmethod.note.narrate.forces.lever_lines import (
-    both_balances,
-    difference,
-    expected,
-    lever_arms,
-    lever_equation,
-    lever_unit,
-    pair,
-    shift_text,
-)
+import numpy as np
+
+from planmethod.note.narrate.forces.common import Telling, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.numbers import significant
-from planmethod.note.plaintext import fixed, spoken
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
-from planmethod.solved.forces.lever import HungCouple, LeverReading
+from planmethod.solved.errors.forces import drawn_forces
+from planmethod.solved.forces.lever import HungCouple, HungShift, LeverReading, OnLink
+from planmethod.solved.forces.reading import ForceReading
+
+
+@dataclass(frozen=True, slots=True)
+class PairText:
+    """How a couple stands on the lever: in letters, in numbers, and where those come from.
+
+    ``letters`` is ``(bc)/l_{BC}``, ``numbers`` ``73,0/0,3``; ``segment`` tells both lengths, and
+    ``length`` is the letter of the second: both are empty where the lever has no segment of the
+    link.
+    """
+
+    letters: str
+    numbers: str
+    segment: str = ""
+    length: str = ""
+
+
+def both_balances(reading: ForceReading) -> tuple[float, float | None]:
+    """Return the balancing moment or force as the hand finds it: by the plans, by the lever."""
+    plans = float(drawn_forces(reading.statics).balance[reading.index])
+    hung = reading.statics.hung
+    return plans, None if hung is None else reading.read_number(hung.balance)
+
+
+def difference(reading: ForceReading) -> float | None:
+    """Return how far the lever is from the force plans, per cent; None where there is neither."""
+    balances = drawn_forces(reading.statics).balances
+    return None if balances is None else balances.share(reading.index)
+
+
+def expected(reading: ForceReading) -> float | None:
+    """Return one sigma of lever minus force plans; None where a drawing cannot tell it."""
+    sigma = drawn_forces(reading.statics).discrepancy_sigma
+    if sigma is None or not np.isfinite(sigma[reading.index]):
+        return None
+    return float(sigma[reading.index])
 
 
 class LeverVoice:
-    """Tells the lever of one position, which the driver must not stand in."""
+    """Tells the lever of one position, which the driver must not stand in.
+
+    A sheet has it at the scale at which it draws the velocity plan of that position.
+    """
 
     def __init__(self, telling: Telling) -> None:
-        self.telling, self.reading = telling, telling.reading
-        self.said, self.words = telling.said, telling.words
-        self.lever = LeverReading(telling.reading, common=True)
+        self.telling, self.reading, self.said = telling, telling.reading, telling.said
+        self.names, self.found = telling.names, telling.found
+        self.ruled, self.notation = telling.ruled, telling.notation
+        self.lever = LeverReading(telling.reading, common=not telling.names.on_sheet)
+        self.unit = telling.units[telling.reading.balancing.unit]
+        self.balancing = telling.symbol(telling.reading.balancing_symbol)
+
+    # Formulas --------------------------------------------------------------------------------
+
+    def equation(self) -> str:
+        """Return the sum of the moments about the pole in letters, each with its sign."""
+        symbol = self.telling.symbol
+        forces = [(one.arm, symbol(one.symbol)) for one in self.lever.forces if one.arm]
+        terms = [(arm, f"{name}·{arm_symbol(name)}") for arm, name in forces]
+        terms += [
+            (one.lever_moment, f"{symbol(one.symbol)}·{self._pair(one).letters}")
+            for one in self.lever.couples
+        ]
+        return f"ΣM_{{p}} = {signed_sum(terms)} = 0"
+
+    def arms(self) -> str:
+        """Return the arms of the forces that have one, without their unit; empty if none has."""
+        found = ((self.telling.symbol(o.symbol), abs(o.arm)) for o in self.lever.forces if o.arm)
+        return "; ".join(f"{arm_symbol(name)} = {self.ruled(arm)}" for name, arm in found)
+
+    def _pair(self, one: OnLink) -> PairText:
+        """Return a couple, or what else goes with ω, by the ends of its link's segment."""
+        names = self.names
+        if one.ends is None or one.joints is None or not set(one.ends) <= set(names.letters):
+            omega, per_mm = one.ratio * self.lever.per_mm, self.lever.per_mm
+            letters = f"ω_{{{one.link}}}{'·' if names.is_inverse_scale() else '/'}μ_{{v}}"
+            return PairText(
+                letters, self.telling.scaled(self.telling.short(omega), per_mm, back=True)
+            )
+        letters, length = f"({names.segment(*one.ends)})", f"l_{{{self._joints(one, *one.joints)}}}"
+        segment, link = self.ruled(one.ratio * one.length), self.telling.short(one.length)
+        units = self.telling.units
+        told = f"{letters} = {segment} {units['mm']}; {length} = {link} {units['m']}"
+        return PairText(f"{letters}/{length}", f"{segment}/{link}", told, length)
+
+    def _joints(self, one: OnLink, first: str, second: str) -> str:
+        """Return two joints in the order in which their distance is given."""
+        problem = self.telling.solution.problem
+        given = {name for _, name, _ in problem.lengths}
+        on_link = {first, second} <= set(problem.bodies[one.link].points)
+        return first + second if on_link and second + first not in given else second + first
+
+    def _shift(self, one: HungShift) -> str:
+        """Return how far the point of a shifted force is from the centre of mass on the lever."""
+        told = self._pair(one)
+        formula = f"{one.symbol}·{told.letters} = {self.found(one.shift)}·{told.numbers}"
+        length = self.notation.number(f"{one.shift * one.ratio:.1f}")
+        return f"({''.join(one.letters)}) = {formula} = {length} {self.telling.units['mm']}"
+
+    def lines(self) -> list[str]:
+        """Return the moments about the pole, the arms, what balances them, the discrepancy."""
+        said, number = self.telling.language.sheets, self.notation.number
+        if not self.lever.forces and not self.lever.couples:
+            return [said.lever_no_work.format(symbol=self.balancing)]
+        arms, lines = self.arms(), [self.equation()]
+        lines += [f"{arms} {self.telling.units['mm']}"] if arms else []
+        on_links = (*self.lever.couples, *self.lever.shifts)
+        segments = (self._pair(one).segment for one in on_links)
+        lines += [text.replace("; ", ";  ") for text in dict.fromkeys(segments) if text]
+        lines += [self._shift(one) for one in self.lever.shifts]
+        lines.append(said.lever_found.format(symbol=self.balancing, **self._both()))
+        share, sigma = difference(self.reading), expected(self.reading)
+        if share is not None:
+            lines.append(said.lever_difference.format(share=number(f"{share:.1f}")))
+            if sigma is not None:
+                off = f"{number(sigma_text(sigma))} {self.unit}"
+                lines.append(said.lever_expected.format(sigma=off))
+        return lines
+
+    def _both(self) -> dict[str, str]:
+        """Return what balances the driver by both methods."""
+        plans, value = both_balances(self.reading)
+        assert value is not None
+        told = {"plans": plans, "lever": value}
+        return {by: f"{self.found(abs(each))} {self.unit}" for by, each in told.items()}
+
+    # Sentences -------------------------------------------------------------------------------
 
     def items(self) -> Iterator[list[str]]:
         """Tell the steps."""
-        pole = self.telling.names.pole(PlanKind.VELOCITY)
-        yield [self.said.turned.format(pole=pole)]
+        yield [self.said.turned.format(pole=self.names.pole(PlanKind.VELOCITY))]
         if not self.lever.forces and not self.lever.couples:
-            symbol = self.telling.plain(self.reading.balancing_symbol)
-            yield [self.said.no_work.format(symbol=symbol)]
+            yield [self.said.no_work.format(symbol=self.balancing)]
             return
         yield self._hung()
         yield from self._pairs()
-        arms = lever_arms(self.lever, self.telling.notation)
+        arms = self.arms()
         if arms:
-            yield [self.said.lever_arms.format(arms="; ".join(map(self.telling.plain, arms)))]
+            yield [self.said.lever_arms.format(arms=arms)]
         yield [self.said.lever_sum, *self._equation()]
         yield self._compared()
 
-    # Loads -----------------------------------------------------------------------------------
-
     def _hung(self) -> list[str]:
         """Tell which force goes to which point, and which go nowhere."""
-        motion, names = self.telling.names.kin.velocity, self.telling.names
+        motion = self.names.kin.velocity
         at: dict[str, list[str]] = {}
         beside = {force_symbol(one.link): one for one in self.lever.shifts}
         for one in self.lever.forces:
-            point = names.point(motion.point[motion.named[one.point]])
+            point = self.names.point(motion.point[motion.named[one.point]])
             if one.symbol in beside:
-                point = self.telling.plain(beside[one.symbol].letters[1])
-            at.setdefault(point, []).append(self.telling.plain(one.symbol))
+                point = beside[one.symbol].letters[1]
+            at.setdefault(point, []).append(self.telling.symbol(one.symbol))
         lines = []
         if at:
             told = (
@@ -67,18 +174,15 @@ class LeverVoice:
                 for point, symbols in at.items()
             )
             lines.append(self.said.hung.format(forces="; ".join(told)))
-        for shift in self.lever.shifts:
-            text = shift_text(self.lever, shift, self.telling.notation)
-            lines.append(
-                self.said.shift_on_lever.format(
-                    point=self.telling.plain(shift.letters[1]),
-                    force=self.telling.plain(force_symbol(shift.link)),
-                    formula=self.telling.plain(text),
-                )
+        lines += [
+            self.said.shift_on_lever.format(
+                point=shift.letters[1], force=force_symbol(shift.link), formula=self._shift(shift)
             )
+            for shift in self.lever.shifts
+        ]
         hung = {one.symbol for one in self.lever.forces}
         still = [
-            self.telling.plain(load.applied.name)
+            load.applied.name
             for load in self.reading.statics.board.given
             if load.force is not None
             and load.applied.force[self.reading.index]
@@ -88,73 +192,62 @@ class LeverVoice:
 
     def _pairs(self) -> Iterator[list[str]]:
         """Tell how each couple stands on the lever."""
-        lines = [self._pair(one) for one in self.lever.couples]
+        lines = [self._told(one) for one in self.lever.couples]
         hung = {one.symbol for one in self.lever.couples}
         for load in self.reading.statics.board.given:
             one = load.applied
             if load.couple is None or not one.couple[self.reading.index] or one.name in hung:
                 continue
-            lines.append(
-                self.said.pair_still.format(symbol=self.telling.plain(one.name), link=one.link)
-            )
+            lines.append(self.said.pair_still.format(symbol=one.name, link=one.link))
         if lines:
             yield lines
 
-    def _pair(self, one: HungCouple) -> str:
-        told, symbol = pair(self.lever, one, self.telling.notation), self.telling.plain(one.symbol)
-        if told.segment:
-            names = self.telling.names
+    def _told(self, one: HungCouple) -> str:
+        pair, symbol = self._pair(one), self.telling.symbol(one.symbol)
+        if pair.segment:
             assert one.ends is not None
             text = self.said.pair.format(
                 symbol=symbol,
-                length=self.telling.plain(told.letters.partition("/")[2]),
-                ends=", ".join(map(names.point, one.ends)),
-                segment=self.telling.plain(told.segment).replace(";  ", "; "),
+                length=pair.length,
+                ends=", ".join(map(self.names.point, one.ends)),
+                segment=pair.segment,
             )
         else:
+            size = self.found(abs(one.moment))
             text = self.said.pair_turning.format(
-                symbol=symbol,
-                letters=self.telling.plain(told.letters),
-                size=self.telling.found(abs(one.moment)),
-                numbers=self.telling.plain(told.numbers),
+                symbol=symbol, letters=pair.letters, size=size, numbers=pair.numbers
             )
-        if one.symbol == self.reading.balancing_symbol or not one.lever_moment:
+        if symbol == self.balancing or not one.lever_moment:
             return text + "."
         return text + self.said.pair_sense.format(sense=self.telling.sense(one.lever_moment))
 
-    # Equation --------------------------------------------------------------------------------
-
     def _equation(self) -> list[str]:
         """Return the sum of moments, and what balances the driver with numbers."""
-        symbol, balances = self.reading.balancing_symbol, both_balances(self.reading)
-        value = balances[1]
+        value = both_balances(self.reading)[1]
         assert value is not None and self.reading.statics.lever is not None
         exact = self.telling.exactly(float(self.reading.statics.lever[self.reading.index]))
-        unit = lever_unit(self.reading, self.telling.notation)
         end = "."
         if self.reading.balancing.turns and value:
             end = self.said.directed.format(sense=self.telling.sense(value))
-        size = self.telling.notation.found(abs(value))
-        letters = self.telling.notation.symbol(symbol)
-        result = f"{letters} = {self._numbers()} = {size} {unit}"
-        equation = lever_equation(self.lever, self.telling.notation)
-        return [f"{self.telling.plain(equation)},", f"{self.telling.plain(result)}{exact}{end}"]
+        result = f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
+        return [f"{self.equation()},", f"{result}{exact}{end}"]
 
     def _numbers(self) -> str:
         """Return the sum of the known moments over the arm of what balances them."""
-        say, symbol = self.telling.notation, self.reading.balancing_symbol
+        symbol = self.reading.balancing_symbol
         terms, divisor, turn = [], "", 1.0
         for force in self.lever.forces:
             if force.symbol == symbol:
-                divisor, turn = say.ruled(abs(force.arm)), -1.0 if force.arm > 0 else 1.0
+                divisor, turn = self.ruled(abs(force.arm)), -1.0 if force.arm > 0 else 1.0
             elif force.arm and force.size:
-                terms.append((force.arm, f"{say.found(force.size)}·{say.ruled(abs(force.arm))}"))
+                text = f"{self.found(force.size)}·{self.ruled(abs(force.arm))}"
+                terms.append((force.arm, text))
         for couple in self.lever.couples:
-            numbers = pair(self.lever, couple, say).numbers
+            numbers = self._pair(couple).numbers
             if couple.symbol == symbol:
                 divisor, turn = numbers, -1.0 if couple.lever_moment > 0 else 1.0
             elif couple.lever_moment:
-                text = f"{say.found(abs(couple.moment))}·{numbers}"
+                text = f"{self.found(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
         said = signed_sum([(turn * moment, text) for moment, text in terms])
         over = f"({divisor})" if "/" in divisor else divisor
@@ -164,23 +257,23 @@ class LeverVoice:
         """Tell how far lever and force plans are apart, and what a drawing lets expect."""
         plans, value = both_balances(self.reading)
         assert value is not None
-        unit = lever_unit(self.reading, self.telling.notation)
-        share = difference(self.reading)
-        found = self.telling.found
+        share, sigma, number = (
+            difference(self.reading),
+            expected(self.reading),
+            self.notation.number,
+        )
         decimals = len(significant(plans).partition(".")[2])  # of what it is the difference
         lines = [
             self.said.compared.format(
-                symbol=self.telling.plain(self.reading.balancing_symbol),
-                plans=f"{found(abs(plans))} {unit}",
-                lever=f"{found(abs(value))} {unit}",
-                difference=fixed(abs(value - plans), self.words, decimals),
-                unit=unit,
-                share="" if share is None else f" ({fixed(share, self.words, 1)} %)",
+                symbol=self.balancing,
+                **self._both(),
+                difference=number(f"{abs(value - plans):.{decimals}f}"),
+                unit=self.unit,
+                share="" if share is None else f" ({number(f'{share:.1f}')} %)",
             )
         ]
-        sigma = expected(self.reading)
         if sigma is not None:
-            part = f" ({fixed(100.0 * sigma / abs(plans), self.words, 1)} %)" if plans else ""
-            off = spoken(sigma_text(sigma), self.words)
-            lines.append(self.said.expected.format(sigma=off, unit=unit, share=part))
+            part = f" ({number(f'{100.0 * sigma / abs(plans):.1f}')} %)" if plans else ""
+            off = number(sigma_text(sigma))
+            lines.append(self.said.expected.format(sigma=off, unit=self.unit, share=part))
         return lines

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from planmethod.construct.steps import Compute, NumberName
 from planmethod.note.narrate.forces.common import Telling, closed
-from planmethod.note.narrate.forces.formulas import load_formula, shift_formulas
-from planmethod.note.plaintext import given
+from planmethod.note.narrate.forces.resultants import shift_symbol
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.plans.forces.board import Given
-from planmethod.plans.forces.loads import LoadKind, Shift
+from planmethod.plans.forces.loads import Applied, LoadKind, Shift
+from planmethod.plans.model import PlanKind
 from planmethod.problem.load_records import Against, Mass
-from planmethod.problem.model import Convention
 
 
 class LoadVoice:
@@ -18,15 +19,67 @@ class LoadVoice:
 
     def __init__(self, telling: Telling) -> None:
         self.telling, self.reading = telling, telling.reading
-        self.said, self.words = telling.said, telling.words
+        self.said, self.units = telling.said, telling.units
+        self.short, self.found = telling.short, telling.found
+
+    # Formulas --------------------------------------------------------------------------------
+
+    def formulas(self) -> list[str]:
+        """Return the weights and the inertia forces and couples with their formulas.
+
+        A force of inertia that stands for its couple as well has couple and shift beside it.
+        """
+        lines, index, board = [], self.reading.index, self.reading.statics.board
+        for load in board.given:
+            one = load.applied
+            if one.kind is LoadKind.EXTERNAL or not (one.force[index] or one.couple[index]):
+                continue
+            lines.append(self.formula(load))
+            shift = board.shifts.get(one.link) if one.kind is LoadKind.INERTIA else None
+            if shift is not None and shift.moment.couple[index]:
+                lines += self.shifted(load, shift)
+        return lines
+
+    def formula(self, load: Given) -> str:
+        """Return a weight, an inertia force or couple: ``Φ_{2} = m_{2}·a_{S2} = 40·68,5``..."""
+        segments, couple = self.reading.statics.board.segments, load.couple
+        made = segments.known(load.force.ends) if load.force is not None else couple
+        assert made is not None
+        return self._product(load.applied, made)
+
+    def shifted(self, force: Given, shift: Shift) -> list[str]:
+        """Return the couple that a shifted force of inertia stands for, and the shift."""
+        size, moment = self.reading.read_load(force), self.reading.read_number(shift.couple)
+        metres = self.telling.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
+        letters = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.applied.name}"
+        numbers, found = (
+            f"{self.found(abs(moment))}/{self.found(abs(size))}",
+            self.found(abs(metres)),
+        )
+        told = f"{letters} = {numbers} = {found} {self.units['m']}"
+        return [self._product(shift.moment, shift.couple), told]
+
+    def _product(self, one: Applied, made: NumberName) -> str:
+        dynamics = self.telling.solution.problem.dynamics
+        assert dynamics is not None
+        mass, inertia = f"m_{{{one.link}}}", f"J_{{S{one.link}}}"
+        letters = {
+            LoadKind.WEIGHT: f"{mass}·g",
+            LoadKind.INERTIA: f"{mass}·a_{{{dynamics.masses[one.link].centre}}}",
+            LoadKind.INERTIA_COUPLE: f"{inertia}·ε_{{{one.link}}}",
+        }[one.kind]
+        step = self.telling.step[made]
+        assert isinstance(step, Compute)
+        factors = (self.short(abs(self.reading.read_number(name))) for name, _ in step.powers)
+        unit, size = self.units["N" if one.point else "N·m"], self.reading.read_number(made)
+        return f"{one.name} = {letters} = {'·'.join(factors)} = {self.found(abs(size))} {unit}"
+
+    # Sentences -------------------------------------------------------------------------------
 
     def scale(self) -> str:
         """Return the scale of the force plans."""
-        newton, mm = self.words.units["N"], self.words.units["mm"]
-        scale = self.reading.scale.per_mm
-        if self.telling.solution.problem.scales.convention is Convention.MM_PER_UNIT:
-            return f"μ_F = {given(1.0 / scale, self.words)} {mm}/{newton}"
-        return f"μ_F = {given(scale, self.words)} {newton}/{mm}"
+        convention = self.telling.solution.problem.scales.convention
+        return scale_inscription(self.reading.scale, convention, self.telling.notation)
 
     def link(self, link: str) -> list[str]:
         """Tell the loads of a link."""
@@ -61,50 +114,43 @@ class LoadVoice:
         couple = float(shift.moment.couple[self.reading.index])
         if not couple:
             return []
-        plain, one = self.telling.plain, load.applied
-        moment, formula = shift_formulas(self.reading, load, shift, self.telling.notation)
-        epsilon = plain(f"ε_{{{one.link}}}")
+        one, (moment, formula) = load.applied, self.shifted(load, shift)
         turning = self.said.inertia_couple.format(
-            formula=plain(moment), exact="", sense=self.telling.sense(couple), epsilon=epsilon
+            formula=moment, exact="", sense=self.telling.sense(couple), epsilon=f"ε_{{{one.link}}}"
         )
         length = abs(self.reading.read_number(shift.length))
         laid = self.said.shift.format(
-            formula=plain(formula),
-            length=plain(self.telling.notation.short(round(length, 2))),
+            formula=formula,
+            length=self.short(round(length, 2)),
             centre=one.point,
             acceleration=f"a_{one.point}",
-            force=plain(one.name),
-            point=plain(shift.letter),
-            couple=plain(shift.moment.name),
+            force=one.name,
+            point=shift.letter,
+            couple=shift.moment.name,
         )
         return [turning, laid]
 
     def _none(self, link: str, mass: Mass, kind: LoadKind) -> Iterator[str]:
         """Tell an inertia force or couple that is none by nature."""
         if kind is LoadKind.INERTIA and mass.mass:
-            symbol = self.telling.plain(f"Φ_{{{link}}}")
-            yield self.said.inertia_zero.format(symbol=symbol, point=mass.centre)
+            yield self.said.inertia_zero.format(symbol=f"Φ_{{{link}}}", point=mass.centre)
         if kind is LoadKind.INERTIA_COUPLE and mass.inertia:
-            symbol, epsilon = (
-                self.telling.plain(f"M_{{Φ{link}}}"),
-                self.telling.plain(f"ε_{{{link}}}"),
+            yield self.said.inertia_couple_zero.format(
+                symbol=f"M_{{Φ{link}}}", epsilon=f"ε_{{{link}}}"
             )
-            yield self.said.inertia_couple_zero.format(symbol=symbol, epsilon=epsilon)
 
     def _load(self, load: Given) -> str:
         one, index, said = load.applied, self.reading.index, self.said
         force, couple = complex(one.force[index]), float(one.couple[index])
         value = couple if one.point is None else abs(force)
         if not value:
-            return said.absent.format(symbol=self.telling.plain(one.name))
+            return said.absent.format(symbol=one.name)
         read = abs(self.reading.read_load(load))
-        is_exact = self.telling.found(read) == self.telling.found(abs(value))
+        is_exact = self.found(read) == self.found(abs(value))
         common = {"point": one.point, "exact": "" if is_exact else self.telling.exactly(value)}
         if one.kind is LoadKind.EXTERNAL:
             return self._external(load, force, couple)
-        common["formula"] = self.telling.plain(
-            load_formula(self.reading, one, read, self.telling.notation)
-        )
+        common["formula"] = self.formula(load)
         match one.kind:
             case LoadKind.WEIGHT:
                 return said.weight.format(**common)
@@ -114,16 +160,16 @@ class LoadVoice:
                 return template.format(acceleration=f"a_{one.point}", **common)
             case LoadKind.INERTIA_COUPLE:
                 sense = self.telling.sense(couple)
-                epsilon = self.telling.plain(f"ε_{{{one.link}}}")
+                epsilon = f"ε_{{{one.link}}}"
                 return said.inertia_couple.format(sense=sense, epsilon=epsilon, **common)
 
     def _external(self, load: Given, force: complex, couple: float) -> str:
-        symbol = self.telling.plain(load.applied.name)
+        symbol = load.applied.name
         if load.applied.point is not None:
-            size = f"{self.telling.found(abs(force))} {self.words.units['N']}"
+            size = f"{self.found(abs(force))} {self.units['N']}"
             point, way = load.applied.point, self.telling.way(force) + self._resisting(load)
             return self.said.force.format(symbol=symbol, size=size, point=point, way=way)
-        size = f"{self.telling.found(abs(couple))} {self.words.units['N·m']}"
+        size = f"{self.found(abs(couple))} {self.units['N·m']}"
         return self.said.couple.format(symbol=symbol, size=size, sense=self.telling.sense(couple))
 
     def _resisting(self, load: Given) -> str:

@@ -1,19 +1,48 @@
-"""The sentences of the equations of moments, and of what they find (уравнения моментов)."""
+"""The equations of moments of one force plan, and where the forces of its guides act (моменты)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from planmethod.note.narrate.forces.common import Telling, closed
-from planmethod.note.narrate.forces.guides import edge_lines
-from planmethod.note.narrate.forces.moment_lines import MomentText, moment_text
+from planmethod.note.narrate.forces.common import Telling, arm_symbol, closed, signed_sum
+from planmethod.note.narrate.given import point_name
+from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments
 from planmethod.solved.forces.guides import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
+CANCELLED = 1e-9
+"""Share of the largest of a position below which known moments are told to cancel."""
+
+
+@dataclass(frozen=True, slots=True)
+class MomentText:
+    """An equation of moments told (уравнение моментов).
+
+    Attributes
+    ----------
+    equation : str
+        In letters, the found one with the sign that it has.
+    arms : tuple of str
+        ``h_{G2} = 20,5`` each, mm; none where no force has an arm.
+    length : str
+        The arm of the found force where it is measured, m; else empty.
+    result : str
+        The found force or couple with numbers; empty where it is nothing.
+    value : float
+        Moment of the found one as the hand has it, N·m or N times the arm's length; positive
+        counter-clockwise.
+    """
+
+    equation: str
+    arms: tuple[str, ...] = ()
+    length: str = ""
+    result: str = ""
+    value: float = 0.0
 
 
 class MomentVoice:
@@ -21,25 +50,113 @@ class MomentVoice:
 
     def __init__(self, telling: Telling, plan: ForcePlan) -> None:
         self.telling, self.plan = telling, plan
-        self.reading, self.said = telling.reading, telling.said
+        self.reading, self.said, self.units = telling.reading, telling.said, telling.units
+        self.found, self.short, self.symbol = telling.found, telling.short, telling.symbol
         self.statics = telling.reading.statics
 
-    def _moment(self, equation: Moments) -> MomentText | None:
+    # Equations -------------------------------------------------------------------------------
+
+    def told(self, equation: Moments) -> MomentText | None:
+        """Return an equation of moments told; None where there is no couple to be found."""
+        reading, edge, couple = self.reading, equation.force, equation.couple
+        forces = [
+            (known.symbol, reading.read(known), reading.arm(known, equation.about))
+            for known in equation.edges
+            if not reading.is_none(known)
+        ]
+        forces = [(name, size, arm) for name, size, arm in forces if size and arm]
+        couples = [
+            (self.symbol(known.symbol), reading.read_number(known.moment))
+            for known in equation.couples
+            if not reading.is_no_couple(known)
+        ]
         head = f"ΣM_{{{equation.about}}}"
-        return moment_text(self.reading, equation, self.telling.notation, head)
+        if self.telling.names.on_sheet:  # where no sentence tells the links
+            head = f"Σ_{{{','.join(equation.links)}}}M_{{{point_name(str(equation.about))}}}"
+        arm, length, measured = "", "", ""
+        if edge is not None:
+            symbol, unit, nothing, value = (
+                edge.symbol,
+                "N",
+                reading.is_none(edge),
+                reading.read(edge),
+            )
+            peak, turn = reading.peak, 1.0 if reading.turns(edge, equation.about) else -1.0
+            arm, length, measured = self._arm(equation, edge)
+        else:
+            assert couple is not None
+            symbol, unit, nothing = self.symbol(couple.symbol), "N·m", reading.is_no_couple(couple)
+            value, peak, turn = reading.read_number(couple.moment), reading.peak_moment, 1.0
+        if nothing and not forces and not couples:
+            return None if edge is None else MomentText(f"{head} = 0: {symbol} = 0")
+        cancel, value = abs(value) <= CANCELLED * peak, 0.0 if nothing else turn * value
+        letters = [(a, f"{name}·{arm_symbol(name)}") for name, _, a in forces]
+        letters += [(moment, name) for name, moment in couples]
+        letters.append((value, "·".join(filter(None, (symbol, arm)))))
+        numbers = self._numbers(forces, couples, 1.0 if value < 0 else -1.0)
+        if length:
+            numbers = f"({numbers})/{length}" if " " in numbers else f"{numbers}/{length}"
+        result = f"= {self.found(abs(value))} {self.units[unit]}" if value else "≈ 0"
+        return MomentText(
+            f"{head} = {signed_sum(letters)} = 0",
+            tuple(f"{arm_symbol(n)} = {self.telling.ruled(abs(a))}" for n, _, a in forces),
+            measured,
+            f"{symbol} = {numbers} {'= 0' if cancel and not value else result}"
+            if forces or couples
+            else f"{symbol} ≈ 0",
+            value,
+        )
+
+    def _arm(self, equation: Moments, edge: Edge) -> tuple[str, str, str]:
+        """Return the letters and the length, m, of the arm of a tangential component.
+
+        The third is how it was measured, where no given length tells it.
+        """
+        metres, (first, *more) = self.short(self.reading.read_product(equation.arm)), equation.arm
+        if not more:
+            return self.telling.names.symbol(first[0]), metres, ""
+        letters = f"l_{{{edge.at}{equation.about}}}"
+        length = self.telling.on_drawing(self.telling.ruled(self.reading.read_number(first[0])))
+        return letters, metres, f"{letters} = {length} = {metres} {self.units['m']}"
+
+    def _numbers(
+        self,
+        forces: Sequence[tuple[str, float, float]],
+        couples: Sequence[tuple[str, float]],
+        turn: float,
+    ) -> str:
+        """Return the known moments with numbers, those of forces in one bracket."""
+        terms: list[tuple[float, str]] = []
+        if forces:
+            inside = signed_sum(
+                [
+                    (turn * arm, f"{self.found(size)}·{self.telling.ruled(abs(arm))}")
+                    for _, size, arm in forces
+                ]
+            )
+            inside = f"({inside})" if len(forces) > 1 or inside.startswith(MINUS) else inside
+            terms.append((1.0, self.telling.on_drawing(inside)))
+        terms += [(turn * moment, self.found(abs(moment))) for _, moment in couples]
+        return signed_sum(terms)
+
+    def lines(self, equation: Moments) -> list[str]:
+        """Return an equation of moments, its arms, and what it gives; nothing where all is zero."""
+        told = self.told(equation)
+        if told is None:
+            return []
+        arms = f"{'; '.join(told.arms)} {self.units['mm']}" if told.arms else ""
+        return [line for line in (told.equation, arms, told.length, told.result) if line]
 
     def _sum(self, equation: Moments, told: MomentText) -> list[str]:
         """Return the sum of moments in letters and the arms."""
         template = self.said.moments_link if len(equation.links) == 1 else self.said.moments_links
         lines = [
             template.format(links=", ".join(equation.links), point=equation.about),
-            self.telling.plain(told.equation) + ("," if told.result else "."),
+            told.equation + ("," if told.result else "."),
         ]
         if told.arms:
-            lines.append(self.said.arms.format(arms="; ".join(map(self.telling.plain, told.arms))))
-        if told.length:
-            lines.append(f"{self.telling.plain(told.length)};")
-        return lines
+            lines.append(self.said.arms.format(arms="; ".join(told.arms)))
+        return [*lines, *([f"{told.length};"] if told.length else [])]
 
     def before(self) -> Iterator[list[str]]:
         """Tell the moments that give a component, or balance a crank: before the plan is drawn."""
@@ -53,32 +170,34 @@ class MomentVoice:
         return couple.moment == self.statics.driving.balance
 
     def _component(self, equation: Moments, edge: Edge) -> list[str]:
-        told, point = self._moment(equation), equation.about
+        told, point = self.told(equation), equation.about
         assert told is not None
         lines = self._sum(equation, told)
         if not told.result:
             return [*lines, self.said.no_moments.format(point=point)]
         if not told.value:
-            return [*lines, f"{self.telling.plain(told.result)}."]
-        symbol, sense = self.telling.plain(edge.symbol), self.telling.sense(told.value)
+            return [*lines, f"{told.result}."]
+        sense = self.telling.sense(told.value)
         exact = self.telling.exactly(abs(self.reading.force(edge)))
-        turns = self.said.turns.format(symbol=symbol, link=edge.on, point=point, sense=sense)
-        return [*lines, f"{self.telling.plain(told.result)}{exact}.", turns]
+        turns = self.said.turns.format(symbol=edge.symbol, link=edge.on, point=point, sense=sense)
+        return [*lines, f"{told.result}{exact}.", turns]
 
     def _balancing(self, equation: Moments, couple: CoupleOn) -> list[str]:
-        told = self._moment(equation)
+        told = self.told(equation)
         if told is None:
-            zero = f"{self.telling.plain(couple.symbol)} = 0."
+            zero = f"{self.symbol(couple.symbol)} = 0."
             return [self.said.no_moments.format(point=equation.about), zero]
         return [*self._sum(equation, told), self._couple(told, couple)]
 
     def _couple(self, told: MomentText, couple: CoupleOn) -> str:
         """Return a found couple with numbers, its exact value and its sense."""
         if not told.value:
-            return f"{self.telling.plain(told.result)}."
+            return f"{told.result}."
         exact = self.telling.exactly(self.reading.number(couple.moment))
         sense = self.said.directed.format(sense=self.telling.sense(told.value))
-        return f"{self.telling.plain(told.result)}{exact}{sense}"
+        return f"{told.result}{exact}{sense}"
+
+    # Guides ----------------------------------------------------------------------------------
 
     def guides(self) -> Iterator[list[str]]:
         """Tell the moments of the guides and where their forces act."""
@@ -88,44 +207,79 @@ class MomentVoice:
                 yield self._guide(equation, couple)
 
     def _guide(self, equation: Moments, couple: CoupleOn) -> list[str]:
-        said, point = self.said, str(equation.about)
-        guided = guide_of(self.reading, couple)
+        said, guided = self.said, guide_of(self.reading, couple)
         assert guided is not None, "a couple that a plan finds is the driver's or a guide's"
-        moment, force = (self.telling.plain(guided.symbol(letter)) for letter in "MF")
-        symbols = {"moment": moment, "force": force, "point": point}
-        told = self._moment(equation)
+        symbols = {"moment": guided.symbol("M"), "force": guided.symbol("F")}
+        symbols["point"] = str(equation.about)
+        told = self.told(equation)
         if told is None:
-            links = ", ".join(equation.links)
-            return [said.guide_through.format(link=links, **symbols)]
+            return [said.guide_through.format(link=", ".join(equation.links), **symbols)]
         lines = [*self._sum(equation, told), self._couple(told, couple)]
         if not told.value:
             return [*lines, said.guide_cancelled.format(**symbols)]
-        size = guided.read_force
-        if guided.is_none or not size:
-            sign = "=" if guided.is_none else "≈"
-            lines.append(said.guide_couple.format(sign=sign, **symbols))
-            return [*lines, *self._edges(guided, said.guide_pair)]
-        pressing = guided.reaction.force
-        pressing = pressing if guided.sense > 0 else pressing.reversed()
-        symbols["arm"] = self.telling.plain(guided.own.symbol("l"))
-        lines.append(self._acts(pressing, told.value, size, symbols))
-        return [*lines, *self._edges(guided, said.guide_edges)]
+        edges = self._edges(guided)
+        if guided.is_read:
+            pressing = guided.reaction.force
+            pressing = pressing if guided.sense > 0 else pressing.reversed()
+            symbols |= {"formula": self._place(guided), "side": self._side(pressing, told.value)}
+            lines.append(said.guide_at.format(**symbols))
+        else:
+            lines.append(said.guide_couple.format(sign="=" if guided.is_none else "≈", **symbols))
+        head = said.guide_edges if guided.is_read else said.guide_pair
+        return [*lines, *([head, *closed(edges)] if edges else [])]
 
-    def _edges(self, guided: Guided, head: str) -> list[str]:
-        """Tell what acts at the edges of a slider that is too short for the resultant."""
-        formulas = [self.telling.plain(line) for line in edge_lines(guided, self.telling.notation)]
-        return [head, *closed(formulas)] if formulas else []
-
-    def _acts(self, force: Force, moment: float, size: float, symbols: dict[str, str]) -> str:
-        """Tell where on its guide a force acts."""
-        say = self.telling.notation
-        numbers = f"{say.found(abs(moment))}/{say.found(size)}"
+    def _side(self, force: Force, moment: float) -> str:
+        """Tell on which side of its joint a force acts."""
         away = -1j * self.reading.by_hand(force.tail, force.head) * moment
         quarter = round(float(np.degrees(np.angle(away))) / 90.0) % 4
-        distance = f"{say.found(abs(moment) / size)} {say.units['m']}"
-        return self.said.guide_at.format(
-            numbers=self.telling.plain(numbers),
-            distance=self.telling.plain(distance),
-            side=getattr(self.said, f"side_{SIDES[quarter]}"),
-            **symbols,
-        )
+        return str(getattr(self.said, f"side_{SIDES[quarter]}"))
+
+    def places(self) -> list[str]:
+        """Return how far from its joint each guide's reaction acts.
+
+        Of a force at the edges of its slider also what acts there.
+        """
+        found = (guide_of(self.reading, one.couple) for one in self.plan.moments if one.couple)
+        here = [guided for guided in found if guided is not None]
+        in_joints = [one.own.symbol("l") for one in here if one.is_no_couple and one.is_read]
+        lines = [f"{' = '.join(in_joints)} = 0"] if in_joints else []
+        for one in here:
+            if not one.is_no_couple:
+                lines += [*([self._place(one)] if one.is_read else []), *self._edges(one)]
+        return lines
+
+    def _place(self, guided: Guided) -> str:
+        """Return how far from its joint the reaction of a guide acts."""
+        letters = f"{guided.own.symbol('l')} = {guided.symbol('M')}/{guided.symbol('F')}"
+        numbers = f"{self.found(guided.read_moment)}/{self.found(guided.read_force)}"
+        return f"{letters} = {numbers} = {self.found(guided.read_distance)} {self.units['m']}"
+
+    def _edges(self, guided: Guided) -> list[str]:
+        """Return what acts at the edges of a slider that does not reach as far as the resultant.
+
+        Of a reaction without a force it is the couple that is left.
+        """
+        length = guided.contact.length
+        if length is None or not guided.edges:
+            return []
+        if not guided.is_read:
+            names = " = ".join(guided.own.symbol("F", primes) for primes in ("'", "''"))
+            formula = f"{guided.symbol('M')}/{guided.own.symbol('a')}"
+            numbers = f"{self.found(guided.read_moment)}/{self.short(length)}"
+            found = self.found(guided.read_moment / length)
+            return [f"{names} = {formula} = {numbers} = {found} {self.units['N']}"]
+        force, distance = guided.read_force, guided.read_distance
+        if not guided.centred or distance <= length / 2:
+            return []
+        arm, a, f = (guided.symbol(letter) for letter in "laF")
+        half = self.short(length / 2)
+        lines = [f"{arm} > {a}/2 = {half} {self.units['m']}"]
+        stronger = abs(guided.edges[0].force) > abs(guided.edges[1].force)
+        for primes, is_near in (("'", stronger), ("''", not stronger)):
+            sign = "+" if is_near else MINUS
+            size = force * (distance + (length if is_near else -length) / 2) / length
+            numbers = f"{self.found(force)}·({self.found(distance)} {sign} {half})"
+            formula = f"{f}·({arm} {sign} {a}/2)/{a} = {numbers}/{self.short(length)}"
+            name = guided.symbol("F", primes)
+            lines.append(f"{name} = {formula} = {self.found(size)} {self.units['N']}")
+        return lines

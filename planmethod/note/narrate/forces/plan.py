@@ -16,13 +16,10 @@ from planmethod.construct.steps import (
 )
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.common import Telling, closed
-from planmethod.note.narrate.forces.formulas import closing_formula
-from planmethod.note.plaintext import given
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Share, reaction_symbol
 from planmethod.plans.model import Relation
-from planmethod.problem.model import Convention
 
 
 class ForceVoice:
@@ -65,7 +62,7 @@ class ForceVoice:
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
         drive = self.telling.solution.problem.drive.link
         if self.plan.links == (drive,):
-            symbol = self.telling.plain(self.reading.balancing_symbol)
+            symbol = self.telling.symbol(self.reading.balancing_symbol)
             template = said.and_balance[self.reading.balancing.quantity]
             balancing = template.format(symbol=symbol)
             return [
@@ -79,7 +76,7 @@ class ForceVoice:
             normal, tangential = self._components(whole)
             line = self.telling.base(normal)
             symbols = {"whole": whole, "normal": normal, "tangential": tangential}
-            said_of = {key: self.telling.plain(edge.symbol) for key, edge in symbols.items()}
+            said_of = {key: self.telling.symbol(edge.symbol) for key, edge in symbols.items()}
             lines.append(said.components.format(line=line, **said_of))
         return lines + self._known
 
@@ -89,7 +86,7 @@ class ForceVoice:
     def _reaction(self, reaction: Reaction) -> str:
         said = self.said
         by = said.from_frame if reaction.by == FRAME else said.from_link.format(link=reaction.by)
-        symbol = self.telling.plain(reaction.force.symbol)
+        symbol = self.telling.symbol(reaction.force.symbol)
         return said.reaction.format(symbol=symbol, by=by, point=reaction.joint)
 
     def _components(self, whole: Edge) -> tuple[Edge, Edge]:
@@ -110,7 +107,7 @@ class ForceVoice:
             for letter in "F" if self._is_still(r) else "FM":
                 own = reaction_symbol(r.by, r.on, letter=letter)
                 other = reaction_symbol(r.on, r.by, letter=letter)
-                told.append(self.telling.plain(f"{own} = −{other}"))
+                told.append(self.telling.symbol(f"{own} = −{other}"))
         return [self.said.passed_on.format(reactions=", ".join(told))] if told else []
 
     def _is_nothing(self, reaction: Reaction) -> bool:
@@ -152,10 +149,21 @@ class ForceVoice:
         yield [self.said.read_off, *closed([self._read(edge) for edge in self.plan.reactions])]
 
     def _read(self, edge: Edge) -> str:
-        text = self.telling.plain(closing_formula(self.reading, edge, self.telling.notation))
+        text = self.closing(edge)
         if self.reading.is_none(edge):
             return text
         return text + self.telling.exactly(abs(self.reading.force(edge)))
+
+    def closing(self, edge: Edge) -> str:
+        """Return a force read off its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
+        symbol, length = self.telling.symbol(edge.symbol), self.reading.length(edge)
+        if self.reading.is_none(edge):
+            return f"{symbol} = 0"
+        if not length:
+            return f"{symbol} ≈ 0"
+        numbers = self.telling.scaled(self.telling.ruled(length), self.reading.scale.per_mm)
+        size = self.telling.found(self.reading.read(edge))
+        return f"{symbol} = {numbers} = {size} {self.telling.units['N']}"
 
     def _tangential(self, edge: Edge) -> list[str]:
         """Tell the laying off of a component that moments have found."""
@@ -174,7 +182,7 @@ class ForceVoice:
         edge = self._side(step.origin, step.out)
         source = self._source(step)
         if source is not None:
-            other = self.telling.plain(source.force.symbol)
+            other = self.telling.symbol(source.force.symbol)
             return self._lay(
                 edge, self.said.way_back.format(other=other), back=edge.tail == step.out
             )
@@ -217,8 +225,8 @@ class ForceVoice:
     def _lay(self, edge: Edge, way: str, *, back: bool = False) -> list[str]:
         """Tell a vector laid off; of nothing, nothing."""
         new, old = (edge.tail, edge.head) if back else (edge.head, edge.tail)
-        symbol = self.telling.plain(edge.symbol)
-        length = abs(self.reading.by_hand(edge.tail, edge.head))
+        symbol = self.telling.symbol(edge.symbol)
+        length = self.reading.length(edge)
         if self.reading.is_none(edge) or not length:
             self._ends[new] = self._ends[old]
             if self.reading.is_none(edge):
@@ -227,23 +235,17 @@ class ForceVoice:
         template = self.said.lay_before if back else self.said.lay_off
         if not self._begun and not back:
             template = self.said.lay_first
-        said = {"of": self._ends[old], "way": way, "symbol": symbol, "length": self._length(length)}
+        said = {"of": self._ends[old], "way": way, "symbol": symbol, "length": self._length(edge)}
         self._begun = True
         phrase = self.said.of_tail if back else self.said.of_head
         self._ends[new] = phrase.format(symbol=symbol)
         return [template.format(**said)]
 
-    def _length(self, length: float) -> str:
+    def _length(self, edge: Edge) -> str:
         """Return how the length of a force on the plan is computed."""
-        say, scale = self.telling.notation, self.reading.scale.per_mm
-        inverse = self.telling.solution.problem.scales.convention is Convention.MM_PER_UNIT
-        newtons = say.found(length * scale)
-        formula = (
-            f"{newtons}·{say.short(1.0 / scale)}" if inverse else f"{newtons}/{say.short(scale)}"
-        )
-        return self.telling.plain(
-            f"{formula} = {say.short(float(f'{length:.4g}'))} {say.units['mm']}"
-        )
+        telling, newtons = self.telling, self.telling.found(self.reading.read(edge))
+        formula = telling.scaled(newtons, self.reading.scale.per_mm, back=True)
+        return f"{formula} = {telling.short(self.reading.length(edge), 4)} {telling.units['mm']}"
 
     # Closing ---------------------------------------------------------------------------------
 
@@ -267,7 +269,7 @@ class ForceVoice:
 
     def _carried_by(self, line: LineName, out: PointName) -> Edge:
         """Return the side of the plan that lies on a line."""
-        step = next(s for s in self.statics.program.steps if s.out == line)
+        step = self.telling.step[line]
         assert isinstance(step, Parallel | Perpendicular)
         ends = {step.through, out}
         return next(e for e in self._edges if e.direction and {e.tail, e.head} == ends)
@@ -282,8 +284,8 @@ class ForceVoice:
                 template = self.words.draw_perpendicular
             case _:
                 template = self.words.draw_at_angle
-                angle = given(float(f"{edge.direction.angle:.4g}"), self.words)
-        symbol = self.telling.plain(edge.symbol)
+                angle = self.telling.short(edge.direction.angle, 4)
+        symbol = self.telling.symbol(edge.symbol)
         text = template.format(of=of, base=base, angle=angle)
         return f"{text}{self.words.carries.format(symbol=symbol)}."
 
@@ -292,7 +294,7 @@ class ForceVoice:
 
     def _span(self, edge: Edge) -> dict[str, str]:
         return {
-            "symbol": self.telling.plain(edge.symbol),
+            "symbol": self.telling.symbol(edge.symbol),
             "tail": self._ends[edge.tail],
             "head": self._ends[edge.head],
         }
@@ -308,7 +310,7 @@ class ForceVoice:
             elif same:
                 yield [
                     self.said.same.format(
-                        link=edge.on, symbol=self.telling.plain(edge.symbol), same=same
+                        link=edge.on, symbol=self.telling.symbol(edge.symbol), same=same
                     )
                 ]
             elif edge == self.plan.inner:
@@ -319,9 +321,9 @@ class ForceVoice:
 
     def _whole(self, edge: Edge) -> str:
         parts = [e for e in self._components(edge) if not self.reading.is_none(e)]
-        text = " + ".join(self.telling.plain(part.symbol) for part in parts)
+        text = " + ".join(self.telling.symbol(part.symbol) for part in parts)
         if len(parts) == 1:
-            return self.said.whole_single.format(symbol=self.telling.plain(edge.symbol), part=text)
+            return self.said.whole_single.format(symbol=self.telling.symbol(edge.symbol), part=text)
         return self.said.whole.format(parts=text, **self._span(edge))
 
     def _same(self, edge: Edge) -> str:
@@ -334,5 +336,5 @@ class ForceVoice:
             ends = (self._ends[other.tail], self._ends[other.head])
             if ends in ((tail, head), (head, tail)):
                 sign = "" if ends == (tail, head) else "−"
-                return f"{sign}{self.telling.plain(other.symbol)}"
+                return f"{sign}{self.telling.symbol(other.symbol)}"
         return ""

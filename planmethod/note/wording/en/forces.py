@@ -49,8 +49,7 @@ FORCES = ForceWording(
     turns="{symbol} turns link {link} about point {point} {sense}.",
     no_moments="The known forces have no moment about point {point}.",
     directed=", {sense}.",
-    guide_at="The force {force} acts {arm} = {moment}/{force} = {numbers} = {distance} from point "
-    "{point}, {side}.",
+    guide_at="The force {force} acts {formula} from point {point}, {side}.",
     guide_through="The other forces on link {link} have no moment about point {point}, so that "
     "{moment} = 0 and {force} goes through point {point}.",
     guide_couple="{force} {sign} 0: the guide gives a couple of the moment {moment} alone.",

@@ -103,7 +103,6 @@ NOTE = Wording(
     "{joint} {sense}.",
     turning_zero="{symbol} = 0: the segment {segment} is zero.",
     unreadable="{symbol} is not readable on this plan: the ruler reads {divisor} = 0.",
-    unreadable_value="{symbol} is not readable on this plan (exactly {exact})",
     unreadable_points="Cannot be drawn from what is read: {points}. Exact values: see the results.",
     similar_on="By the similarity theorem point {point} lies on the segment {segment}: from {of} "
     "we lay off {part}{coincide}.",

@@ -50,8 +50,7 @@ FORCES = ForceWording(
     turns="{symbol} поворачивает звено {link} вокруг точки {point} {sense}.",
     no_moments="Известные силы момента относительно точки {point} не дают.",
     directed=", направлен {sense}.",
-    guide_at="Точка приложения {force} отстоит от точки {point} на {arm} = {moment}/{force} = "
-    "{numbers} = {distance} {side}.",
+    guide_at="Точка приложения {force} отстоит от точки {point} на {formula} {side}.",
     guide_through="Остальные силы звена {link} не дают момента относительно точки {point}, поэтому "
     "{moment} = 0 и {force} проходит через точку {point}.",
     guide_couple="{force} {sign} 0: направляющая передаёт только пару с моментом {moment}.",

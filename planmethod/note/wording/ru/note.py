@@ -103,7 +103,6 @@ NOTE = Wording(
     "точки {joint} {sense}.",
     turning_zero="{symbol} = 0: отрезок {segment} равен нулю.",
     unreadable="{symbol} на этом плане не читается: линейка снимает {divisor} = 0.",
-    unreadable_value="{symbol} на этом плане не читается (точно {exact})",
     unreadable_points="По снятому не построить: {points}. Точные значения — в таблице результатов.",
     similar_on="По теореме подобия точка {point} лежит на отрезке {segment}: откладываем от {of} "
     "отрезок {part}{coincide}.",

@@ -1,0 +1,323 @@
+"""Why a position has no results, or doubtful ones: facts, and the sentence of each (отказы).
+
+Who finds a failure fills a record; a message is its ``str``. So positions are numbered anew and
+told of in common without a look at the words.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from planmethod.errors import AssemblyError
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Coordinate, Problem
+from planmethod.solved.reading import Reals
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Position that is told of (положение ведущего звена).
+
+    Attributes
+    ----------
+    number : int
+        Among those that were asked, from 1.
+    value : float
+        Of the driver, degrees, or m of a slider.
+    coordinate : Coordinate
+    """
+
+    number: int
+    value: float
+    coordinate: Coordinate
+
+    @classmethod
+    def of(cls, problem: Problem, positions: Reals, index: int) -> Place:
+        """Return the position of an index, from 0."""
+        return cls(index + 1, float(positions[index]) + 0.0, problem.drive.coordinate)
+
+    @property
+    def driver(self) -> str:
+        """Where the driver stands, without the unit: ``phi = 30``."""
+        return f"{self.coordinate.name} = {self.value:.12g}"
+
+    def __str__(self) -> str:
+        return f"position {self.number} ({self.driver} {self.coordinate.unit})"
+
+
+class Cause(Enum):
+    """Why a position has no results: its sentence, and what of it holds for no other position.
+
+    In the sentence ``{at}`` and ``{this}`` stand for the position, ``{own}`` for the second text;
+    ``{p}`` and ``{l}`` are the points and lengths of a `Failure`.
+    """
+
+    NOT_FINITE = ("{problem}: a value is not finite although every step exists.", "")
+    NO_NUMBER = ("{This} is not a number.", "")
+    AT_LIMIT = ("{This} is at an impossible one.", "")
+    NO_DIRECTION = (
+        "Cannot go on{at}: {p[0]} and {p[1]} coincide, so that the line {p[0]}{p[1]} has no "
+        "direction. The mechanism stands in a dead position there; ask another one.",
+        "",
+    )
+    FORCES = (
+        "Cannot close the force plan{at}: the mechanism stands in a dead position, where no forces "
+        "balance the loads. Ask another position.",
+        "",
+    )
+    SAME_ARCS = (
+        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]:.4g} m) and {p[1]} ({l[1]:.4g} m) "
+        "coincide, {p[0]} and {p[1]} being at one place. This dead position is a change point: the "
+        "mechanism may go on either way. Ask another one.",
+        "",
+    )
+    ARCS = (
+        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]:.4g} m) and {p[1]} ({l[1]:.4g} m) do not "
+        "meet{own}.",
+        ", |{p[0]}{p[1]}| = {l[2]:.4g} m. Check l_{p[0]}{out}, l_{p[1]}{out}. The arcs miss by "
+        "{l[3]:.4g} m",
+    )
+    ARC = (
+        "Cannot place {out}{at}: the arc from {p[0]} ({l[0]:.4g} m) does not reach the guide of "
+        "{out}. Check l_{p[0]}{out} and the place of the guide.",
+        "",
+    )
+    TANGENT = (
+        "Cannot turn the slotted link about {p[0]}{at}: its line stands off {p[0]} by {l[0]:.4g} "
+        "m{own}. Check the offset.",
+        ", but {p[1]} is only {l[1]:.4g} m away",
+    )
+    GUIDES = (
+        "Cannot place {out}{at}: its two guides are parallel. Ask another position, or check their "
+        "angles.",
+        "",
+    )
+    RAYS = (
+        "Cannot close the {plan} plan{at}: the rays that meet in {out} are parallel, the mechanism "
+        "stands in a dead position. Ask another position: there the velocities are not determined "
+        "by the driver.",
+        "",
+    )
+    SIMILAR = (
+        "Cannot find {out} by similarity{at}: {p[0]} and {p[1]} of its triangle coincide. Ask "
+        "another position.",
+        "",
+    )
+    STEP = (
+        "Step {out} is impossible{at}: two points that give a direction coincide there. Ask "
+        "another position.",
+        "",
+    )
+    TOGETHER = (
+        "{problem}: at {driver} both closings put {out} at one place: the mechanism stands in a "
+        "dead position, from which it may go on either way. Ask another position.",
+        "",
+    )
+    NEITHER = (
+        "'{out}' holds for neither closing at {driver}: they miss it by {l[0]:.6g} m and "
+        "{l[1]:.6g} m. Check the lengths or the rule assembly.{p[0]}.",
+        "",
+    )
+    SPOILT_NEAR = (
+        "{problem}: {this} stands so near a dead position{own} that rounding spoils its results."
+        "{more} Ask a position further away.",
+        " (margin {margin:.1e})",
+    )
+    SPOILT = (
+        "{problem}: {this} hangs on such small differences of large values that rounding spoils "
+        "its results.{more} Ask a position further away.",
+        "",
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why a position has no results (отказ).
+
+    Attributes
+    ----------
+    out : str
+        What cannot be found, by its letters.
+    points : tuple of str
+        Points that it was to be found from.
+    lengths : tuple of float
+        As the sentence needs them, m: radii, the distance of the centres, what is missing.
+    plan : PlanKind
+    margin : float
+        Of the steps of the position.
+    problem : str
+        Its name.
+    alike, others, count : int
+        How many other positions fail for the same cause, and for others, of how many.
+    """
+
+    cause: Cause
+    place: Place
+    out: str = ""
+    points: tuple[str, ...] = ()
+    lengths: tuple[float, ...] = ()
+    plan: PlanKind = PlanKind.POSITION
+    margin: float = 1.0
+    problem: str = ""
+    alike: int = 0
+    others: int = 0
+    count: int = 1
+
+    def numbered(self, number: int) -> Failure:
+        """Return the failure with another number of its position, from 1."""
+        return replace(self, place=replace(self.place, number=number))
+
+    @property
+    def general(self) -> str:
+        """What is true of every position that fails so."""
+        return self._sentence("", "this position", whole=False)
+
+    def __str__(self) -> str:
+        more = "" if self.cause in (Cause.SPOILT, Cause.SPOILT_NEAR) else self._more()
+        return self._sentence(f" at {self.place}", str(self.place), whole=True) + more
+
+    def _more(self) -> str:
+        text = same_at(self.alike, self.count)
+        return text + (f" Other steps fail at {self.others} positions." if self.others else "")
+
+    def _sentence(self, at: str, this: str, *, whole: bool) -> str:
+        sentence, own = self.cause.value
+        facts = {
+            "at": at,
+            "this": this,
+            "This": this[0].upper() + this[1:],
+            "driver": self.place.driver,
+            "out": self.out,
+            "p": self.points,
+            "l": self.lengths,
+            "plan": self.plan.value,
+            "margin": self.margin,
+            "problem": self.problem,
+            "more": f" So do {self.alike} other positions." if whole and self.alike else "",
+        }
+        return sentence.format(**facts, own=own.format(**facts) if whole else "")
+
+
+def same_at(alike: int, count: int) -> str:
+    """Return how many other positions share the lot of one that was told, if any do."""
+    return f" The same holds at {alike} more of {count} positions." if alike else ""
+
+
+class PositionError(AssemblyError):
+    """A position has no results; `failure` says why."""
+
+    def __init__(self, failure: Failure) -> None:
+        self.failure = failure
+        super().__init__(str(failure))
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """Position whose results are good to few digits (сомнительное положение).
+
+    Attributes
+    ----------
+    near : bool
+        It is next to a dead one.
+    margin : float
+    bound : float
+        Of the relative error of the worst result.
+    """
+
+    place: Place
+    near: bool
+    margin: float
+    bound: float
+
+    def __str__(self) -> str:
+        nature = (
+            f"next to a dead position (margin {self.margin:.1e})"
+            if self.near
+            else "badly conditioned (its results hang on small differences of large values)"
+        )
+        return (
+            f"{self.place} is {nature}: the worst of its results is good to about {self.bound:.0e} "
+            "of its value."
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class MoreDoubts:
+    """Doubtful positions that are counted only, of how many."""
+
+    more: int
+    count: int
+
+    def __str__(self) -> str:
+        return f"so are {self.more} more of {self.count} positions, less badly."
+
+
+@dataclass(frozen=True, slots=True)
+class Passed:
+    """Change points that a group passes between the asked positions (точка ветвления).
+
+    Attributes
+    ----------
+    places : tuple of float
+        Of the driver, degrees, or m of a slider.
+    point : str
+        Inner joint that a rule of ``[assembly]`` may name; empty where none helps.
+    parallel : bool
+        The group closes a parallelogram.
+    """
+
+    links: tuple[str, ...]
+    places: tuple[float, ...]
+    coordinate: Coordinate
+    point: str = ""
+    parallel: bool = False
+
+    def __str__(self) -> str:
+        places = " and ".join(dict.fromkeys(f"{round(at, 4) + 0.0:.10g}" for at in self.places))
+        text = (
+            f"links {', '.join(self.links)} pass a change point at {self.coordinate.told(places)}, "
+            "from which the mechanism may go on either way: the side that was chosen in the first "
+            "position is kept, so that one branch of the motion passes into another there."
+        )
+        c = self.point
+        ways = [f'{c} = {{ keep = "parallel" }} for the parallelogram'] if self.parallel else []
+        ways += [
+            f'{c} = {{ near = [x, y], keep = "continuous" }} for the motion that goes on smoothly'
+        ]
+        return f"{text} Say in [assembly] {', '.join(ways)}." if c else text
+
+
+@dataclass(frozen=True, slots=True)
+class Contradiction:
+    """Two ways to find a motion that differ: a mistake of ours (противоречие).
+
+    Attributes
+    ----------
+    quantity : str
+        ``length``, ``velocity`` or ``acceleration``
+    point, about, link : str
+        Of a point about another, of a link.
+    error, size : float
+        How far it is off, and the largest value of its kind, SI.
+    """
+
+    problem: str
+    place: Place
+    quantity: str
+    point: str
+    about: str
+    link: str
+    error: float
+    size: float
+
+    def numbered(self, number: int) -> Contradiction:
+        """Return the contradiction with another number of its position, from 1."""
+        return replace(self, place=replace(self.place, number=number))
+
+    def __str__(self) -> str:
+        return (
+            f"{self.problem}: the {self.quantity} of {self.point} about {self.about} on link "
+            f"{self.link} is off by {self.error:.3g} (largest value {self.size:.3g}) at position "
+            f"{self.place.number}. This is a fault of planmethod: please report it."
+        )

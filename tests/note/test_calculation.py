@@ -1,0 +1,107 @@
+"""Formulas beside the plans: they compute to what they say, and the protocol has the same."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from cases import each, some
+from lettered import computed, force_lines
+from loaded import loaded_problem
+from told import LANGUAGES, drawn, worked
+from worked import PROBLEMS, SIX
+
+from planmethod.construct.steps import Compute
+from planmethod.note.narrate.calculation import calculation
+from planmethod.note.narrate.naming import Names
+from planmethod.note.plaintext import plain_text
+from planmethod.note.protocol import protocol
+from planmethod.note.wording import language
+from planmethod.plans.model import PlanKind
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
+
+NAMES = sorted(path.relative_to(PROBLEMS).with_suffix("") for path in PROBLEMS.glob("*/*.toml"))
+SEEDS = range(some(60, few=20))
+PLANS = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
+
+
+def lines_of(solution: Solution, lang: str) -> list[str]:
+    """Return the formulas of both plans, those of one line each for itself."""
+    lines = [line for kind in PLANS for line in calculation(solution, kind, 0, language(lang))]
+    return [part for line in lines for part in line.split(";  ")]
+
+
+def assert_computes(lines: list[str], lang: str) -> int:
+    """Four digits of the numbers put in, of a difference too; returns how many formulas."""
+    count, decimal = 0, language(lang).say.decimal
+    for line in lines:
+        *_, numbers, result = ["", *line.split(" = ")]
+        letters = re.search(r"[^\W\d]", re.sub(r"\^\{.*?\}", "", numbers))
+        if "∼" in line or " " not in result or not numbers or letters:
+            continue  # of one number, or equal to another quantity
+        found, told = computed(result.partition(" ")[0], decimal), computed(numbers, decimal)
+        size = computed(re.sub(r"(?<!\{)−", "+", numbers), decimal)
+        assert abs(told) == pytest.approx(found, abs=1.2e-3 * size + 1e-12), line
+        count += 1
+    return count
+
+
+@each("lang", LANGUAGES)
+@each("name", NAMES)
+def test_every_formula_gives_what_stands_after_it(name: str, lang: str) -> None:
+    assert assert_computes(lines_of(worked(str(name)), lang), lang) >= 8
+
+
+@each("lang", LANGUAGES)
+@each("seed", SEEDS)
+def test_so_does_every_formula_of_any_mechanism(seed: int, lang: str) -> None:
+    assert assert_computes(lines_of(drawn(seed), lang), lang) >= 3
+
+
+@each("lang", LANGUAGES)
+@each("name", NAMES)
+def test_and_every_formula_of_forces(name: str, lang: str) -> None:
+    if worked(str(name)).problem.dynamics is None:
+        pytest.skip("no forces")
+    assert assert_computes(force_lines(ForceReading(worked(str(name)), 0), lang), lang) >= 10
+
+
+@each("seed", SEEDS)
+def test_of_any_loaded_mechanism_too(seed: int) -> None:
+    solution = Solution(loaded_problem(seed)[0])
+    assert assert_computes(force_lines(ForceReading(solution, 0), "ru"), "ru") >= 5
+
+
+@each("lang", LANGUAGES)
+@each("name", SIX)
+def test_the_protocol_has_the_formulas_of_the_sheet(name: str, lang: str) -> None:
+    """But for the letters of its points, which it writes on one line."""
+
+    def bare(text: str) -> str:
+        return re.sub(r"[–\s]", "", plain_text(text)).translate(_LOWERED)
+
+    solution = worked(name)
+    text = bare(protocol(solution, lang=lang))
+    for line in lines_of(solution, lang):
+        *symbols, result = line.split(" = ")
+        if len(symbols) > 1 and "," not in result.removeprefix(result.split(" ")[0]):
+            assert bare(" = ".join([*symbols, result])) in text, line
+
+
+_LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+
+
+@each("seed", SEEDS)
+def test_every_value_of_the_plans_is_told(seed: int) -> None:
+    """What is laid off, what is read, and how the links turn."""
+    solution = drawn(seed)
+    names, lines = Names(solution, language("ru").note, on_sheet=True), lines_of(solution, "ru")
+    symbols = {part for line in lines for part in line.split(" = ")[:-1]}
+    for motion in (names.kin.velocity, names.kin.acceleration):
+        for ends, number in motion.segments.values.items():
+            vector = names.vector(*ends)
+            own = {names.symbol(number), *([vector.symbol] if vector else [])}
+            assert own & symbols or not isinstance(names.step[number], Compute), number
+    for number in (*names.kin.omega.values(), *names.kin.epsilon.values()):
+        assert names.symbol(number) in symbols or not isinstance(names.step[number], Compute)
