@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from enum import Enum
+from enum import Enum, unique
 
 from planmethod.construct.steps import Compute, LayOff, Name, NumberName, PointName
 from planmethod.plans.draft import Draft
@@ -18,68 +18,6 @@ from planmethod.plans.motion.leads import Kinematics
 
 ZERO = "0"
 """Name of the number zero, which nothing in a problem can be called."""
-
-
-class QuantityKind(Enum):
-    """Kind of a quantity (вид величины): its letters, unit, plan, columns; see `KindFacts`."""
-
-    PLACE = "place"
-    VELOCITY = "velocity"
-    ACCELERATION = "acceleration"
-    DIRECTION = "direction"
-    UNIT = "unit"  # the direction as a unit vector
-    OMEGA = "omega"
-    EPSILON = "epsilon"
-    SLIDING = "sliding"  # relative velocity, signed along the slide line
-    CORIOLIS = "coriolis"
-    RELATIVE = "relative"  # relative acceleration, signed along the slide line
-    REACTION = "reaction"
-    MOMENT = "moment"  # of a reaction, or on the crank
-    THRUST = "thrust"  # on the driving slider, along its guide
-
-    @property
-    def letter(self) -> str:
-        """What the name begins with by which it is asked for: ``omega``."""
-        return _FACTS[self].letter
-
-    @property
-    def sign(self) -> str:
-        """Letter of the symbol: ``ω``."""
-        return _FACTS[self].sign or _FACTS[self].letter
-
-    @property
-    def unit(self) -> str:
-        """Unit in SI; degrees of a direction."""
-        return _FACTS[self].unit
-
-    @property
-    def plan(self) -> PlanKind:
-        """Plan that it is found on."""
-        return _FACTS[self].plan
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """What the names of the columns of a table end with; none where the label is the name."""
-        return _FACTS[self].columns
-
-    @property
-    def is_number(self) -> bool:
-        """Whether it is one number and not a vector."""
-        return _FACTS[self].is_number
-
-    @property
-    def is_size(self) -> bool:
-        """Whether the hand finds its size alone, without a sign."""
-        return _FACTS[self].is_size
-
-    @property
-    def is_force(self) -> bool:
-        """Whether it belongs to the force analysis."""
-        return self.plan is PlanKind.FORCE
-
-
-TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
-"""Kinds of what is told of links."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,27 +33,72 @@ class KindFacts:
     is_size: bool = False
 
 
-_POSITION, _V, _A, _F = (
-    PlanKind.POSITION,
-    PlanKind.VELOCITY,
-    PlanKind.ACCELERATION,
-    PlanKind.FORCE,
-)
-_FACTS: dict[QuantityKind, KindFacts] = {
-    QuantityKind.PLACE: KindFacts("", "m", _POSITION, (".x", ".y")),
-    QuantityKind.VELOCITY: KindFacts("v", "m/s", _V, (".vx", ".vy"), is_size=True),
-    QuantityKind.ACCELERATION: KindFacts("a", "m/s²", _A, (".ax", ".ay"), is_size=True),
-    QuantityKind.DIRECTION: KindFacts("phi", "deg", _POSITION, (".phi_deg",), "φ"),
-    QuantityKind.UNIT: KindFacts("u", "1", _POSITION, (".cos", ".sin")),
-    QuantityKind.OMEGA: KindFacts("omega", "1/s", _V, (".omega",), "ω", is_number=True),
-    QuantityKind.EPSILON: KindFacts("epsilon", "1/s²", _A, (".epsilon",), "ε", is_number=True),
-    QuantityKind.SLIDING: KindFacts("v", "m/s", _V, is_number=True, is_size=True),
-    QuantityKind.CORIOLIS: KindFacts("ak", "m/s²", _A, is_number=True, is_size=True),
-    QuantityKind.RELATIVE: KindFacts("ar", "m/s²", _A, is_number=True, is_size=True),
-    QuantityKind.REACTION: KindFacts("F", "N", _F, (".x", ".y", ""), is_size=True),
-    QuantityKind.MOMENT: KindFacts("M", "N·m", _F, ("",), is_number=True),
-    QuantityKind.THRUST: KindFacts("F", "N", _F, ("",), is_number=True),
-}
+_P, _V, _A, _F = PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION, PlanKind.FORCE
+
+
+@unique
+class QuantityKind(Enum):
+    """Kind of a quantity (вид величины): its letters, unit, plan, columns."""
+
+    PLACE = KindFacts("", "m", _P, (".x", ".y"))
+    VELOCITY = KindFacts("v", "m/s", _V, (".vx", ".vy"), is_size=True)
+    ACCELERATION = KindFacts("a", "m/s²", _A, (".ax", ".ay"), is_size=True)
+    DIRECTION = KindFacts("phi", "deg", _P, (".phi_deg",), "φ")
+    UNIT = KindFacts("u", "1", _P, (".cos", ".sin"))  # the direction as a unit vector
+    OMEGA = KindFacts("omega", "1/s", _V, (".omega",), "ω", is_number=True)
+    EPSILON = KindFacts("epsilon", "1/s²", _A, (".epsilon",), "ε", is_number=True)
+    # Of sliding in a pair: the relative velocity and acceleration are signed along the slide line.
+    SLIDING = KindFacts("v", "m/s", _V, is_number=True, is_size=True)
+    CORIOLIS = KindFacts("ak", "m/s²", _A, is_number=True, is_size=True)
+    RELATIVE = KindFacts("ar", "m/s²", _A, is_number=True, is_size=True)
+    REACTION = KindFacts("F", "N", _F, (".x", ".y", ""), is_size=True)
+    # Of a reaction or on the crank; on the driving slider, along its guide.
+    MOMENT = KindFacts("M", "N·m", _F, ("",), is_number=True)
+    THRUST = KindFacts("F", "N", _F, ("",), is_number=True)
+
+    @property
+    def letter(self) -> str:
+        """What the name begins with by which it is asked for: ``omega``."""
+        return self.value.letter
+
+    @property
+    def sign(self) -> str:
+        """Letter of the symbol: ``ω``."""
+        return self.value.sign or self.value.letter
+
+    @property
+    def unit(self) -> str:
+        """Unit in SI; degrees of a direction."""
+        return self.value.unit
+
+    @property
+    def plan(self) -> PlanKind:
+        """Plan that it is found on."""
+        return self.value.plan
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """What the names of the columns of a table end with; none where the label is the name."""
+        return self.value.columns
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is one number and not a vector."""
+        return self.value.is_number
+
+    @property
+    def is_size(self) -> bool:
+        """Whether the hand finds its size alone, without a sign."""
+        return self.value.is_size
+
+    @property
+    def is_force(self) -> bool:
+        """Whether it belongs to the force analysis."""
+        return self.plan is PlanKind.FORCE
+
+
+TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
+"""Kinds of what is told of links."""
 
 
 @dataclass(frozen=True, slots=True)

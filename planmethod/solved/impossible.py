@@ -103,8 +103,8 @@ def _without_length(
 
 
 def _failure(step: Step, place: Place, draft: Draft, real: Any, point: Any) -> Failure:
-    plan = draft.plans[step.out]
-    if plan in (PlanKind.FORCE, PlanKind.LEVER):
+    plan = draft.plans.get(step.out, PlanKind.POSITION)
+    if plan is PlanKind.FORCE:
         return Failure(Cause.FORCES, place)
     letter = draft.letters.get(PointName(step.out), str(step.out))
     match step:
