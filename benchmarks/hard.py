@@ -23,7 +23,7 @@ from planmethod.problem.model import Problem
 from planmethod.solved.results import natural_size
 from planmethod.solved.selfcheck import SelfCheckError, verify, warnings
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import Examined, Verdict, examine
+from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
 
 WRONG = 1e-6
 """Relative error above which a result without a warning is a wrong one."""
@@ -202,7 +202,7 @@ def _ask(blank: HardRow, problem: Problem, position: float, *, many: bool) -> Ha
     return replace(blank, outcome=Outcome.GOOD, warned=0.0)
 
 
-def _add(row: HardRow, found: Examined) -> HardRow:
+def _add(row: HardRow, found: Refereed) -> HardRow:
     """Return a row with what the referee found."""
     size = sizes(found.verdicts)
     kappa, error, error_of = 1.0, 0.0, ""

@@ -15,7 +15,7 @@ from benchmarks.generator import random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.trust.accuracy import Examined, examine
+from planmethod.solved.trust.accuracy import Refereed, examine
 
 POSITIONS = 12
 DIGITS = 40
@@ -85,7 +85,7 @@ def judge(seeds: Sequence[int]) -> Tally:
     return tally
 
 
-def _count(tally: Tally, position: Examined, seed: int) -> None:
+def _count(tally: Tally, position: Refereed, seed: int) -> None:
     tally.positions += 1
     tally.impossible += bool(position.reason)
     tally.disagreed += not position.agreed

@@ -5,36 +5,36 @@ from __future__ import annotations
 import re
 
 from planmethod.note.narrate.forces.common import lettered
-from planmethod.note.narrate.forces.lever import LeverVoice
-from planmethod.note.narrate.forces.loads import LoadVoice
-from planmethod.note.narrate.forces.moments import MomentVoice
-from planmethod.note.narrate.forces.plan import ForceVoice
+from planmethod.note.narrate.forces.lever import LeverNarrator
+from planmethod.note.narrate.forces.loads import LoadNarrator
+from planmethod.note.narrate.forces.moments import MomentNarrator
+from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.wording import language
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.solved.forces.reading import ForceReading
 
 
 def load_lines(reading: ForceReading, lang: str = "ru") -> list[str]:
-    return LoadVoice(lettered(reading, language(lang))).formulas()
+    return LoadNarrator(lettered(reading, language(lang))).formulas()
 
 
 def moment_lines(reading: ForceReading, plan: ForcePlan, lang: str = "ru") -> list[str]:
-    voice = MomentVoice(lettered(reading, language(lang)), plan)
+    voice = MomentNarrator(lettered(reading, language(lang)), plan)
     return [line for equation in plan.moments for line in voice.lines(equation)]
 
 
 def place_lines(reading: ForceReading, plan: ForcePlan, lang: str = "ru") -> list[str]:
-    return MomentVoice(lettered(reading, language(lang)), plan).places()
+    return MomentNarrator(lettered(reading, language(lang)), plan).places()
 
 
 def closing_lines(reading: ForceReading, number: int, lang: str = "ru") -> list[str]:
     plan = reading.plans[number]
-    voice = ForceVoice(lettered(reading, language(lang)), plan, number)
+    voice = ForcePlanNarrator(lettered(reading, language(lang)), plan, number)
     return [voice.closing(edge) for edge in plan.reactions]
 
 
 def lever_lines(reading: ForceReading, lang: str = "ru") -> list[str]:
-    return LeverVoice(lettered(reading, language(lang))).lines()
+    return LeverNarrator(lettered(reading, language(lang))).lines()
 
 
 def force_lines(reading: ForceReading, lang: str) -> list[str]:
@@ -43,7 +43,7 @@ def force_lines(reading: ForceReading, lang: str) -> list[str]:
     for number, plan in enumerate(reading.plans):
         lines += moment_lines(reading, plan, lang) + closing_lines(reading, number, lang)
         lines += place_lines(reading, plan, lang)
-    return lines + (lever_lines(reading, lang) if reading.statics.hung is not None else [])
+    return lines + (lever_lines(reading, lang) if reading.statics.lever_plan is not None else [])
 
 
 def computed(numbers: str, decimal: str = ",") -> float:

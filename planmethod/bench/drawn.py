@@ -9,7 +9,7 @@ import numpy as np
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.problem.model import Problem
-from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 from planmethod.solved.solution import Solution
@@ -55,7 +55,7 @@ def compare(problem: Problem, profile: Profile, *, draws: int = DRAWS) -> Compar
             if sigma == 0:
                 continue
             if (
-                drafting.items[label].kind is ItemKind.LENGTH
+                drafting.items[label].kind is DrawnKind.LENGTH
                 and float(np.mean(values)) < SHORT * sigma
             ):
                 short += 1

@@ -35,7 +35,7 @@ from planmethod.options import (
 if TYPE_CHECKING:
     from planmethod.note.records.spreadsheet import Table
     from planmethod.problem.model import Problem
-    from planmethod.solved.many.gaps import Swept
+    from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.positions import Gaps
     from planmethod.solved.solution import Solution
 
@@ -141,7 +141,7 @@ def solve(
         )
     records: list[dict[str, Any]] = []
     tables: list[Table] = []
-    sweeps: list[Swept] = []
+    sweeps: list[GappedSweep] = []
 
     def compute(problem: Problem) -> None:
         if swept:
@@ -278,12 +278,12 @@ def _write_text(tables: list[Table], file: str) -> None:
 
 def _sweep(
     problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
-) -> Swept:
-    from planmethod.solved.many.gaps import Swept
+) -> GappedSweep:
+    from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.results import UnknownResultError
 
     try:
-        made = Swept(problem, _asked(problem, phi), ask)
+        made = GappedSweep(problem, _asked(problem, phi), ask)
     except UnknownResultError as error:
         raise click.UsageError(f"--ask: {problem.name}: {error}") from None
     _tell(problem, made.gaps, made.doubts, partial)
@@ -297,7 +297,7 @@ def _refuse_long(rows: int) -> None:
         )
 
 
-def _refuse_huge(made: Swept) -> None:
+def _refuse_huge(made: GappedSweep) -> None:
     numbers = len(made.names) * len(made.positions)
     if numbers > MOST_NUMBERS:
         most = MOST_NUMBERS // len(made.names)
@@ -308,7 +308,7 @@ def _refuse_huge(made: Swept) -> None:
         )
 
 
-def _write_arrays(sweeps: list[Swept], file: str) -> None:
+def _write_arrays(sweeps: list[GappedSweep], file: str) -> None:
     """Write sweeps into one file; names of several begin with the variant or the problem."""
     from planmethod.note.records.npz import swept_arrays, write_arrays
     from planmethod.render.backends.output import opened

@@ -16,12 +16,12 @@ import numpy.typing as npt
 from planmethod.errors import LayoutError
 from planmethod.problem.load_records import Dynamics, Over, Table
 from planmethod.solved.forces.contact import JointForce
-from planmethod.solved.forces.reading import NOTHING, require_dynamics
+from planmethod.solved.forces.reading import FAINT_SHARE, require_dynamics
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import impossible_steps
 from planmethod.solved.reading import Complexes, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import Course
+from planmethod.solved.travel import Travel
 
 STEP, LEAST = 1.0, 120
 """Step of the crank, degrees, and number of steps at the least: no corner shows on the paper."""
@@ -83,7 +83,7 @@ class Cycle(Remembering):
     def __init__(self, solution: Solution) -> None:
         super().__init__()
         self.solution = solution
-        self.course = Course(solution, step=STEP, least=LEAST)
+        self.course = Travel(solution, step=STEP, least=LEAST)
         self.joints: list[JointForce] = statics_of(solution).reactions
         assert solution.problem.dynamics is not None
         self.smooth = not _only_in_positions(solution.problem.dynamics)
@@ -94,7 +94,7 @@ class Cycle(Remembering):
         self.positions, self._rows, self._jumps = found
 
     def _asked(self) -> Rows:
-        """Return the values of the asked positions, in the order of `Course.drawn`."""
+        """Return the values of the asked positions, in the order of `Travel.drawn`."""
         s = self.solution
         order = np.unique(s.positions, return_index=True)[1]
         if self.course.closed:
@@ -188,7 +188,7 @@ class Cycle(Remembering):
     def is_nothing(self, number: int) -> bool:
         """Tell whether a reaction is nothing beside the largest one, all over."""
         largest = float(self._peaks[0, 0])
-        return self.peak(number).size <= NOTHING * largest
+        return self.peak(number).size <= FAINT_SHARE * largest
 
     def _pieces(self, row: Complexes) -> Iterator[Piece]:
         ends = np.flatnonzero(self._jumps) + 1

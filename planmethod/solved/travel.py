@@ -18,7 +18,7 @@ _MOST = 720  # points of a line
 
 
 @dataclass(frozen=True)
-class Course:
+class Travel:
     """Driver positions that a smooth line goes through (ход начального звена).
 
     A full turn asked in even steps is closed; other positions are joined from the first to the

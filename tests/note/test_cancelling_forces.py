@@ -74,7 +74,7 @@ def test_of_no_forces_there_are_no_plans() -> None:
 def test_a_driver_that_stands_has_no_lever_and_says_so_once(tmp_path: Path) -> None:
     text = template("six-link").replace("omega = 20", "omega = 0") + "[dynamics]\n"
     problem = loads(text, name="still")
-    assert force_reading(Solution(problem), 0).statics.hung is None
+    assert force_reading(Solution(problem), 0).statics.lever_plan is None
     assert shown(problem).count("рычагнестроится") == 1
     file = tmp_path / "still.toml"
     file.write_text(text, encoding="utf-8")

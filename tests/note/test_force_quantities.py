@@ -12,7 +12,7 @@ from loaded import with_resultant
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
-from planmethod.note.audit.asking import UnansweredError, Why
+from planmethod.note.audit.asking import NoAnswer, UnansweredError
 from planmethod.note.audit.audit import Audited, Verdict, audit, source_force_scale
 from planmethod.note.audit.quantities import Quantities
 from planmethod.note.wording import LANGUAGES, language
@@ -237,24 +237,24 @@ def test_a_driving_slider_is_balanced_along_its_guide() -> None:
     assert asked(slider, "lever") == pytest.approx(30.0)
     with pytest.raises(UnansweredError) as caught:
         asked(slider, "balance B")
-    assert caught.value.why is Why.NO_LINK
+    assert caught.value.why is NoAnswer.NO_LINK
 
 
 @pytest.mark.parametrize(
     ("problem", "what", "why"),
     [
-        (problem_of(), "F 2 1", Why.NO_FORCES),
-        (loaded(), "F 1 3", Why.NO_JOINT),
-        (loaded(), "angle inertia 1", Why.NO_DIRECTION),
-        (loaded(), "arm load M_{2} about C", Why.NO_DIRECTION),
-        (loaded(), "arm F 1 0 about Q", Why.NO_POINT),
-        (loaded(), "shift 1", Why.ZERO_DIVISOR),
-        (loaded(), "balance D", Why.NO_LINK),
-        (loaded(), "F 1 0 / weight 1", Why.ZERO_DIVISOR),
-        (loaded(driver="omega = 0"), "lever", Why.STANDS),
+        (problem_of(), "F 2 1", NoAnswer.NO_FORCES),
+        (loaded(), "F 1 3", NoAnswer.NO_JOINT),
+        (loaded(), "angle inertia 1", NoAnswer.NO_DIRECTION),
+        (loaded(), "arm load M_{2} about C", NoAnswer.NO_DIRECTION),
+        (loaded(), "arm F 1 0 about Q", NoAnswer.NO_POINT),
+        (loaded(), "shift 1", NoAnswer.ZERO_DIVISOR),
+        (loaded(), "balance D", NoAnswer.NO_LINK),
+        (loaded(), "F 1 0 / weight 1", NoAnswer.ZERO_DIVISOR),
+        (loaded(driver="omega = 0"), "lever", NoAnswer.STANDS),
     ],
 )
-def test_what_the_forces_do_not_have(problem: Problem, what: str, why: Why) -> None:
+def test_what_the_forces_do_not_have(problem: Problem, what: str, why: NoAnswer) -> None:
     with pytest.raises(UnansweredError) as caught:
         asked(problem, what)
     assert caught.value.why is why
@@ -268,7 +268,7 @@ def test_a_force_that_is_nothing_has_no_direction() -> None:
     for what in ("angle F 3 0", "arm F 3 0 about A"):
         with pytest.raises(UnansweredError) as caught:
             asked(still, what)
-        assert caught.value.why is Why.NO_DIRECTION
+        assert caught.value.why is NoAnswer.NO_DIRECTION
 
 
 # Audit -----------------------------------------------------------------------------------------
@@ -321,4 +321,4 @@ def test_true_lengths_need_no_scale() -> None:
     text = KULISA + LOADS + f"[published]\n{entry}\n{drawn}\n"
     found: list[Audited] = audit(loads(text, name="kulisa"))
     assert found[0].exact == pytest.approx(0.15 * sqrt(2))
-    assert found[1].why is Why.NO_SCALE
+    assert found[1].why is NoAnswer.NO_SCALE

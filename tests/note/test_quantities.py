@@ -9,7 +9,7 @@ import pytest
 from cases import each
 from slotted import R, problem_of
 
-from planmethod.note.audit.asking import UnansweredError, Why
+from planmethod.note.audit.asking import NoAnswer, UnansweredError
 from planmethod.note.audit.quantities import Quantities
 from planmethod.problem.selector import QUANTITIES, parse_selector
 from planmethod.solved.solution import Solution
@@ -107,14 +107,14 @@ def test_an_angle_is_not_read_with_a_ruler() -> None:
 @pytest.mark.parametrize(
     ("what", "why"),
     [
-        ("ak D C", Why.NO_SLIDING),
-        ("an B D", Why.NO_LINK),
-        ("v Q", Why.NO_POINT),
-        ("omega 9", Why.NO_LINK),
-        ("v D / v A", Why.ZERO_DIVISOR),
+        ("ak D C", NoAnswer.NO_SLIDING),
+        ("an B D", NoAnswer.NO_LINK),
+        ("v Q", NoAnswer.NO_POINT),
+        ("omega 9", NoAnswer.NO_LINK),
+        ("v D / v A", NoAnswer.ZERO_DIVISOR),
     ],
 )
-def test_what_the_solution_does_not_have(what: str, why: Why) -> None:
+def test_what_the_solution_does_not_have(what: str, why: NoAnswer) -> None:
     with pytest.raises(UnansweredError) as caught:
         kulisa().exact(parse_selector(what))
     assert caught.value.why is why

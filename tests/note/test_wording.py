@@ -11,7 +11,7 @@ import pytest
 
 import planmethod
 from planmethod.errors import ExitCode
-from planmethod.note.audit.asking import Why
+from planmethod.note.audit.asking import NoAnswer
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
@@ -82,7 +82,7 @@ def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     for balance in (words.note.balance, words.sheets.balance, words.forces.and_balance):
         assert set(balance) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == list(FAMILIES)
-    assert set(words.audit.whys) == {why.value for why in Why}
+    assert set(words.audit.whys) == {why.value for why in NoAnswer}
     assert list(words.audit.verdicts) == list(words.audit.counted) == [v.value for v in Verdict]
 
 

@@ -108,7 +108,7 @@ def test_every_result_is_a_computed_number(what: str | int) -> None:
     forces = [statics.board.segments.known(r.force.ends) for r in statics.board.reactions]
     forces += [r.couple for r in statics.board.reactions if r.couple is not None]
     forces.append(statics.driving.balance)
-    if statics.hung is not None:
-        forces += [statics.hung.balance, statics.hung.difference]
+    if statics.lever_plan is not None:
+        forces += [statics.lever_plan.balance, statics.lever_plan.difference]
     made = {step.out: step for step in statics.program.steps}
     assert {type(made[name]) for name in forces} <= {Compute, Total}

@@ -12,7 +12,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import Course
+from planmethod.solved.travel import Travel
 
 TURN = [30.0 * k for k in range(12)]
 RESISTANCE = "force = 2000 # Н\nangle = -90"
@@ -166,7 +166,7 @@ def test_random_mechanisms(seed: int) -> None:
 
 def test_the_course_keeps_what_is_asked() -> None:
     solution = Solution(problem_of("levers/task12"), positions=[10.0, 10.0, 40.0, 25.0])
-    course = Course(solution, step=1.0, least=120)
+    course = Travel(solution, step=1.0, least=120)
     assert course.drawn.tolist() == [10.0, 25.0, 40.0] and not course.closed
     assert set(course.drawn) <= set(course.positions)
     assert len(course.positions) == 121

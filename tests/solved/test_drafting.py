@@ -19,7 +19,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Builder, Program
 from planmethod.plans.model import PlanKind
 from planmethod.problem import load, loads
-from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.errors.motion import Drafting, drafting_of
 from planmethod.solved.errors.spread import DRAWS, SHORT, STRAINED, UnknownItemError
@@ -46,7 +46,7 @@ def test_first_order_agrees_with_random_sheets(name: str, profile: str) -> None:
     for label, spread in drafting.spreads.items():
         sigma = float(spread.sigma[0])
         values = sheets[label]
-        short = drafting.items[label].kind is ItemKind.LENGTH and values.mean() < SHORT * sigma
+        short = drafting.items[label].kind is DrawnKind.LENGTH and values.mean() < SHORT * sigma
         if sigma == 0 or short or spread.drawn[0]:
             continue
         compared += 1

@@ -15,7 +15,7 @@ from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.dual import Dual, angle
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
-from planmethod.solved.errors.drawing import ItemKind
+from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.forces import (
     BALANCE,
     DIFFERENCE,
@@ -127,14 +127,14 @@ def test_first_order_agrees_with_random_sheets(name: str, profile: str) -> None:
         sigma, values = float(spread.sigma[0]), sheets[label]
         if sigma == 0 or spread.drawn[0]:
             continue
-        if drawn.items[label].kind is ItemKind.DIRECTION:
+        if drawn.items[label].kind is DrawnKind.DIRECTION:
             values = values - float(np.median(values))
             values = (values + 180.0) % 360.0 - 180.0
         low, high = np.quantile(values, [0.158655, 0.841345])
         # The ruler's step leaves sizes no fine quantiles; directions have wide tails.
         found = (
             float(np.std(values))
-            if drawn.items[label].kind is ItemKind.LENGTH
+            if drawn.items[label].kind is DrawnKind.LENGTH
             else (high - low) / 2
         )
         assert 0.9 < sigma / found < 1.1, label

@@ -21,7 +21,7 @@ from planmethod.errors import AssemblyError, ProblemError
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import Statics
-from planmethod.solved.many.gaps import CHUNK, Swept
+from planmethod.solved.many.gaps import CHUNK, GappedSweep
 from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
 from planmethod.solved.results import UnknownResultError
 from planmethod.solved.solution import Solution
@@ -238,10 +238,10 @@ def test_everything_is_the_motion_and_then_the_forces() -> None:
     forces = [row.name for row in Sweep(problem, ["forces"]).rows]
     assert [row.name for row in Sweep(problem, forces=True).rows] == motion + forces
     assert len(set(motion + forces)) == len(motion + forces)
-    swept = Swept(problem, np.array([10.0, 20.0]))
+    swept = GappedSweep(problem, np.array([10.0, 20.0]))
     assert swept.names == tuple(motion + forces)
     ex1 = load(path_of("linkages/ex1"))
-    assert Swept(ex1, np.array([10.0])).names == tuple(row.name for row in Sweep(ex1).rows)
+    assert GappedSweep(ex1, np.array([10.0])).names == tuple(row.name for row in Sweep(ex1).rows)
 
 
 def test_a_force_alone_needs_fewer_steps() -> None:
@@ -360,7 +360,7 @@ def test_one_by_one_in_line_finds_the_dead_position_too() -> None:
 
 def test_chunks_of_a_sweep_know_their_loads() -> None:
     positions = np.linspace(0.0, 360.0, CHUNK + 5)
-    swept = Swept(changing(), positions, ["M_dr"])
+    swept = GappedSweep(changing(), positions, ["M_dr"])
     parts = [swept.fill(np.empty((1, p.stop - p.start)), p) for p in swept.parts()]
     assert len(parts) == 2
     whole = Sweep(changing(), ["M_dr"]).run(positions)

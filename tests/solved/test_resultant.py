@@ -20,7 +20,7 @@ from planmethod.plans.forces.loads import LoadKind, Shift
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
 from planmethod.solved.errors.forces import drawn_forces, size_label
-from planmethod.solved.forces.resultants import Why
+from planmethod.solved.forces.resultants import Hindrance
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
@@ -93,7 +93,7 @@ def test_the_force_turns_about_the_centre_as_the_couple_does(which: int | str) -
     left = set(of_kind(shifted, LoadKind.INERTIA_COUPLE))
     shifts = shifted.board.shifts
     assert left == set(moments) - set(shifts)
-    assert {one.link for one in shifted.kept} <= left
+    assert {one.link for one in shifted.unshifted} <= left
     for link, shift in shifts.items():
         force = acting[link]
         assert force.force is not None and force.force.at == shift.at
@@ -110,8 +110,8 @@ def test_links_of_all_dyads_and_drivers_have_their_force_shifted() -> None:
         statics = both(seed)[1]
         groups = {link: g.signature for g in statics.solution.structure.groups for link in g.links}
         seen.update(groups.get(link, "driver") for link in statics.board.shifts)
-        seen.update(one.why.value for one in statics.kept)
-    kinds = ["RRR", "RRP", "PRP", "RPR", "RPP", "driver", *(why.value for why in Why)]
+        seen.update(one.why.value for one in statics.unshifted)
+    kinds = ["RRR", "RRP", "PRP", "RPR", "RPP", "driver", *(why.value for why in Hindrance)]
     assert {kind: seen[kind] for kind in kinds if seen[kind] < some(20, few=2)} == {}
 
 
@@ -120,9 +120,9 @@ def test_on_the_lever_it_hangs_at_the_velocity_of_its_point(seed: int) -> None:
     """The velocity of T as a point of its link, from Newton's motion."""
     problem, pose = loaded_problem(seed)
     statics = both(seed)[1]
-    assert statics.hung is not None
+    assert statics.lever_plan is not None
     motion = newton(problem, problem.drive.positions[0], pose)
-    for hung in statics.hung.hung:
+    for hung in statics.lever_plan.loads:
         given, at = hung.given, hung.at
         shift = statics.board.shifts.get(given.applied.link)
         if shift is None or given.force is None or given.force.at != shift.at:
@@ -131,7 +131,7 @@ def test_on_the_lever_it_hangs_at_the_velocity_of_its_point(seed: int) -> None:
         link, point = given.applied.link, given.applied.point
         arm = place(statics, shift.at)[0] - place(statics, shift.centre)[0]
         velocity = motion.velocity[link, point] + 1j * motion.omega[link] * arm
-        found = place(statics, at)[0] - place(statics, statics.hung.pole)[0]
+        found = place(statics, at)[0] - place(statics, statics.lever_plan.pole)[0]
         assert abs(found - 1j * velocity) <= LIMIT * max(1.0, abs(velocity))
 
 
@@ -186,17 +186,17 @@ def test_the_predicted_sigma_is_that_of_random_sheets() -> None:
 # Where there is none -----------------------------------------------------------------------------
 
 
-def reasons(statics: Statics) -> dict[str, Why]:
-    return {one.link: one.why for one in statics.kept}
+def reasons(statics: Statics) -> dict[str, Hindrance]:
+    return {one.link: one.why for one in statics.unshifted}
 
 
 def test_shipped_problems_that_keep_couples() -> None:
-    assert reasons(both("levers/six-link")[1]) == {"1": Why.NO_FORCE, "3": Why.NO_FORCE}
+    assert reasons(both("levers/six-link")[1]) == {"1": Hindrance.NO_FORCE, "3": Hindrance.NO_FORCE}
     task = both("levers/task12")[1]
-    assert reasons(task) == {"1": Why.NO_FORCE, "3": Why.FAR}
+    assert reasons(task) == {"1": Hindrance.NO_FORCE, "3": Hindrance.FAR}
     assert task.board.shifts == {}
     assert reasons(both("press/press")[1]) == {}
-    far = next(one for one in task.kept if one.why is Why.FAR)
+    far = next(one for one in task.unshifted if one.why is Hindrance.FAR)
     couple = of_kind(task, LoadKind.INERTIA_COUPLE)["3"].applied.couple
     force = of_kind(task, LoadKind.INERTIA)["3"].applied.force
     expected = np.max(np.abs(couple) / np.abs(force))
@@ -206,7 +206,7 @@ def test_shipped_problems_that_keep_couples() -> None:
 
 def test_what_is_not_asked_is_not_told() -> None:
     couples = both("levers/six-link")[0]
-    assert (couples.kept, couples.board.shifts) == ((), {})
+    assert (couples.unshifted, couples.board.shifts) == ((), {})
 
 
 ROD = '[dynamics.links.2]\nmass = 4\ncentre = "{}"\ninertia = 0.01\n'
@@ -215,7 +215,7 @@ ROD = '[dynamics.links.2]\nmass = 4\ncentre = "{}"\ninertia = 0.01\n'
 def test_a_centre_of_mass_without_acceleration_is_no_dead_position() -> None:
     """The pin of a slider that is driven evenly: the rod turns unevenly about it."""
     statics = single(ROD.format("C"), SLIDER)
-    assert reasons(statics) == {"2": Why.FAINT}
+    assert reasons(statics) == {"2": Hindrance.FAINT}
     assert all(np.all(np.isfinite(r.force)) for r in statics.reactions)
     couple = of_kind(statics, LoadKind.INERTIA_COUPLE)["2"].couple
     assert couple is not None
@@ -227,7 +227,7 @@ def test_an_acceleration_that_the_ruler_does_not_see_is_no_divisor() -> None:
     fine = single(ROD.format("S2") + scales.format("0.5"), CRANK)
     assert list(fine.board.shifts) == ["2"]
     coarse = single(ROD.format("S2") + scales.format("100"), CRANK)
-    assert reasons(coarse) == {"2": Why.FAINT}
+    assert reasons(coarse) == {"2": Hindrance.FAINT}
     balances = drawn_forces(coarse).balances
     assert balances is not None
     assert np.all(np.isfinite(balances.plans))
@@ -237,18 +237,22 @@ def test_one_position_takes_the_shift_from_all() -> None:
     """ε over a of S2 is 5.22 1/m at 90 degrees: with J/m = 0.075 m² h is 0.39 m, and BC 0.3 m."""
     text = ROD.format("S2").replace("0.01", "0.3") + "[dynamics]\nresultant = true\n"
     problem = loads(CRANK + text, name="one")
-    kept: dict[tuple[float, ...], dict[str, Why]] = {}
+    kept: dict[tuple[float, ...], dict[str, Hindrance]] = {}
     for positions in ((0.0, 30.0), (90.0,), (0.0, 30.0, 90.0)):
         statics = Statics(Solution(problem, positions=positions))
         kept[positions] = reasons(statics)
         assert set(statics.board.shifts) == {"2"} - set(kept[positions])
-    assert kept == {(0.0, 30.0): {}, (90.0,): {"2": Why.FAR}, (0.0, 30.0, 90.0): {"2": Why.FAR}}
+    assert kept == {
+        (0.0, 30.0): {},
+        (90.0,): {"2": Hindrance.FAR},
+        (0.0, 30.0, 90.0): {"2": Hindrance.FAR},
+    }
 
 
 def test_a_crank_is_shifted_when_it_turns_unevenly() -> None:
     crank = '[dynamics.links.1]\nmass = 3\ncentre = "B"\ninertia = 0.05\n'
     even = single(crank, CRANK)
-    assert (even.board.shifts, even.kept) == ({}, ())
+    assert (even.board.shifts, even.unshifted) == ({}, ())
     uneven = CRANK.replace("omega = 10", "omega = 10\nepsilon = 40")
     statics = single(crank, uneven)
     length = np.abs(number(statics, statics.board.shifts["1"].length))
@@ -257,9 +261,9 @@ def test_a_crank_is_shifted_when_it_turns_unevenly() -> None:
 
 def test_links_that_do_not_turn_and_drivers_that_stand_have_nothing_to_shift() -> None:
     slider = "[dynamics.links.3]\nmass = 3\ninertia = 5\n"
-    assert single(slider, CRANK).kept == ()
+    assert single(slider, CRANK).unshifted == ()
     stands = single(ROD.format("S2"), CRANK.replace("omega = 10", "omega = 0"))
-    assert (stands.board.shifts, stands.kept) == ({}, ())
+    assert (stands.board.shifts, stands.unshifted) == ({}, ())
 
 
 def test_the_point_has_a_letter_of_its_own() -> None:

@@ -147,8 +147,8 @@ def asked(statics: Statics) -> tuple[Program, dict[str, Name]]:
     if statics.driving.force is not None:
         force = statics.driving.force
         names["balance"] = b.carry("balance", board.pole, force.tail, force.head)
-    if statics.hung is not None:
-        names["lever"] = statics.hung.balance
+    if statics.lever_plan is not None:
+        names["lever"] = statics.lever_plan.balance
     return b.program().needed_for(names.values()), names
 
 

@@ -37,8 +37,8 @@ MAGNITUDES: Mapping[str, PlanKind] = {
 }
 
 
-class Why(Enum):
-    """Why a quantity has no value."""
+class NoAnswer(Enum):
+    """NoAnswer a quantity has no value."""
 
     NO_WHAT = "no what"  # the file does not say which quantity it is
     NO_POSITION = "no position"  # the driver is never there
@@ -57,7 +57,7 @@ class Why(Enum):
 class UnansweredError(Exception):
     """A selector asks for what the solution does not have."""
 
-    def __init__(self, why: Why) -> None:
+    def __init__(self, why: NoAnswer) -> None:
         super().__init__(why.value)
         self.why = why
 
@@ -133,7 +133,7 @@ class Asking:
             return Answer(self._relative(kind, *names))
         (link,) = names
         if link not in self.solution.links:
-            raise UnansweredError(Why.NO_LINK)
+            raise UnansweredError(NoAnswer.NO_LINK)
         rates = self.kin.omega if kind == "omega" else self.kin.epsilon
         return Answer(rates.get(link, self.zero), signed=True)
 
@@ -181,7 +181,7 @@ class Asking:
         heads, tails = self._places(point), self._places(about)
         link = next((k for k in heads if k in tails and k != FRAME), None)
         if link is None:
-            raise UnansweredError(Why.NO_LINK)
+            raise UnansweredError(NoAnswer.NO_LINK)
         head, tail = heads[link], tails[link]
         if {head, tail} <= set(self.solution.problem.bodies[link].points):
             return link, ((self.draft.length(link, head, tail), 1),)
@@ -194,7 +194,7 @@ class Asking:
         if name == POLE:
             return motion.pole  # the velocity plan's lies at 0 on the paper, as the origin does
         if name not in self.kin.velocity.named:
-            raise UnansweredError(Why.NO_POINT)
+            raise UnansweredError(NoAnswer.NO_POINT)
         link, place = self.kin.velocity.named[name]
         return PointName(place) if plan is PlanKind.POSITION else motion.point[link, place]
 
@@ -211,4 +211,4 @@ class Asking:
                 size = self.solution.legend[relative.label(letter)].size
                 assert size is not None
                 return size
-        raise UnansweredError(Why.NO_SLIDING)
+        raise UnansweredError(NoAnswer.NO_SLIDING)

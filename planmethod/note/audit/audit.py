@@ -9,7 +9,7 @@ from decimal import Decimal
 from enum import Enum
 
 from planmethod.languages import LANGUAGES
-from planmethod.note.audit.asking import PLANS, UnansweredError, Why
+from planmethod.note.audit.asking import PLANS, NoAnswer, UnansweredError
 from planmethod.note.audit.quantities import Quantities, is_angle
 from planmethod.note.wording import wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
@@ -68,7 +68,7 @@ class Audited:
     exact: float | None = None
     read: float | None = None
     per_mm: float | None = None
-    why: Why | None = None
+    why: NoAnswer | None = None
 
     @property
     def difference(self) -> float | None:
@@ -227,14 +227,14 @@ def _per_mm(at: Quantities, selector: Selector, scales: Scales, unit: float) -> 
 
 def _selector(value: Published, scales: Scales) -> Selector:
     if not value.what:
-        raise UnansweredError(Why.NO_WHAT)
+        raise UnansweredError(NoAnswer.NO_WHAT)
     selector = parse_selector(value.what)
     for part in (selector, selector.over):
         plan = _drawn_on(part) if part else None
         if plan is None or (plan is PlanKind.POSITION and _is_true(value)):
             continue
         if getattr(scales, SYMBOLS[plan]) is None:
-            raise UnansweredError(Why.NO_SCALE)
+            raise UnansweredError(NoAnswer.NO_SCALE)
     return selector
 
 
@@ -242,7 +242,7 @@ def _position(value: Published, count: int) -> int:
     if value.position is None and count == 1:
         return 0
     if value.position is None or not 0 <= value.position < count:
-        raise UnansweredError(Why.NO_POSITION)
+        raise UnansweredError(NoAnswer.NO_POSITION)
     return value.position
 
 

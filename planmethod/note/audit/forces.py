@@ -13,14 +13,14 @@ from functools import cached_property
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
-from planmethod.note.audit.asking import Asking, UnansweredError, Why
+from planmethod.note.audit.asking import Asking, NoAnswer, UnansweredError
 from planmethod.plans.forces.board import SCALE, Force, Given
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
 from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
 from planmethod.problem.selector import Selector
-from planmethod.solved.forces.contact import NOTHING
+from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Reading
 from planmethod.solved.solution import Solution
@@ -58,7 +58,7 @@ class ForceQuantities:
 
     def __init__(self, solution: Solution, position: int, mu_f: float | None = None) -> None:
         if solution.problem.dynamics is None:
-            raise UnansweredError(Why.NO_FORCES)
+            raise UnansweredError(NoAnswer.NO_FORCES)
         self.solution, self.position = solution, position
         self.statics: Statics = statics_of(solution)
         self.mu_f = self.statics.scale.per_mm if mu_f is None else mu_f
@@ -124,7 +124,7 @@ class ForceQuantities:
 
     def _is_nothing(self, size: float) -> bool:
         """Tell whether a force is rounding beside the largest of the position."""
-        return abs(size) <= NOTHING * self.statics.largest(self.position)
+        return abs(size) <= VANISHING * self.statics.largest(self.position)
 
     @property
     def _zero(self) -> NumberName:
@@ -176,25 +176,25 @@ class ForceQuantities:
         statics, drive = self.statics, self.solution.problem.drive
         value = statics.driving.balance
         if kind == "lever":
-            if statics.hung is None:
-                raise UnansweredError(Why.STANDS)
-            value = statics.hung.balance
+            if statics.lever_plan is None:
+                raise UnansweredError(NoAnswer.STANDS)
+            value = statics.lever_plan.balance
         if not names:
             return value
         if drive.pivot is None:
-            raise UnansweredError(Why.NO_LINK)
+            raise UnansweredError(NoAnswer.NO_LINK)
         link, arm = asking.arm(names[0], drive.pivot)
         if link != drive.link:
-            raise UnansweredError(Why.NO_LINK)
+            raise UnansweredError(NoAnswer.NO_LINK)
         points = self.solution.problem.bodies[link].points
         if points.get(names[0]) == points[drive.pivot]:
-            raise UnansweredError(Why.NO_ARM)
+            raise UnansweredError(NoAnswer.NO_ARM)
         return asking.compute((value, 1), *((name, -power) for name, power in arm))
 
     def _shift(self, asking: Asking, link: str) -> NumberName:
         force = self._given("inertia", link)
         if force is None or force.force is None or self._is_nothing(abs(self._vector(force.force))):
-            raise UnansweredError(Why.ZERO_DIVISOR)
+            raise UnansweredError(NoAnswer.ZERO_DIVISOR)
         powers = ((self._load(self._given("inertia couple", link)), 1), (self._load(force), -1))
         return asking.compute(*powers, (asking.draft.mu_l, -1))
 
@@ -204,7 +204,7 @@ class ForceQuantities:
         """Return a force that has a direction, N."""
         vector = self._vector(line.force)
         if self._is_nothing(abs(vector)):
-            raise UnansweredError(Why.NO_DIRECTION)
+            raise UnansweredError(NoAnswer.NO_DIRECTION)
         return vector * line.sense
 
     def _angle(self, line: Line) -> float:
@@ -230,7 +230,7 @@ class ForceQuantities:
             if {reaction.on, reaction.by} == {on, by}:
                 sense = 1.0 if reaction.on == on else -1.0
                 return Line(reaction.force, reaction.couple, sense)
-        raise UnansweredError(Why.NO_JOINT)
+        raise UnansweredError(NoAnswer.NO_JOINT)
 
     def _line(self, kind: str, names: tuple[str, ...]) -> Line:
         """Return the line of a force that must act somewhere."""
@@ -238,7 +238,7 @@ class ForceQuantities:
             return self._joint(*names)
         given = self._given(kind, names[0])
         if given is None or given.force is None:
-            raise UnansweredError(Why.NO_DIRECTION)
+            raise UnansweredError(NoAnswer.NO_DIRECTION)
         return Line(given.force)
 
     def _given(self, kind: str, name: str) -> Given | None:

@@ -11,7 +11,7 @@ from functools import cached_property
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
-from planmethod.note.audit.asking import Asking, UnansweredError, Why
+from planmethod.note.audit.asking import Asking, NoAnswer, UnansweredError
 from planmethod.note.audit.forces import ForceQuantities
 from planmethod.plans.model import PlanKind
 from planmethod.problem.selector import FORCES, Selector
@@ -75,7 +75,7 @@ class Quantities:
             return value
         divisor = self._value(selector.over, by_hand=by_hand)
         if divisor == 0:
-            raise UnansweredError(Why.ZERO_DIVISOR)
+            raise UnansweredError(NoAnswer.ZERO_DIVISOR)
         return value / divisor
 
     def _value(self, selector: Selector, *, by_hand: bool) -> float:
@@ -84,7 +84,7 @@ class Quantities:
         solution = self.solution
         if selector.kind == "phi":
             if selector.names[0] not in solution.links:
-                raise UnansweredError(Why.NO_LINK)
+                raise UnansweredError(NoAnswer.NO_LINK)
             return float(solution.links[selector.names[0]].phi_deg[self.position])
         asking = Asking(solution, solution.construction.draft.copy())
         answer = asking.answer(selector)

@@ -12,7 +12,7 @@ from planmethod.note.wording import language
 from planmethod.plans.model import FACTS, PlanKind, Vector
 from planmethod.solved.solution import Solution
 
-NOTHING = 1e-9
+SHORTEST_MM = 1e-9
 """Length, mm, below which a segment is a point."""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from planmethod.construct.steps import Compute, LayOff, LineName, NumberName, PointName, Similar
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.formulas import NOTHING, Formulas
+from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import given
@@ -16,7 +16,7 @@ COLLINEAR = 1e-9
 """Ratio of the across to the along part below which three points of a link lie on one line."""
 
 
-class MotionVoice:
+class MotionNarrator:
     """Tells the steps that lay vectors off and read them."""
 
     def __init__(self, solution: Solution, names: Names, say: Formulas) -> None:
@@ -47,7 +47,7 @@ class MotionVoice:
         names, words = self.names, self.words
         vector, point = names.vector(step.origin, step.out), names.point(step.out)
         segment, length = names.segment(step.origin, step.out), abs(self.say.number(step.length))
-        if length < NOTHING:
+        if length < SHORTEST_MM:
             symbol, of = vector.symbol if vector else segment, names.of(step.origin)
             return [words.zero_length.format(symbol=symbol, point=point, of=of)]
         direction, sense = self._sense(step, vector)

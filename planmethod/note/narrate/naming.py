@@ -47,7 +47,7 @@ SCALE_SYMBOL = {kind: f"μ_{{{FACTS[kind].letter}}}" for kind in MOTION}
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class LineDirection:
     """Direction of a drawn line: turned by ``angle`` degrees (in (-180, 180]) from ``base``."""
 
     base: str
@@ -168,36 +168,36 @@ class Names:
             return "".join(direction.points)
         return self.axis(direction.guide or "".join(direction.points))
 
-    def direction(self, line: LineName) -> Course:
+    def direction(self, line: LineName) -> LineDirection:
         """Return what a line is turned from and by how much."""
         step = self.step[line]
         match step:
             case Join(_, tail, head):
-                return Course(self.point(tail) + self.point(head), 0.0, tail, head)
+                return LineDirection(self.point(tail) + self.point(head), 0.0, tail, head)
             case Parallel(_, through, to):
                 found = self.direction(to)
                 if through == found.start:  # the same line drawn again
                     return found
                 if through == found.end:  # produced beyond its end
                     back = found.base if found.start is None else self.segment(through, found.start)
-                    return Course(back, 180.0, through, found.start)
-                return Course(found.base, found.angle)
+                    return LineDirection(back, 180.0, through, found.start)
+                return LineDirection(found.base, found.angle)
             case Perpendicular(_, _, to):
                 found = self.direction(to)
-                return Course(found.base, _reduced(found.angle + 90.0))
+                return LineDirection(found.base, _reduced(found.angle + 90.0))
             case AtAngle(_, _, None, angle):
                 guide = self.guide(line)
                 if guide is not None:
-                    return Course(guide, 0.0)
+                    return LineDirection(guide, 0.0)
                 if angle == self.solution.problem.drive.coordinate.name:
                     drive = self.solution.problem.bodies[self.solution.problem.drive.link]
                     if drive.axis is not None:
-                        return Course("".join(drive.axis), 0.0)
-                return Course(self.words.x_axis, self.value_of(angle))
+                        return LineDirection("".join(drive.axis), 0.0)
+                return LineDirection(self.words.x_axis, self.value_of(angle))
             case AtAngle(_, _, to, angle):
                 assert to is not None
                 found = self.direction(to)
-                return Course(found.base, _reduced(found.angle + self.value_of(angle)))
+                return LineDirection(found.base, _reduced(found.angle + self.value_of(angle)))
             case _:
                 raise TypeError(f"{step.out} is no line")
 

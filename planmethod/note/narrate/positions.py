@@ -14,7 +14,7 @@ from planmethod.construct.steps import (
     PointName,
     Touch,
 )
-from planmethod.note.narrate.formulas import NOTHING, Formulas
+from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import NO_BREAK, given
 from planmethod.plans.draft import DimensionKind
@@ -22,7 +22,7 @@ from planmethod.plans.draft import DimensionKind
 COORDINATES = (DimensionKind.ALONG, DimensionKind.ACROSS)
 
 
-class PositionVoice:
+class PositionNarrator:
     """Tells the steps that draw the mechanism."""
 
     def __init__(self, names: Names, say: Formulas) -> None:
@@ -46,7 +46,7 @@ class PositionVoice:
         out, origin, along, length = step.out, step.origin, step.along, step.length
         names, words = self.names, self.words
         point, value = names.point(out), self.say.number(length)
-        if abs(value) < NOTHING:
+        if abs(value) < SHORTEST_MM:
             symbol = names.symbol(length)
             return [words.zero_length.format(symbol=symbol, point=point, of=names.of(origin))]
         line = names.step[along]

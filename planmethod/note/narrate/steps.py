@@ -33,9 +33,9 @@ from planmethod.construct.steps import (
 )
 from planmethod.note.narrate.equations import direction_note
 from planmethod.note.narrate.formulas import Formulas
-from planmethod.note.narrate.motion import MotionVoice
+from planmethod.note.narrate.motion import MotionNarrator
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.positions import PositionVoice
+from planmethod.note.narrate.positions import PositionNarrator
 from planmethod.note.plaintext import fixed, given
 from planmethod.solved.solution import Solution
 
@@ -51,8 +51,8 @@ class Narrator:
     def __init__(self, solution: Solution, names: Names, index: int) -> None:
         self.names, self.words = names, names.words
         self.say = Formulas(solution, names, index)
-        self.drawing = PositionVoice(names, self.say)
-        self.motion = MotionVoice(solution, names, self.say)
+        self.drawing = PositionNarrator(names, self.say)
+        self.motion = MotionNarrator(solution, names, self.say)
         self._drawers: dict[LineName, set[type[Step]]] = {}
         for step in names.construction.program.steps:
             for line in _carriers(step):
@@ -100,7 +100,7 @@ class Narrator:
             case Compute():
                 return self.motion.compute(step)
             case Carry() | MeasureArm() | Total():
-                return []  # of force plans only: ForceVoice tells them with the forces they carry
+                return []  # of force plans: ForcePlanNarrator tells them with their forces
             case _:
                 assert_never(step)
 

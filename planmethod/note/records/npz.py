@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.note.records.spreadsheet import driver_of
-from planmethod.solved.many.gaps import Swept
+from planmethod.solved.many.gaps import GappedSweep
 
 FIRST_DAY = (1980, 1, 1, 0, 0, 0)
 """Time of every member: the earliest that the format has."""
@@ -26,7 +26,7 @@ def write_arrays(file: BinaryIO, named: Iterable[tuple[str, npt.NDArray[Any]]]) 
                 np.lib.format.write_array(target, np.ascontiguousarray(array), allow_pickle=False)
 
 
-def swept_arrays(swept: Swept, prefix: str = "") -> Iterator[tuple[str, npt.NDArray[Any]]]:
+def swept_arrays(swept: GappedSweep, prefix: str = "") -> Iterator[tuple[str, npt.NDArray[Any]]]:
     """Yield the results of a sweep by name.
 
     ``phi_deg`` or ``s``; every row by its name (``B.x``, ``2.omega``), NaN where it does not exist;

@@ -20,7 +20,7 @@ from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 if TYPE_CHECKING:
-    from planmethod.solved.many.gaps import Swept
+    from planmethod.solved.many.gaps import GappedSweep
 
 Rows = Sequence[Sequence[Any]]
 
@@ -154,7 +154,7 @@ def large_table(
     return Table(problem, _header(problem, names, partial), len(positions), made)
 
 
-def swept_table(swept: Swept, *, partial: bool) -> Table:
+def swept_table(swept: GappedSweep, *, partial: bool) -> Table:
     """Return the rows of a sweep: ``position``, ``phi_deg`` or ``s``, and what was asked."""
 
     def made() -> Iterator[Rows]:
@@ -223,7 +223,7 @@ def csv_text(
 # What was asked, for a terminal -----------------------------------------------------------------
 
 
-def asked_text(swept: Swept, lang: str = "ru") -> str:
+def asked_text(swept: GappedSweep, lang: str = "ru") -> str:
     """Return what was asked as an aligned table, a row for each position, four digits.
 
     Raises

@@ -20,13 +20,13 @@ from planmethod.solved.errors.forces import (
     moment_label,
     size_label,
 )
-from planmethod.solved.forces.contact import NOTHING, Contact, JointForce
+from planmethod.solved.forces.contact import VANISHING, Contact, JointForce
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import Solution
 
 
 def _angle(force: complex, largest: float) -> float | None:
-    if abs(force) <= NOTHING * largest:
+    if abs(force) <= VANISHING * largest:
         return None
     return plain(np.degrees(np.angle(force)) % 360.0)
 
@@ -166,7 +166,7 @@ def _distance(solution: Solution, number: int, index: int, words: Wording) -> st
     if contact is None or not np.isfinite(b):
         return "—"
     largest = statics_of(solution).largest(index)
-    return found(0.0 if abs(contact.joint.moment[index]) <= NOTHING * largest else b, words)
+    return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
 
 
 def _edge_notes(solution: Solution, words: Wording, index: int) -> list[str]:
@@ -214,7 +214,7 @@ def forces_tables(
         angle = _angle(force, largest)
         size = 0.0 if angle is None else abs(force)
         moment = float(joint.moment[index])
-        still = abs(moment) <= NOTHING * largest
+        still = abs(moment) <= VANISHING * largest
         rows.append(
             [
                 joint.joint,

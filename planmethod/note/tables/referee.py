@@ -11,10 +11,10 @@ from planmethod.note.tables.results import position_line
 from planmethod.note.wording import Wording, wording
 from planmethod.plans.legend import QuantityKind
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import Examined, Verdict, examine
+from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
 
 
-def judged(solution: Solution, digits: int) -> list[Examined]:
+def judged(solution: Solution, digits: int) -> list[Refereed]:
     """Return every position of a solution before the referee: what moves, each result once."""
     fixed = solution.problem.bodies[FRAME].points
     found = examine(solution.problem, [float(p) for p in solution.positions], digits=digits)

@@ -349,7 +349,7 @@ class Board:
                 self.symbols[opposite] = reaction_symbol(by, on, letter="M")
                 self.couples.setdefault(by, []).append(opposite)
 
-    def press(
+    def react_guide(
         self, pin: str, on: str, by: str, force: Force, couple: NumberName, *, inner: bool = False
     ) -> CoupleOn:
         """Note the reaction of a guide: a force and its moment about the place of the force."""

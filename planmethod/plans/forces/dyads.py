@@ -160,7 +160,7 @@ def _guide_reaction(board: Board, lead: Lead, force: Force, inner: Edge) -> Coup
     pin = PointName(slide_of(board.draft, lead.joint).pin)
     acting = Force(inner.at, *inner.ends, inner.symbol)
     couple = board.negative(board.moment((lead.link,), pin, acting))
-    return board.press(pin, lead.link, lead.to, replace(force, at=pin), couple)
+    return board.react_guide(pin, lead.link, lead.to, replace(force, at=pin), couple)
 
 
 def _guide_edge(board: Board, lead: Lead, tail: PointName, head: PointName) -> Edge:
@@ -210,7 +210,7 @@ def _swinging(board: Board, group: AssurGroup) -> None:
         couple = board.negative(board.moment((slider.link,), at))
         of_slider = board.couples_on(slider.link)
         pressed = Force(at, between, end)
-        held = board.press(slide.pin, slider.link, host.link, pressed, couple, inner=True)
+        held = board.react_guide(slide.pin, slider.link, host.link, pressed, couple, inner=True)
         weighed = _of_guide(held, loads[0], of_slider)
     polygon = (*two, *loads[0], *loads[1], stands)
     board.read_off(
@@ -236,7 +236,7 @@ def _pressed_block(board: Board, slide: Slide, force: Force, loads: Sequence[Edg
     """Note the reaction of a block on the bar through it, by the moments about its own joint."""
     known = board.couples_on(slide.host)
     held = board.negative(board.moment((slide.host,), force.at))
-    board.press(slide.pin, slide.slider, slide.host, force, board.negative(held), inner=True)
+    board.react_guide(slide.pin, slide.slider, slide.host, force, board.negative(held), inner=True)
     symbol = reaction_symbol(slide.host, slide.slider, letter="M")
     couple = CoupleOn(symbol, slide.host, held, force.at)
     return _of_guide(couple, loads, known)
@@ -267,9 +267,11 @@ def _sliding(board: Board, group: AssurGroup) -> None:
     known, of_one = board.couples_on(*group.links), board.couples_on(revolute.link)
     board.react(at, revolute.link, revolute.to, Force(at, end, first))
     across_pin = Force(pin, loaded, end)
-    guide = board.press(outer.pin, prismatic.link, prismatic.to, across_pin, board.negative(whole))
+    guide = board.react_guide(
+        outer.pin, prismatic.link, prismatic.to, across_pin, board.negative(whole)
+    )
     pressed = Force(at, start, end)
-    held = board.press(
+    held = board.react_guide(
         inner.pin, revolute.link, prismatic.link, pressed, board.negative(own), inner=True
     )
     board.read_off(
@@ -319,7 +321,7 @@ def drive_forces(board: Board) -> Driving:
     guide, pin = board.draft.direction(slide), PointName(slide.pin)
     end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
     couple = board.negative(board.moment((drive.link,), pin))
-    held = board.press(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
+    held = board.react_guide(slide.pin, drive.link, FRAME, Force(pin, end, start), couple)
     problem = board.draft.problem
     symbol, direction = drive.balancing.symbol, track_direction(slide, problem)
     drives = Edge(symbol, drive.link, pin, loaded, end, Known.ONE, direction)

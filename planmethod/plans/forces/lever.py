@@ -28,18 +28,18 @@ class Lever:
         Balancing moment on the crank, N·m, or force along the guide of a driving slider, N.
     difference : NumberName
         What the lever gives less what the force plans give.
-    hung : tuple of Hung
+    loads : tuple of LeverLoad
         The loads that do work.
     """
 
     pole: PointName
     balance: NumberName
     difference: NumberName
-    hung: tuple[Hung, ...] = ()
+    loads: tuple[LeverLoad, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Hung:
+class LeverLoad:
     """Load on the lever; of a force the point where it hangs, and its arm about the pole, mm."""
 
     given: Given
@@ -47,21 +47,21 @@ class Hung:
     arm: NumberName | None = None
 
 
-def hang(board: Board, driving: Driving) -> Lever | None:
+def plan_lever(board: Board, driving: Driving) -> Lever | None:
     """Hang the given loads on the turned velocity plan; None where the driver stands."""
     b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
     if drive.rate == 0:
         return None
     pole = board.start()
     powers: list[NumberName] = []
-    hung: list[Hung] = []
+    loads: list[LeverLoad] = []
     for given in board.given:
         link = given.applied.link
         if given.couple is not None:
             if link in board.kin.omega:
                 turning = board.kin.omega[link]
                 powers.append(b.compute(board.name("P"), (given.couple, 1), (turning, 1)))
-                hung.append(Hung(given))
+                loads.append(LeverLoad(given))
             continue
         assert given.force is not None and given.applied.point is not None
         at = motion.point[motion.named[given.applied.point]]
@@ -72,7 +72,7 @@ def hang(board: Board, driving: Driving) -> Lever | None:
         if shift is not None and given.force.at == shift.at:
             turned = _beside(board, shift, turned)
         arm = b.measure_arm(board.name("h"), pole, turned, *given.force.ends)
-        hung.append(Hung(given, turned, arm))
+        loads.append(LeverLoad(given, turned, arm))
         # The plan is turned by +90°: a moment on it is the power with the other sign.
         factors = ((arm, 1), (board.size(given.force), 1), (motion.segments.scale, 1))
         powers.append(b.compute(board.name("P"), *factors, factor=-1.0))
@@ -80,7 +80,7 @@ def hang(board: Board, driving: Driving) -> Lever | None:
     whole = b.total(board.name("P"), *powers)
     balance = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
     off = b.total(board.name("d"), balance, board.negative(driving.balance))
-    return Lever(pole, balance, off, tuple(hung))
+    return Lever(pole, balance, off, tuple(loads))
 
 
 def _beside(board: Board, shift: Shift, centre: PointName) -> PointName:

@@ -17,7 +17,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
 from planmethod.solved.cycle import Cycle
-from planmethod.solved.forces.reading import NOTHING
+from planmethod.solved.forces.reading import FAINT_SHARE
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Complexes, remembered
 
@@ -66,7 +66,7 @@ def polar_groups(cycle: Cycle) -> list[list[int]]:
 def opposite(cycle: Cycle, one: int, two: int) -> bool | None:
     """Tell whether two reactions are opposite (True) or equal (False) all over; None if neither."""
     a, b = cycle.joints[one].force, cycle.joints[two].force
-    least = NOTHING * cycle.peak(one).size
+    least = FAINT_SHARE * cycle.peak(one).size
     if float(np.max(np.abs(a + b))) <= least:
         return True
     return False if float(np.max(np.abs(a - b))) <= least else None

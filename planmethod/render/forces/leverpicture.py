@@ -19,7 +19,7 @@ from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.planview import similar_lines
-from planmethod.solved.forces.lever import HungCouple, LeverReading
+from planmethod.solved.forces.lever import LeverCouple, LeverReading
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.reading import remembered
 
@@ -59,6 +59,6 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
     return lettered([*items, *turns], named)
 
 
-def _turning(one: HungCouple, say: Notation) -> Turning:
+def _turning(one: LeverCouple, say: Notation) -> Turning:
     place = 0j if one.segment is None else sum(one.segment) / 2
     return Turning(say.symbol(one.symbol), place, 1 if one.lever_moment > 0 else -1)

@@ -17,7 +17,7 @@ from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import TURN, Course
+from planmethod.solved.travel import TURN, Travel
 
 TRAJECTORY = "trajectory"
 """Tag of the line that a point moves along: ``trajectory B``."""
@@ -33,9 +33,9 @@ class Paths:
     solution: Solution
 
     @cached_property
-    def course(self) -> Course:
+    def course(self) -> Travel:
         """The driver positions that the lines go through."""
-        return Course(self.solution)
+        return Travel(self.solution)
 
     @cached_property
     def _between(self) -> Solution:

@@ -16,7 +16,7 @@ from planmethod.render.sheets.results import position_columns, table_width
 from planmethod.render.sheets.texts import NBSP
 from planmethod.solved.cycle import Cycle, cycle
 from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.forces.reading import NOTHING
+from planmethod.solved.forces.reading import FAINT_SHARE
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
@@ -52,7 +52,9 @@ def _reaction_columns(
     """Return size and direction of a reaction, and of a guide its moment about the pin."""
     joint, statics = forces.joints[which], statics_of(forces.solution)
     values = [complex(joint.force[i]) for i in indices]
-    nothing = [abs(v) <= NOTHING * statics.largest(i) for v, i in zip(values, indices, strict=True)]
+    nothing = [
+        abs(v) <= FAINT_SHARE * statics.largest(i) for v, i in zip(values, indices, strict=True)
+    ]
     sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
     angles = ["—" if nil else angle_text(v, say) for v, nil in zip(values, nothing, strict=True)]
     index = reaction_symbol(joint.on, joint.by, letter="")
@@ -64,7 +66,7 @@ def _reaction_columns(
     ]
     moments = [float(joint.moment[i]) for i in indices]
     lengths = [length for _, _, length in forces.solution.problem.lengths]
-    least = [NOTHING * statics.largest(i) * max(lengths, default=1.0) for i in indices]
+    least = [FAINT_SHARE * statics.largest(i) * max(lengths, default=1.0) for i in indices]
     none = [abs(m) <= small for m, small in zip(moments, least, strict=True)]
     if not all(none):
         texts = alike([0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)])

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from planmethod.note.narrate.forces.common import Telling, lettered
-from planmethod.note.narrate.forces.lever import LeverVoice
-from planmethod.note.narrate.forces.loads import LoadVoice
-from planmethod.note.narrate.forces.moments import MomentVoice
-from planmethod.note.narrate.forces.plan import ForceVoice
+from planmethod.note.narrate.forces.common import ForceContext, lettered
+from planmethod.note.narrate.forces.lever import LeverNarrator
+from planmethod.note.narrate.forces.loads import LoadNarrator
+from planmethod.note.narrate.forces.moments import MomentNarrator
+from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.narrate.forces.statement import link_names, plan_title, statement, wanted
 from planmethod.note.narrate.letters import direction_text
@@ -133,7 +133,7 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     reading = _reading(solution, indices, manner)
     words = manner.words
     title = manner.entry.title or words.sheets.lever
-    if reading.statics.hung is None:
+    if reading.statics.lever_plan is None:
         return heading(title, manner.title, underline=True)  # why not is told beside it
     kind = PlanKind.VELOCITY
     scale = solution.own_scale(kind, reading.index)
@@ -152,7 +152,7 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     """Return "Дано" with masses and loads, "Определить", and the computed loads."""
     reading = _reading(solution, indices, manner)
     words, said = manner.words, manner.words.sheets
-    loads = LoadVoice(lettered(reading, words)).formulas()
+    loads = LoadNarrator(lettered(reading, words)).formulas()
     return stated(
         statement(reading, words),
         said.wanted.format(wanted=wanted(reading, words.say)),
@@ -166,8 +166,8 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the equations of a force plan: moments with arms, forces, what the plan gives."""
     reading = _reading(solution, indices, manner)
-    number, say, telling = manner.entry.number, manner.words.say, lettered(reading, manner.words)
-    plan, voice = reading.plans[number], MomentVoice(telling, reading.plans[number])
+    number, say, context = manner.entry.number, manner.words.say, lettered(reading, manner.words)
+    plan, voice = reading.plans[number], MomentNarrator(context, reading.plans[number])
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     before = [one for one in plan.moments if one.force is not None]
     after = [one for one in plan.moments if one.force is None]
@@ -184,21 +184,21 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         ]
         head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
         balances.append(balance_block(head, terms, height, width=width))
-    found = paragraph(_closing(telling, number), height, width=width)
+    found = paragraph(_closing(context, number), height, width=width)
     blocks = [*moments[0], *balances, found, *moments[1]]
     blocks += [formula_block(line, height, width=width) for line in voice.places()]
     return Column(blocks, gap=3.0)
 
 
-def _closing(telling: Telling, number: int) -> str:
+def _closing(context: ForceContext, number: int) -> str:
     """Return what a force plan gives; of one whose forces are all nothing, that there is none."""
-    reading, said = telling.reading, telling.language.sheets
+    reading, said = context.reading, context.language.sheets
     reactions = reading.plans[number].reactions
     if drawn_edges(reading, number):
-        voice = ForceVoice(telling, reading.plans[number], number)
+        voice = ForcePlanNarrator(context, reading.plans[number], number)
         return said.from_plan.format(found=unbroken([voice.closing(edge) for edge in reactions]))
     wholes = (edge for edge in reactions if edge.share is Share.WHOLE)
-    return said.all_zero.format(zeros=" = ".join(telling.symbol(edge.symbol) for edge in wholes))
+    return said.all_zero.format(zeros=" = ".join(context.symbol(edge.symbol) for edge in wholes))
 
 
 def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -206,8 +206,8 @@ def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     reading = _reading(solution, indices, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     told = [manner.words.sheets.lever_stands]
-    if reading.statics.hung is not None:
-        told = LeverVoice(lettered(reading, manner.words)).lines()
+    if reading.statics.lever_plan is not None:
+        told = LeverNarrator(lettered(reading, manner.words)).lines()
     lines = [formula_block(line, height, width=width) for line in told]
     title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
     return Column([*title, *lines], gap=3.0)

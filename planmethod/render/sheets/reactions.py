@@ -24,7 +24,7 @@ from planmethod.render.sheets.reactionerrors import (
 from planmethod.render.sheets.results import table_width, with_note
 from planmethod.render.sheets.views import shown_position
 from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.forces.reading import NOTHING, ForceReading, force_reading
+from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
 
@@ -36,7 +36,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     reactions = reading.statics.reactions
     index = reading.index
     sizes = [abs(complex(one.force[index])) for one in reactions]
-    none = [size <= NOTHING * reading.peak for size in sizes]
+    none = [size <= FAINT_SHARE * reading.peak for size in sizes]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
     sigma, words = manner.extras.sigma, manner.words
     said, say = words.sheets, words.say

@@ -21,7 +21,7 @@ RADIAN = float(np.degrees(1.0))
 """What the sigma of a direction is to be compared with, degrees: the length it is the turn of."""
 
 
-class ItemKind(Enum):
+class DrawnKind(Enum):
     """What a quantity is: near zero no error of a length is normal, nor that of its direction."""
 
     NUMBER = "number"
@@ -30,7 +30,7 @@ class ItemKind(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Item:
+class DrawnQuantity:
     """A quantity that a drawing gives (величина чертежа).
 
     Attributes
@@ -42,7 +42,7 @@ class Item:
         Steps that it is taken from.
     take : callable
         The quantity from a trace.
-    kind : ItemKind
+    kind : DrawnKind
     absent : callable or None
         The positions in which nobody draws what it is taken from: there it has no error.
     direction : str
@@ -53,7 +53,7 @@ class Item:
     label: str
     needs: tuple[Name, ...]
     take: Callable[[Trace], Number]
-    kind: ItemKind = ItemKind.NUMBER
+    kind: DrawnKind = DrawnKind.NUMBER
     absent: Callable[[], Flags] | None = None
     direction: str = ""
 
@@ -73,7 +73,7 @@ class Drafted:
         The hand.
     free : frozenset of str
         Points that may stand anywhere: they cannot be off.
-    items : sequence of Item
+    items : sequence of DrawnQuantity
     points : tuple of PointName
         Those whose ellipses may be asked for.
     """
@@ -83,7 +83,7 @@ class Drafted:
     count: int
     profile: Profile
     free: frozenset[str]
-    items: tuple[Item, ...]
+    items: tuple[DrawnQuantity, ...]
     points: tuple[PointName, ...] = ()
 
 

@@ -17,7 +17,14 @@ from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Force, Reaction
-from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind, number
+from planmethod.solved.errors.drawing import (
+    RADIAN,
+    Drafted,
+    DrawnKind,
+    DrawnQuantity,
+    Flags,
+    number,
+)
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.contact import JointForce
@@ -152,26 +159,26 @@ def _ends(statics: Statics) -> set[PointName]:
     }
 
 
-def _items(statics: Statics) -> Iterator[Item]:
+def _items(statics: Statics) -> Iterator[DrawnQuantity]:
     """Yield every quantity that the force plans and the lever give."""
     for reaction in statics.board.reactions:
         force, absent = reaction.force, partial(_absent, statics, reaction.force)
         ends = (force.tail, force.head)
         size, way = statics.board.segments.known(force.ends), angle_label(reaction)
         label = size_label(reaction)
-        yield Item(label, (size,), number(size), ItemKind.LENGTH, absent, direction=way)
-        yield Item(way, ends, _direction(force), ItemKind.DIRECTION, absent)
+        yield DrawnQuantity(label, (size,), number(size), DrawnKind.LENGTH, absent, direction=way)
+        yield DrawnQuantity(way, ends, _direction(force), DrawnKind.DIRECTION, absent)
         if reaction.couple is not None:
             yield _number(moment_label(reaction), reaction.couple)
-    hung = statics.hung
+    hung = statics.lever_plan
     yield _number(BALANCE, statics.driving.balance)
     if hung is not None:
         yield _number(LEVER, hung.balance)
         yield _number(DIFFERENCE, hung.difference)
 
 
-def _number(label: str, name: NumberName) -> Item:
-    return Item(label, (name,), number(name))
+def _number(label: str, name: NumberName) -> DrawnQuantity:
+    return DrawnQuantity(label, (name,), number(name))
 
 
 def _direction(force: Force) -> Callable[[Trace], Number]:

@@ -15,9 +15,9 @@ from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.drawing import (
     Drafted,
+    DrawnKind,
+    DrawnQuantity,
     Flags,
-    Item,
-    ItemKind,
     number,
 )
 from planmethod.solved.errors.spread import DRAWS, Errors
@@ -51,12 +51,12 @@ class Drafting(Errors):
         )
         super().__init__(drawing, draws=draws, seed=seed)
 
-    def _items(self) -> Iterator[Item]:
+    def _items(self) -> Iterator[DrawnQuantity]:
         """Yield every quantity that the drawing gives."""
         solution, construction = self.solution, self.solution.construction
         for segment in construction.segments:
             size = number(segment.drawn, size=True)
-            item = Item(segment.label, (segment.drawn,), size, ItemKind.LENGTH)
+            item = DrawnQuantity(segment.label, (segment.drawn,), size, DrawnKind.LENGTH)
             yield self._known_absent(item, segment.kind)
         origin, mu_l = construction.draft.origin, solution.scales[PlanKind.POSITION].per_mm
         for quantity in construction.legend:
@@ -64,15 +64,15 @@ class Drafting(Errors):
                 place = PointName(quantity.name)
                 for axis, part in (("x", "real"), ("y", "imag")):
                     take = _coordinate(place, mu_l, part, getattr(origin, part))
-                    yield Item(f"{axis}_{quantity.of}", (place,), take)
+                    yield DrawnQuantity(f"{axis}_{quantity.of}", (place,), take)
             elif quantity.size is not None:
                 sized = quantity.kind.is_size
-                kind = ItemKind.LENGTH if sized else ItemKind.NUMBER
+                kind = DrawnKind.LENGTH if sized else DrawnKind.NUMBER
                 take = number(quantity.size, size=sized)
-                item = Item(quantity.label, (quantity.size,), take, kind)
+                item = DrawnQuantity(quantity.label, (quantity.size,), take, kind)
                 yield self._known_absent(item, quantity.kind.plan)
 
-    def _known_absent(self, item: Item, kind: PlanKind) -> Item:
+    def _known_absent(self, item: DrawnQuantity, kind: PlanKind) -> DrawnQuantity:
         """Return an item that knows where its plan is drawn by nobody, having no vector."""
         if kind is PlanKind.POSITION:
             return item

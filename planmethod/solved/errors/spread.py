@@ -21,7 +21,7 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName, operands
 from planmethod.errors import PlanMethodError
-from planmethod.solved.errors.drawing import RADIAN, Drafted, Flags, Item, ItemKind
+from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity, Flags
 from planmethod.solved.reading import Reals
 
 Key = TypeVar("Key", bound=str)
@@ -76,7 +76,7 @@ class Errors:
     def __init__(self, drawing: Drafted, *, draws: int = DRAWS, seed: int = 1) -> None:
         self.drawing, self.profile = drawing, drawing.profile
         self.draws, self.seed = draws, seed
-        self.items: dict[str, Item] = {item.label: item for item in drawing.items}
+        self.items: dict[str, DrawnQuantity] = {item.label: item for item in drawing.items}
         self._own: dict[int, _Slopes] = {}
         self._sheets: dict[int, dict[str, float]] = {}
 
@@ -168,8 +168,8 @@ class Errors:
         item, first = self.items[label], self._first
         sigma = np.array(first.sigmas[label])
         doubtful = ~np.isfinite(sigma) | self.strained(*item.needs)
-        if item.kind is not ItemKind.NUMBER:
-            size = first.values[label] if item.kind is ItemKind.LENGTH else RADIAN
+        if item.kind is not DrawnKind.NUMBER:
+            size = first.values[label] if item.kind is DrawnKind.LENGTH else RADIAN
             doubtful |= (sigma > 0) & (size < SHORT * sigma)
         if item.direction:
             doubtful |= self.spreads[item.direction].drawn
@@ -327,8 +327,8 @@ def _half_width(values: Reals) -> float:
     return float(high - low) / 2
 
 
-def _turns(item: Item) -> bool:
-    return item.kind is ItemKind.DIRECTION
+def _turns(item: DrawnQuantity) -> bool:
+    return item.kind is DrawnKind.DIRECTION
 
 
 def _unwound(degrees: Reals) -> Reals:

@@ -25,7 +25,7 @@ from planmethod.problem.model import Problem, Slide
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 
-NOTHING = 1e-12
+VANISHING = 1e-12
 """Share of the largest force of a position below which a reaction is nothing."""
 
 Masks = npt.NDArray[np.bool_]
@@ -127,7 +127,7 @@ class Contact:
         """Force to the left of the guide's direction, N."""
         return across(self.joint.force, self.along)
 
-    def b(self, share: float = NOTHING) -> Reals:
+    def b(self, share: float = VANISHING) -> Reals:
         """Return where the force acts, m from ``joint.at`` in the guide's direction.
 
         Not a number where the force is less than a ``share`` of the largest.
@@ -146,7 +146,7 @@ class Contact:
         if self.length is None:
             return np.zeros(self.normal.shape, dtype=bool)
         moment = np.abs(self._about_middle)
-        something = moment > NOTHING * self.largest * self.length
+        something = moment > VANISHING * self.largest * self.length
         return np.asarray(something & (moment > np.abs(self.normal) * self.length / 2.0))
 
     @property

@@ -9,7 +9,7 @@ from functools import cached_property
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
 from planmethod.solved.forces.contact import Contact, EdgeForce
-from planmethod.solved.forces.reading import NOTHING, ForceReading
+from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
 from planmethod.solved.reading import remembered
 
 
@@ -61,19 +61,19 @@ class Guided:
         """Where the force acts, m from the joint in the guide's direction; None of no force."""
         if self.is_none:
             return None
-        return 0.0 if self.is_no_couple else float(self.contact.b(NOTHING)[self.reading.index])
+        return 0.0 if self.is_no_couple else float(self.contact.b(FAINT_SHARE)[self.reading.index])
 
     @property
     def is_none(self) -> bool:
         """Whether the force is nothing beside the others."""
         size = abs(complex(self.contact.joint.force[self.reading.index]))
-        return size <= NOTHING * self.reading.peak
+        return size <= FAINT_SHARE * self.reading.peak
 
     @property
     def is_no_couple(self) -> bool:
         """Whether the moment about the joint is nothing beside the others."""
         moment = abs(float(self.contact.joint.moment[self.reading.index]))
-        return moment <= NOTHING * self.reading.peak_moment
+        return moment <= FAINT_SHARE * self.reading.peak_moment
 
     @property
     def edges(self) -> tuple[EdgeForce, ...]:

@@ -26,7 +26,7 @@ _Own: TypeAlias = tuple[
 
 
 @dataclass(frozen=True, slots=True)
-class HungForce:
+class LeverForce:
     """Force on the lever: letter, where it hangs (mm from the pole), N, and its arm, mm.
 
     The arm is as the hand measures it, positive where the force turns counter-clockwise; ``size``
@@ -60,7 +60,7 @@ class OnLink:
 
 
 @dataclass(frozen=True, slots=True)
-class HungCouple(OnLink):
+class LeverCouple(OnLink):
     """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
 
     ``moment`` is that on the link as the hand has it, N·m.
@@ -71,7 +71,7 @@ class HungCouple(OnLink):
 
 
 @dataclass(frozen=True, slots=True)
-class HungShift(OnLink):
+class LeverShift(OnLink):
     """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
 
     ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``shift`` is h as
@@ -94,26 +94,26 @@ class LeverReading:
 
     Attributes
     ----------
-    forces : list of HungForce
+    forces : list of LeverForce
         Those that do work; last the balancing one of a driving slider.
-    couples : list of HungCouple
+    couples : list of LeverCouple
         Those that do work; last the balancing one of a crank, as the hand finds it on the lever.
-    shifts : list of HungShift
+    shifts : list of LeverShift
         Of the forces of inertia that are moved off the centre of mass.
     """
 
     def __init__(self, reading: ForceReading, *, common: bool = False) -> None:
         solution, index = reading.solution, reading.index
-        assert reading.statics.hung is not None
+        assert reading.statics.lever_plan is not None
         self.reading = reading
         scale = solution.scales[PlanKind.VELOCITY]
         shown = scale if common else solution.own_scale(PlanKind.VELOCITY, index)
         self.per_mm = shown.per_mm
         self._share = scale.per_mm / self.per_mm
-        self.forces: list[HungForce] = []
-        self.couples: list[HungCouple] = []
-        self.shifts: list[HungShift] = []
-        for hung in reading.statics.hung.hung:
+        self.forces: list[LeverForce] = []
+        self.couples: list[LeverCouple] = []
+        self.shifts: list[LeverShift] = []
+        for hung in reading.statics.lever_plan.loads:
             given, at, one = hung.given, hung.at, hung.given.applied
             if at is None or hung.arm is None:
                 assert given.couple is not None
@@ -125,9 +125,9 @@ class LeverReading:
             if abs(force) > 1e-9 * reading.peak:
                 assert given.force is not None and one.point is not None
                 size, arm = reading.read_load(given), reading.read_number(hung.arm) * self._share
-                self.forces.append(HungForce(one.name, place, force, arm, size, one.point))
+                self.forces.append(LeverForce(one.name, place, force, arm, size, one.point))
                 self._shift(given, place)
-        self._balance(reading.statics.hung.balance)
+        self._balance(reading.statics.lever_plan.balance)
 
     def _balance(self, balance: NumberName) -> None:
         reading, drive = self.reading, self.reading.solution.problem.drive
@@ -144,7 +144,7 @@ class LeverReading:
             place = self.place(motion.point[drive.link, pin])
             # Its arm is the driver's own velocity, which is laid off and not measured.
             arm, size = _across(place, force), abs(reading.read_number(balance))
-            self.forces.append(HungForce(reading.balancing_symbol, place, force, arm, size, pin))
+            self.forces.append(LeverForce(reading.balancing_symbol, place, force, arm, size, pin))
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever, mm from the pole."""
@@ -152,9 +152,9 @@ class LeverReading:
         at = complex(solution.paper.point(point)[self.reading.index])
         return 1j * at * self._share
 
-    def _couple(self, symbol: str, link: str, moment: float) -> HungCouple:
+    def _couple(self, symbol: str, link: str, moment: float) -> LeverCouple:
         turned = -moment * self._omega(link) / self.per_mm
-        return HungCouple(symbol, link, *self._on(link), moment, turned)
+        return LeverCouple(symbol, link, *self._on(link), moment, turned)
 
     def _shift(self, given: Given, place: complex) -> None:
         """Note the shift of a force that hangs beside its centre of mass."""
@@ -168,7 +168,9 @@ class LeverReading:
         letters = letter(given.applied.point), f"t{shift.letter[1:]}"
         mu_l = self.reading.solution.scales[PlanKind.POSITION].per_mm
         length, line = abs(self.reading.read_number(shift.length)) * mu_l, (centre, place)
-        self.shifts.append(HungShift(f"h_{{{link}}}", link, *self._on(link), letters, line, length))
+        self.shifts.append(
+            LeverShift(f"h_{{{link}}}", link, *self._on(link), letters, line, length)
+        )
 
     def _omega(self, link: str) -> float:
         """Return the angular velocity of a link as the hand has it, 1/s."""

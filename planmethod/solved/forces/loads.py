@@ -44,7 +44,7 @@ _AHEAD = {Moving.UP: 1j, Moving.DOWN: -1j, Moving.LEFT: -1 + 0j, Moving.RIGHT: 1
 Mask = npt.NDArray[np.bool_]
 
 
-class Moved(Protocol):
+class MotionValues(Protocol):
     """What loads need to know of the motion; a `Solution` knows it.
 
     ``positions`` is of shape (n,), as are the arrays of ``points`` and ``links``.
@@ -71,7 +71,7 @@ class Moved(Protocol):
         """Motion of every moving link."""
 
 
-def applied(solution: Moved) -> tuple[Applied, ...]:
+def applied(solution: MotionValues) -> tuple[Applied, ...]:
     """Return all that acts on the links beside the reactions, link by link.
 
     A link has its weight, the main vector of its inertia forces Φ = -m·a_S (главный вектор сил
@@ -95,7 +95,7 @@ def applied(solution: Moved) -> tuple[Applied, ...]:
     return tuple(found)
 
 
-def changing(solution: Moved) -> dict[str, Applied]:
+def changing(solution: MotionValues) -> dict[str, Applied]:
     """Return the external loads that differ from position to position, by name.
 
     Raises
@@ -121,14 +121,16 @@ def needs_motion(load: Load | Couple) -> bool:
 
 
 def _force(
-    solution: Moved, name: str, link: str, point: str, force: Number, kind: LoadKind
+    solution: MotionValues, name: str, link: str, point: str, force: Number, kind: LoadKind
 ) -> Applied:
     shape = solution.positions.shape
     whole = np.array(np.broadcast_to(force, shape), dtype=complex)
     return Applied(name, link, point, whole, np.zeros(shape), kind, _steady(force))
 
 
-def _couple(solution: Moved, name: str, link: str, couple: Number, kind: LoadKind) -> Applied:
+def _couple(
+    solution: MotionValues, name: str, link: str, couple: Number, kind: LoadKind
+) -> Applied:
     shape = solution.positions.shape
     whole = np.array(np.broadcast_to(couple, shape), dtype=float)
     return Applied(name, link, None, np.zeros(shape, dtype=complex), whole, kind, _steady(couple))
@@ -141,7 +143,7 @@ def _steady(value: Number) -> complex | None:
 # Weight and inertia ------------------------------------------------------------------------------
 
 
-def _of_mass(solution: Moved, gravity: float, link: str, mass: Mass) -> Iterator[Applied]:
+def _of_mass(solution: MotionValues, gravity: float, link: str, mass: Mass) -> Iterator[Applied]:
     centre = mass.centre
     if mass.mass and gravity and centre is not None:
         weight = complex(0.0, -mass.mass * gravity)
@@ -154,26 +156,26 @@ def _of_mass(solution: Moved, gravity: float, link: str, mass: Mass) -> Iterator
         yield _couple(solution, f"M_{{Φ{link}}}", link, couple, LoadKind.INERTIA_COUPLE)
 
 
-def _stands(solution: Moved) -> bool:
+def _stands(solution: MotionValues) -> bool:
     """Whether the driver stands, and all links with it."""
     drive = solution.problem.drive
     return drive.rate == 0 and drive.acceleration == 0
 
 
-def _may_accelerate(solution: Moved, link: str, point: str) -> bool:
+def _may_accelerate(solution: MotionValues, link: str, point: str) -> bool:
     drive, plan = solution.problem.drive, solution.construction.kinematics.acceleration
     even = link == drive.link and not drive.is_crank and drive.acceleration == 0
     return not even and not _stands(solution) and plan.point[link, point] != plan.pole
 
 
-def _may_turn_unevenly(solution: Moved, link: str) -> bool:
+def _may_turn_unevenly(solution: MotionValues, link: str) -> bool:
     return not _stands(solution) and link in solution.construction.kinematics.epsilon
 
 
 # External loads ----------------------------------------------------------------------------------
 
 
-def _external(solution: Moved, dynamics: Dynamics, link: str) -> Iterator[Applied]:
+def _external(solution: MotionValues, dynamics: Dynamics, link: str) -> Iterator[Applied]:
     for index, load in enumerate(dynamics.loads):
         if load.link != link or _is_nothing(solution, load):
             continue
@@ -189,7 +191,7 @@ def _external(solution: Moved, dynamics: Dynamics, link: str) -> Iterator[Applie
             yield _couple(solution, load.name, link, size, LoadKind.EXTERNAL)
 
 
-def _is_nothing(solution: Moved, load: Load | Couple) -> bool:
+def _is_nothing(solution: MotionValues, load: Load | Couple) -> bool:
     """Whether a load is zero by nature: of size zero, or against what never moves."""
     if load.size == 0:
         return True
@@ -199,7 +201,7 @@ def _is_nothing(solution: Moved, load: Load | Couple) -> bool:
     return _stands(solution) or not turns
 
 
-def _direction(solution: Moved, load: Load) -> Complexes | complex:
+def _direction(solution: MotionValues, load: Load) -> Complexes | complex:
     """Return the unit vector of a force; zero where it resists a point that stands."""
     if isinstance(load.sense, Fixed):
         return rotation(load.sense.angle)
@@ -209,7 +211,7 @@ def _direction(solution: Moved, load: Load) -> Complexes | complex:
     return np.where(moves, -velocity / np.where(moves, speed, 1.0), 0.0)
 
 
-def _turning(solution: Moved, link: str) -> Reals:
+def _turning(solution: MotionValues, link: str) -> Reals:
     """Return the sense of a link's rotation: 1, -1, or 0 where it does not turn."""
     omega = solution.links[link].omega
     bodies = [solution.problem.bodies[name] for name in solution.problem.mechanism.links]
@@ -219,13 +221,13 @@ def _turning(solution: Moved, link: str) -> Reals:
     return np.where(np.abs(omega) > STILL * largest, np.sign(omega), 0.0)
 
 
-def _largest_speed(solution: Moved) -> Reals:
+def _largest_speed(solution: MotionValues) -> Reals:
     """Return the largest speed of a named point in each position, m/s."""
     speeds = [np.abs(motion.velocity) for motion in solution.points.values()]
     return np.asarray(np.max(speeds, axis=0), dtype=float)
 
 
-def _acts(solution: Moved, load: Load | Couple, phase: Phase) -> Mask:
+def _acts(solution: MotionValues, load: Load | Couple, phase: Phase) -> Mask:
     """Whether a load acts, position by position."""
     acts = np.ones(solution.positions.shape, dtype=bool)
     if phase.phi:
@@ -255,7 +257,7 @@ def _from(phi: Reals, start: float) -> Reals:
 # Tables ------------------------------------------------------------------------------------------
 
 
-def _size(solution: Moved, load: Load | Couple, index: int) -> Reals | float:
+def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | float:
     """Return the size of a load in every position, N or N·m."""
     size = load.size
     if not isinstance(size, Table):
@@ -294,7 +296,7 @@ def _read(table: Table, at: Reals) -> Reals:
     return np.asarray(values[np.maximum(row, 0)], dtype=float)
 
 
-def _numbers(solution: Moved, path: str) -> npt.NDArray[np.intp]:
+def _numbers(solution: MotionValues, path: str) -> npt.NDArray[np.intp]:
     """Tell which positions of the file the asked ones are.
 
     Raises

@@ -23,7 +23,7 @@ from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reading, Remembering, remembered
 from planmethod.solved.solution import Solution
 
-NOTHING = 1e-7
+FAINT_SHARE = 1e-7
 """Share of the largest force of a position below which a force is none."""
 
 
@@ -161,11 +161,11 @@ class ForceReading(Remembering):
 
     def is_none(self, edge: Edge) -> bool:
         """Tell whether a force is nothing beside the others."""
-        return abs(self.force(edge)) <= NOTHING * self.peak
+        return abs(self.force(edge)) <= FAINT_SHARE * self.peak
 
     def is_no_couple(self, couple: CoupleOn) -> bool:
         """Tell whether a couple is nothing beside the others."""
-        return abs(self.number(couple.moment)) <= NOTHING * self.peak_moment
+        return abs(self.number(couple.moment)) <= FAINT_SHARE * self.peak_moment
 
     def shown(self, plan: ForcePlan) -> list[Edge]:
         """Return the sides of a plan that are something.

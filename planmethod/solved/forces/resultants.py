@@ -25,8 +25,8 @@ _NOTHING = 1e-9
 """Share of the longest shift below which a shift is rounding: the link turns evenly."""
 
 
-class Why(Enum):
-    """Why a link keeps the force and the couple."""
+class Hindrance(Enum):
+    """Hindrance a link keeps the force and the couple."""
 
     NO_FORCE = "no force"  # no mass, or the centre of mass is fixed
     FAINT = "faint"  # in some position its acceleration is too small on the plan
@@ -34,7 +34,7 @@ class Why(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class UnshiftedInertia:
     """Link whose inertia stays a force and a couple, or a couple alone.
 
     ``moment`` is the couple; ``reach`` is the longest shift M_Φ/Φ of all positions, m; zero where
@@ -42,7 +42,7 @@ class Kept:
     """
 
     moment: Applied
-    why: Why
+    why: Hindrance
     reach: float = 0.0
 
     @property
@@ -51,32 +51,32 @@ class Kept:
         return self.moment.link
 
 
-def singled(
+def shifted_inertia(
     solution: Solution, loads: Iterable[Applied]
-) -> tuple[dict[str, Applied], tuple[Kept, ...]]:
+) -> tuple[dict[str, Applied], tuple[UnshiftedInertia, ...]]:
     """Tell of which links the force of inertia is shifted, in all positions alike.
 
     Returns
     -------
     dict of str to Applied
         The couples that vanish, by link.
-    tuple of Kept
+    tuple of UnshiftedInertia
         The other links that have such a couple.
     """
     found = list(loads)
     forces = {one.link: one for one in found if one.kind is LoadKind.INERTIA}
     shifted: dict[str, Applied] = {}
-    kept: list[Kept] = []
+    kept: list[UnshiftedInertia] = []
     for one in found:
         if one.kind is not LoadKind.INERTIA_COUPLE:
             continue
         if one.link not in forces:
-            kept.append(Kept(one, Why.NO_FORCE))
+            kept.append(UnshiftedInertia(one, Hindrance.NO_FORCE))
             continue
         reach = _reach(forces[one.link], one)
         why = _hindrance(solution, forces[one.link], reach)
         if why is not None:
-            kept.append(Kept(one, why, reach))
+            kept.append(UnshiftedInertia(one, why, reach))
         elif reach > _NOTHING * farthest(solution.problem):
             shifted[one.link] = one
     return shifted, tuple(kept)
@@ -89,15 +89,15 @@ def _reach(force: Applied, couple: Applied) -> float:
         return float(np.max(np.where(moment == 0, 0.0, moment / size), initial=0.0))
 
 
-def _hindrance(solution: Solution, force: Applied, reach: float) -> Why | None:
+def _hindrance(solution: Solution, force: Applied, reach: float) -> Hindrance | None:
     assert force.point is not None
     accelerations = np.abs(solution.points[force.point].acceleration)
     largest = np.max([np.abs(point.acceleration) for point in solution.points.values()], axis=0)
     scale = solution.scales[PlanKind.ACCELERATION].per_mm
     unread = solution.hand.ruled(accelerations / scale) == 0
     if np.any((accelerations <= FAINT * largest) | unread):
-        return Why.FAINT
-    return Why.FAR if reach > farthest(solution.problem) else None
+        return Hindrance.FAINT
+    return Hindrance.FAR if reach > farthest(solution.problem) else None
 
 
 def farthest(problem: Problem) -> float:

@@ -22,7 +22,7 @@ from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import SCALE, Board, Force, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
-from planmethod.plans.forces.lever import Lever, hang
+from planmethod.plans.forces.lever import Lever, plan_lever
 from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
@@ -30,7 +30,7 @@ from planmethod.problem.model import Convention
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import Contact, JointForce, contacts
 from planmethod.solved.forces.loads import applied
-from planmethod.solved.forces.resultants import Kept, singled
+from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
 from planmethod.solved.scaling import Box
@@ -76,9 +76,9 @@ def plan_forces(
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
     driving = drive_forces(board)
-    hung = hang(board, driving)
+    lever = plan_lever(board, driving)
     draft.note_plan(PlanKind.FORCE, start)
-    return Planned(board, driving, hung)
+    return Planned(board, driving, lever)
 
 
 class Statics(Remembering):
@@ -91,7 +91,7 @@ class Statics(Remembering):
 
     Attributes
     ----------
-    kept : tuple of Kept
+    kept : tuple of UnshiftedInertia
         Links that keep the couple of inertia although the file asks for the single resultant.
     """
 
@@ -100,11 +100,11 @@ class Statics(Remembering):
         self.solution = solution
         loads = applied(solution)
         single: Mapping[str, Applied] = {}
-        self.kept: tuple[Kept, ...] = ()
+        self.unshifted: tuple[UnshiftedInertia, ...] = ()
         if solution.problem.dynamics is not None and solution.problem.dynamics.resultant:
-            single, self.kept = singled(solution, loads)
+            single, self.unshifted = shifted_inertia(solution, loads)
         planned = plan_forces(solution, solution.construction.draft.copy(), loads, single)
-        self.board, self.driving, self.hung = planned.board, planned.driving, planned.lever
+        self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
         self.program: Program = self.board.draft.b.program().needed_for(self._asked())
 
     def _asked(self) -> list[Name]:
@@ -118,7 +118,9 @@ class Statics(Remembering):
         asked += [*self.board.segments.values.values(), *self.board.segments.lengths.values()]
         asked += self.board.arms.values()
         asked.append(self.board.scale)
-        return asked + ([self.hung.balance, self.hung.difference] if self.hung else [])
+        return asked + (
+            [self.lever_plan.balance, self.lever_plan.difference] if self.lever_plan else []
+        )
 
     def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Reading:
         """Read the force plans in an arithmetic, at scales of all plans (units per mm)."""
@@ -202,7 +204,7 @@ class Statics(Remembering):
     @cached_property
     def lever(self) -> Reals | None:
         """The same by the Zhukovsky lever; None where the driver stands."""
-        return None if self.hung is None else self._number(self.hung.balance)
+        return None if self.lever_plan is None else self._number(self.lever_plan.balance)
 
     def largest(self, index: int) -> float:
         """Return the size of the largest force of a position, load or reaction, N."""

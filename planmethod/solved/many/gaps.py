@@ -17,7 +17,7 @@ CHUNK = 16384
 """Positions that are swept in one go."""
 
 
-class Swept:
+class GappedSweep:
     """A sweep over positions that were looked at first.
 
     Every position that a step fails in is found. The self-check of `selfcheck.verify` and the

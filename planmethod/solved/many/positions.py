@@ -127,7 +127,7 @@ class Gaps:
 
 
 @dataclass(frozen=True, slots=True)
-class Examined:
+class Checked:
     """Positions that were looked at.
 
     Attributes
@@ -160,7 +160,7 @@ def evenly(places: Places, most: int = SAMPLE) -> Places:
 
 def examine(
     problem: Problem, positions: Reals, *, numbers: Places | None = None, forces: bool = False
-) -> Examined:
+) -> Checked:
     """Check every position as `verify` does and estimate its error, block by block.
 
     Parameters
@@ -220,7 +220,7 @@ def examine(
     if forces:
         other = Gaps.of(unforced, tell)
         gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.told)))
-    return Examined(gaps, tuple(doubtful), tuple(gaps.sentences[k] for k in kinds))
+    return Checked(gaps, tuple(doubtful), tuple(gaps.sentences[k] for k in kinds))
 
 
 def _listed(positions: Reals) -> list[float]:

@@ -22,7 +22,7 @@ from planmethod.solved.results import natural_size, results_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import SCALES, error_bound
 
-NOTHING = 1e-14
+ZERO_SHARE = 1e-14
 """Share of the largest result of its kind below which one is zero by nature, and not measured in
 units of its own reach."""
 
@@ -71,7 +71,7 @@ class Verdict:
 
 
 @dataclass(frozen=True, slots=True)
-class Examined:
+class Refereed:
     """One position before the referee.
 
     Attributes
@@ -104,7 +104,7 @@ class Examined:
 
 def examine(
     problem: Problem, positions: Sequence[float], *, digits: int = DIGITS, closely: bool = True
-) -> list[Examined]:
+) -> list[Refereed]:
     """Judge every result of a problem in some positions.
 
     Parameters
@@ -140,7 +140,7 @@ def examine(
             reason = f"step {program.steps[int(fails[i])].out} is impossible"
         margin = min(float(_entry(value, i)) for value in trace.margin.values())
         lost = 0 if fails[i] >= 0 else len(results.all) - len(verdicts)
-        found.append(Examined(position, margin, reason, warned, agreed, verdicts, lost))
+        found.append(Refereed(position, margin, reason, warned, agreed, verdicts, lost))
     return found
 
 
@@ -193,7 +193,9 @@ def _natural(largest: Mapping[QuantityKind, float]) -> dict[QuantityKind, float]
 def _verdict(result: Quantity, value: Number, error: float, span: float, largest: float) -> Verdict:
     size = float(abs(value))
     # Zero by nature: neither it nor its slopes are anything, but for rounding of the slopes.
-    nothing = span <= NOTHING * largest or (size <= VANISHED * largest and span <= NOISE * largest)
+    nothing = span <= ZERO_SHARE * largest or (
+        size <= VANISHED * largest and span <= NOISE * largest
+    )
     unit = largest if nothing else span
     multiple = 0.0 if error == 0 else error / (UNIT_ROUNDOFF * unit) if unit else math.inf
     kappa = span / size if size else math.inf

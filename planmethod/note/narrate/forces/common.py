@@ -21,7 +21,7 @@ STRAIGHT = 1e-6
 """Degrees by which a way is off the vertical or the horizontal that is told as such."""
 
 
-class Telling:
+class ForceContext:
     """What the voices of the force analysis share: a reading, names, a language.
 
     What is given and what a table shows is exact; all else is as the hand has it: arms that it
@@ -76,10 +76,10 @@ class Telling:
         return self.names.base(edge.direction)
 
 
-def lettered(reading: ForceReading, words: Language) -> Telling:
+def lettered(reading: ForceReading, words: Language) -> ForceContext:
     """Return what the voices share where they letter a sheet."""
     names = Names(reading.solution, words.note, on_sheet=True)
-    return Telling(reading, Formulas(reading.solution, names, reading.index))
+    return ForceContext(reading, Formulas(reading.solution, names, reading.index))
 
 
 def closed(lines: Sequence[str]) -> list[str]:

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planmethod.note.narrate.forces.common import Telling, arm_symbol, signed_sum
+from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.numbers import significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.forces import drawn_forces
-from planmethod.solved.forces.lever import HungCouple, HungShift, LeverReading, OnLink
+from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverShift, OnLink
 from planmethod.solved.forces.reading import ForceReading
 
 
@@ -35,7 +35,7 @@ class PairText:
 def both_balances(reading: ForceReading) -> tuple[float, float | None]:
     """Return the balancing moment or force as the hand finds it: by the plans, by the lever."""
     plans = float(drawn_forces(reading.statics).balance[reading.index])
-    hung = reading.statics.hung
+    hung = reading.statics.lever_plan
     return plans, None if hung is None else reading.read_number(hung.balance)
 
 
@@ -53,25 +53,25 @@ def expected(reading: ForceReading) -> float | None:
     return float(sigma[reading.index])
 
 
-class LeverVoice:
+class LeverNarrator:
     """Tells the lever of one position, which the driver must not stand in.
 
     A sheet has it at the scale at which it draws the velocity plan of that position.
     """
 
-    def __init__(self, telling: Telling) -> None:
-        self.telling, self.reading, self.said = telling, telling.reading, telling.said
-        self.names, self.found = telling.names, telling.found
-        self.ruled, self.notation = telling.ruled, telling.notation
-        self.lever = LeverReading(telling.reading, common=not telling.names.on_sheet)
-        self.unit = telling.units[telling.reading.balancing.unit]
-        self.balancing = telling.symbol(telling.reading.balancing_symbol)
+    def __init__(self, context: ForceContext) -> None:
+        self.context, self.reading, self.said = context, context.reading, context.said
+        self.names, self.found = context.names, context.found
+        self.ruled, self.notation = context.ruled, context.notation
+        self.lever = LeverReading(context.reading, common=not context.names.on_sheet)
+        self.unit = context.units[context.reading.balancing.unit]
+        self.balancing = context.symbol(context.reading.balancing_symbol)
 
     # Formulas --------------------------------------------------------------------------------
 
     def equation(self) -> str:
         """Return the sum of the moments about the pole in letters, each with its sign."""
-        symbol = self.telling.symbol
+        symbol = self.context.symbol
         forces = [(one.arm, symbol(one.symbol)) for one in self.lever.forces if one.arm]
         terms = [(arm, f"{name}·{arm_symbol(name)}") for arm, name in forces]
         terms += [
@@ -82,7 +82,7 @@ class LeverVoice:
 
     def arms(self) -> str:
         """Return the arms of the forces that have one, without their unit; empty if none has."""
-        found = ((self.telling.symbol(o.symbol), abs(o.arm)) for o in self.lever.forces if o.arm)
+        found = ((self.context.symbol(o.symbol), abs(o.arm)) for o in self.lever.forces if o.arm)
         return "; ".join(f"{arm_symbol(name)} = {self.ruled(arm)}" for name, arm in found)
 
     def _pair(self, one: OnLink) -> PairText:
@@ -92,35 +92,35 @@ class LeverVoice:
             omega, per_mm = one.ratio * self.lever.per_mm, self.lever.per_mm
             letters = f"ω_{{{one.link}}}{'·' if names.is_inverse_scale() else '/'}μ_{{v}}"
             return PairText(
-                letters, self.telling.scaled(self.telling.short(omega), per_mm, back=True)
+                letters, self.context.scaled(self.context.short(omega), per_mm, back=True)
             )
         letters, length = f"({names.segment(*one.ends)})", f"l_{{{self._joints(one, *one.joints)}}}"
-        segment, link = self.ruled(one.ratio * one.length), self.telling.short(one.length)
-        units = self.telling.units
+        segment, link = self.ruled(one.ratio * one.length), self.context.short(one.length)
+        units = self.context.units
         told = f"{letters} = {segment} {units['mm']}; {length} = {link} {units['m']}"
         return PairText(f"{letters}/{length}", f"{segment}/{link}", told, length)
 
     def _joints(self, one: OnLink, first: str, second: str) -> str:
         """Return two joints in the order in which their distance is given."""
-        problem = self.telling.solution.problem
+        problem = self.context.solution.problem
         given = {name for _, name, _ in problem.lengths}
         on_link = {first, second} <= set(problem.bodies[one.link].points)
         return first + second if on_link and second + first not in given else second + first
 
-    def _shift(self, one: HungShift) -> str:
+    def _shift(self, one: LeverShift) -> str:
         """Return how far the point of a shifted force is from the centre of mass on the lever."""
         told = self._pair(one)
         formula = f"{one.symbol}·{told.letters} = {self.found(one.shift)}·{told.numbers}"
         length = self.notation.number(f"{one.shift * one.ratio:.1f}")
-        return f"({''.join(one.letters)}) = {formula} = {length} {self.telling.units['mm']}"
+        return f"({''.join(one.letters)}) = {formula} = {length} {self.context.units['mm']}"
 
     def lines(self) -> list[str]:
         """Return the moments about the pole, the arms, what balances them, the discrepancy."""
-        said, number = self.telling.language.sheets, self.notation.number
+        said, number = self.context.language.sheets, self.notation.number
         if not self.lever.forces and not self.lever.couples:
             return [said.lever_no_work.format(symbol=self.balancing)]
         arms, lines = self.arms(), [self.equation()]
-        lines += [f"{arms} {self.telling.units['mm']}"] if arms else []
+        lines += [f"{arms} {self.context.units['mm']}"] if arms else []
         on_links = (*self.lever.couples, *self.lever.shifts)
         segments = (self._pair(one).segment for one in on_links)
         lines += [text.replace("; ", ";  ") for text in dict.fromkeys(segments) if text]
@@ -166,7 +166,7 @@ class LeverVoice:
             point = self.names.point(motion.point[motion.named[one.point]])
             if one.symbol in beside:
                 point = beside[one.symbol].letters[1]
-            at.setdefault(point, []).append(self.telling.symbol(one.symbol))
+            at.setdefault(point, []).append(self.context.symbol(one.symbol))
         lines = []
         if at:
             told = (
@@ -202,8 +202,8 @@ class LeverVoice:
         if lines:
             yield lines
 
-    def _told(self, one: HungCouple) -> str:
-        pair, symbol = self._pair(one), self.telling.symbol(one.symbol)
+    def _told(self, one: LeverCouple) -> str:
+        pair, symbol = self._pair(one), self.context.symbol(one.symbol)
         if pair.segment:
             assert one.ends is not None
             text = self.said.pair.format(
@@ -219,16 +219,16 @@ class LeverVoice:
             )
         if symbol == self.balancing or not one.lever_moment:
             return text + "."
-        return text + self.said.pair_sense.format(sense=self.telling.sense(one.lever_moment))
+        return text + self.said.pair_sense.format(sense=self.context.sense(one.lever_moment))
 
     def _equation(self) -> list[str]:
         """Return the sum of moments, and what balances the driver with numbers."""
         value = both_balances(self.reading)[1]
         assert value is not None and self.reading.statics.lever is not None
-        exact = self.telling.exactly(float(self.reading.statics.lever[self.reading.index]))
+        exact = self.context.exactly(float(self.reading.statics.lever[self.reading.index]))
         end = "."
         if self.reading.balancing.turns and value:
-            end = self.said.directed.format(sense=self.telling.sense(value))
+            end = self.said.directed.format(sense=self.context.sense(value))
         result = f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
         return [f"{self.equation()},", f"{result}{exact}{end}"]
 

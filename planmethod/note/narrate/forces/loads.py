@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.construct.steps import Compute, NumberName
-from planmethod.note.narrate.forces.common import Telling, closed
+from planmethod.note.narrate.forces.common import ForceContext, closed
 from planmethod.note.narrate.forces.resultants import shift_symbol
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.plans.forces.board import Given
@@ -14,13 +14,13 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.load_records import Against, Mass
 
 
-class LoadVoice:
+class LoadNarrator:
     """Tells what acts on the links beside the reactions."""
 
-    def __init__(self, telling: Telling) -> None:
-        self.telling, self.reading = telling, telling.reading
-        self.said, self.units = telling.said, telling.units
-        self.short, self.found = telling.short, telling.found
+    def __init__(self, context: ForceContext) -> None:
+        self.context, self.reading = context, context.reading
+        self.said, self.units = context.said, context.units
+        self.short, self.found = context.short, context.found
 
     # Formulas --------------------------------------------------------------------------------
 
@@ -50,7 +50,7 @@ class LoadVoice:
     def shifted(self, force: Given, shift: Shift) -> list[str]:
         """Return the couple that a shifted force of inertia stands for, and the shift."""
         size, moment = self.reading.read_load(force), self.reading.read_number(shift.couple)
-        metres = self.telling.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
+        metres = self.context.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
         letters = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.applied.name}"
         numbers, found = (
             f"{self.found(abs(moment))}/{self.found(abs(size))}",
@@ -60,7 +60,7 @@ class LoadVoice:
         return [self._product(shift.moment, shift.couple), told]
 
     def _product(self, one: Applied, made: NumberName) -> str:
-        dynamics = self.telling.solution.problem.dynamics
+        dynamics = self.context.solution.problem.dynamics
         assert dynamics is not None
         mass, inertia = f"m_{{{one.link}}}", f"J_{{S{one.link}}}"
         letters = {
@@ -68,7 +68,7 @@ class LoadVoice:
             LoadKind.INERTIA: f"{mass}·a_{{{dynamics.masses[one.link].centre}}}",
             LoadKind.INERTIA_COUPLE: f"{inertia}·ε_{{{one.link}}}",
         }[one.kind]
-        step = self.telling.step[made]
+        step = self.context.step[made]
         assert isinstance(step, Compute)
         factors = (self.short(abs(self.reading.read_number(name))) for name, _ in step.powers)
         unit, size = self.units["N" if one.point else "N·m"], self.reading.read_number(made)
@@ -78,8 +78,8 @@ class LoadVoice:
 
     def scale(self) -> str:
         """Return the scale of the force plans."""
-        convention = self.telling.solution.problem.scales.convention
-        return scale_inscription(self.reading.scale, convention, self.telling.notation)
+        convention = self.context.solution.problem.scales.convention
+        return scale_inscription(self.reading.scale, convention, self.context.notation)
 
     def link(self, link: str) -> list[str]:
         """Tell the loads of a link."""
@@ -89,7 +89,7 @@ class LoadVoice:
         return [self.said.of_link.format(link=link), *closed(lines)]
 
     def _loads(self, link: str) -> Iterator[str]:
-        dynamics = self.telling.solution.problem.dynamics
+        dynamics = self.context.solution.problem.dynamics
         assert dynamics is not None
         own = [load for load in self.reading.statics.board.given if load.applied.link == link]
         mass = dynamics.masses.get(link)
@@ -116,7 +116,7 @@ class LoadVoice:
             return []
         one, (moment, formula) = load.applied, self.shifted(load, shift)
         turning = self.said.inertia_couple.format(
-            formula=moment, exact="", sense=self.telling.sense(couple), epsilon=f"ε_{{{one.link}}}"
+            formula=moment, exact="", sense=self.context.sense(couple), epsilon=f"ε_{{{one.link}}}"
         )
         length = abs(self.reading.read_number(shift.length))
         laid = self.said.shift.format(
@@ -147,7 +147,7 @@ class LoadVoice:
             return said.absent.format(symbol=one.name)
         read = abs(self.reading.read_load(load))
         is_exact = self.found(read) == self.found(abs(value))
-        common = {"point": one.point, "exact": "" if is_exact else self.telling.exactly(value)}
+        common = {"point": one.point, "exact": "" if is_exact else self.context.exactly(value)}
         if one.kind is LoadKind.EXTERNAL:
             return self._external(load, force, couple)
         common["formula"] = self.formula(load)
@@ -159,7 +159,7 @@ class LoadVoice:
                 template = said.inertia_shifted if shifted else said.inertia
                 return template.format(acceleration=f"a_{one.point}", **common)
             case LoadKind.INERTIA_COUPLE:
-                sense = self.telling.sense(couple)
+                sense = self.context.sense(couple)
                 epsilon = f"ε_{{{one.link}}}"
                 return said.inertia_couple.format(sense=sense, epsilon=epsilon, **common)
 
@@ -167,19 +167,19 @@ class LoadVoice:
         symbol = load.applied.name
         if load.applied.point is not None:
             size = f"{self.found(abs(force))} {self.units['N']}"
-            point, way = load.applied.point, self.telling.way(force) + self._resisting(load)
+            point, way = load.applied.point, self.context.way(force) + self._resisting(load)
             return self.said.force.format(symbol=symbol, size=size, point=point, way=way)
         size = f"{self.found(abs(couple))} {self.units['N·m']}"
-        return self.said.couple.format(symbol=symbol, size=size, sense=self.telling.sense(couple))
+        return self.said.couple.format(symbol=symbol, size=size, sense=self.context.sense(couple))
 
     def _resisting(self, load: Given) -> str:
         """Tell of a force that it is against the velocity of its point; of others nothing."""
-        dynamics, one = self.telling.solution.problem.dynamics, load.applied
+        dynamics, one = self.context.solution.problem.dynamics, load.applied
         assert dynamics is not None and one.point is not None
         given_so = [other for other in dynamics.loads if other.name == one.name]
         if not any(isinstance(other.sense, Against) for other in given_so):
             return ""
-        velocity = complex(self.telling.solution.points[one.point].velocity[self.reading.index])
+        velocity = complex(self.context.solution.points[one.point].velocity[self.reading.index])
         force = complex(one.force[self.reading.index])
         is_against = (force * velocity.conjugate()).real < 0
         template = self.said.against if is_against else self.said.along

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planmethod.note.narrate.forces.common import Telling, arm_symbol, closed, signed_sum
+from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, closed, signed_sum
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
@@ -45,14 +45,14 @@ class MomentText:
     value: float = 0.0
 
 
-class MomentVoice:
+class MomentNarrator:
     """Tells the equations of moments of one force plan."""
 
-    def __init__(self, telling: Telling, plan: ForcePlan) -> None:
-        self.telling, self.plan = telling, plan
-        self.reading, self.said, self.units = telling.reading, telling.said, telling.units
-        self.found, self.short, self.symbol = telling.found, telling.short, telling.symbol
-        self.statics = telling.reading.statics
+    def __init__(self, context: ForceContext, plan: ForcePlan) -> None:
+        self.context, self.plan = context, plan
+        self.reading, self.said, self.units = context.reading, context.said, context.units
+        self.found, self.short, self.symbol = context.found, context.short, context.symbol
+        self.statics = context.reading.statics
 
     # Equations -------------------------------------------------------------------------------
 
@@ -71,7 +71,7 @@ class MomentVoice:
             if not reading.is_no_couple(known)
         ]
         head = f"ΣM_{{{equation.about}}}"
-        if self.telling.names.on_sheet:  # where no sentence tells the links
+        if self.context.names.on_sheet:  # where no sentence tells the links
             head = f"Σ_{{{','.join(equation.links)}}}M_{{{point_name(str(equation.about))}}}"
         arm, length, measured = "", "", ""
         if edge is not None:
@@ -99,7 +99,7 @@ class MomentVoice:
         result = f"= {self.found(abs(value))} {self.units[unit]}" if value else "≈ 0"
         return MomentText(
             f"{head} = {signed_sum(letters)} = 0",
-            tuple(f"{arm_symbol(n)} = {self.telling.ruled(abs(a))}" for n, _, a in forces),
+            tuple(f"{arm_symbol(n)} = {self.context.ruled(abs(a))}" for n, _, a in forces),
             measured,
             f"{symbol} = {numbers} {'= 0' if cancel and not value else result}"
             if forces or couples
@@ -114,9 +114,9 @@ class MomentVoice:
         """
         metres, (first, *more) = self.short(self.reading.read_product(equation.arm)), equation.arm
         if not more:
-            return self.telling.names.symbol(first[0]), metres, ""
+            return self.context.names.symbol(first[0]), metres, ""
         letters = f"l_{{{edge.at}{equation.about}}}"
-        length = self.telling.on_drawing(self.telling.ruled(self.reading.read_number(first[0])))
+        length = self.context.on_drawing(self.context.ruled(self.reading.read_number(first[0])))
         return letters, metres, f"{letters} = {length} = {metres} {self.units['m']}"
 
     def _numbers(
@@ -130,12 +130,12 @@ class MomentVoice:
         if forces:
             inside = signed_sum(
                 [
-                    (turn * arm, f"{self.found(size)}·{self.telling.ruled(abs(arm))}")
+                    (turn * arm, f"{self.found(size)}·{self.context.ruled(abs(arm))}")
                     for _, size, arm in forces
                 ]
             )
             inside = f"({inside})" if len(forces) > 1 or inside.startswith(MINUS) else inside
-            terms.append((1.0, self.telling.on_drawing(inside)))
+            terms.append((1.0, self.context.on_drawing(inside)))
         terms += [(turn * moment, self.found(abs(moment))) for _, moment in couples]
         return signed_sum(terms)
 
@@ -177,8 +177,8 @@ class MomentVoice:
             return [*lines, self.said.no_moments.format(point=point)]
         if not told.value:
             return [*lines, f"{told.result}."]
-        sense = self.telling.sense(told.value)
-        exact = self.telling.exactly(abs(self.reading.force(edge)))
+        sense = self.context.sense(told.value)
+        exact = self.context.exactly(abs(self.reading.force(edge)))
         turns = self.said.turns.format(symbol=edge.symbol, link=edge.on, point=point, sense=sense)
         return [*lines, f"{told.result}{exact}.", turns]
 
@@ -193,8 +193,8 @@ class MomentVoice:
         """Return a found couple with numbers, its exact value and its sense."""
         if not told.value:
             return f"{told.result}."
-        exact = self.telling.exactly(self.reading.number(couple.moment))
-        sense = self.said.directed.format(sense=self.telling.sense(told.value))
+        exact = self.context.exactly(self.reading.number(couple.moment))
+        sense = self.said.directed.format(sense=self.context.sense(told.value))
         return f"{told.result}{exact}{sense}"
 
     # Guides ----------------------------------------------------------------------------------

@@ -15,29 +15,29 @@ from planmethod.construct.steps import (
     Step,
 )
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.forces.common import Telling, closed
+from planmethod.note.narrate.forces.common import ForceContext, closed
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Share, reaction_symbol
 from planmethod.plans.model import Relation
 
 
-class ForceVoice:
+class ForcePlanNarrator:
     """Tells one force plan in the order of its steps.
 
     Parameters
     ----------
-    telling : Telling
+    context : ForceContext
     plan : ForcePlan
     number : int
         Which of the plans of the solution.
     """
 
-    def __init__(self, telling: Telling, plan: ForcePlan, number: int) -> None:
-        self.telling, self.plan = telling, plan
-        self.reading, self.names = telling.reading, telling.names
-        self.said, self.words = telling.said, telling.words
-        self.statics = telling.reading.statics
+    def __init__(self, context: ForceContext, plan: ForcePlan, number: int) -> None:
+        self.context, self.plan = context, plan
+        self.reading, self.names = context.reading, context.names
+        self.said, self.words = context.said, context.words
+        self.statics = context.reading.statics
         start = self.statics.board.starts[number + 1]
         self._ends: dict[PointName, str] = {start: self.said.of_start}
         self._begun = False
@@ -60,9 +60,9 @@ class ForceVoice:
         said = self.said
         outer = [r for r in self.statics.board.reactions if self._is_outer(r)]
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
-        drive = self.telling.solution.problem.drive.link
+        drive = self.context.solution.problem.drive.link
         if self.plan.links == (drive,):
-            symbol = self.telling.symbol(self.reading.balancing_symbol)
+            symbol = self.context.symbol(self.reading.balancing_symbol)
             template = said.and_balance[self.reading.balancing.quantity]
             balancing = template.format(symbol=symbol)
             return [
@@ -74,9 +74,9 @@ class ForceVoice:
             return lines
         for whole in self.plan.wholes:
             normal, tangential = self._components(whole)
-            line = self.telling.base(normal)
+            line = self.context.base(normal)
             symbols = {"whole": whole, "normal": normal, "tangential": tangential}
-            said_of = {key: self.telling.symbol(edge.symbol) for key, edge in symbols.items()}
+            said_of = {key: self.context.symbol(edge.symbol) for key, edge in symbols.items()}
             lines.append(said.components.format(line=line, **said_of))
         return lines + self._known
 
@@ -86,7 +86,7 @@ class ForceVoice:
     def _reaction(self, reaction: Reaction) -> str:
         said = self.said
         by = said.from_frame if reaction.by == FRAME else said.from_link.format(link=reaction.by)
-        symbol = self.telling.symbol(reaction.force.symbol)
+        symbol = self.context.symbol(reaction.force.symbol)
         return said.reaction.format(symbol=symbol, by=by, point=reaction.joint)
 
     def _components(self, whole: Edge) -> tuple[Edge, Edge]:
@@ -107,7 +107,7 @@ class ForceVoice:
             for letter in "F" if self._is_still(r) else "FM":
                 own = reaction_symbol(r.by, r.on, letter=letter)
                 other = reaction_symbol(r.on, r.by, letter=letter)
-                told.append(self.telling.symbol(f"{own} = −{other}"))
+                told.append(self.context.symbol(f"{own} = −{other}"))
         return [self.said.passed_on.format(reactions=", ".join(told))] if told else []
 
     def _is_nothing(self, reaction: Reaction) -> bool:
@@ -152,18 +152,18 @@ class ForceVoice:
         text = self.closing(edge)
         if self.reading.is_none(edge):
             return text
-        return text + self.telling.exactly(abs(self.reading.force(edge)))
+        return text + self.context.exactly(abs(self.reading.force(edge)))
 
     def closing(self, edge: Edge) -> str:
         """Return a force read off its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
-        symbol, length = self.telling.symbol(edge.symbol), self.reading.length(edge)
+        symbol, length = self.context.symbol(edge.symbol), self.reading.length(edge)
         if self.reading.is_none(edge):
             return f"{symbol} = 0"
         if not length:
             return f"{symbol} ≈ 0"
-        numbers = self.telling.scaled(self.telling.ruled(length), self.reading.scale.per_mm)
-        size = self.telling.found(self.reading.read(edge))
-        return f"{symbol} = {numbers} = {size} {self.telling.units['N']}"
+        numbers = self.context.scaled(self.context.ruled(length), self.reading.scale.per_mm)
+        size = self.context.found(self.reading.read(edge))
+        return f"{symbol} = {numbers} = {size} {self.context.units['N']}"
 
     def _tangential(self, edge: Edge) -> list[str]:
         """Tell the laying off of a component that moments have found."""
@@ -176,13 +176,13 @@ class ForceVoice:
             for e in self.plan.polygon
             if (e.on, e.at, e.share) == (edge.on, edge.at, Share.NORMAL)
         )
-        return self.telling.base(normal)
+        return self.context.base(normal)
 
     def _carry(self, step: Carry) -> list[str]:
         edge = self._side(step.origin, step.out)
         source = self._source(step)
         if source is not None:
-            other = self.telling.symbol(source.force.symbol)
+            other = self.context.symbol(source.force.symbol)
             return self._lay(
                 edge, self.said.way_back.format(other=other), back=edge.tail == step.out
             )
@@ -215,7 +215,7 @@ class ForceVoice:
         one = load.applied
         assert one.point is not None
         if one.kind is not LoadKind.INERTIA:
-            return self.telling.way(complex(one.force[self.reading.index]))
+            return self.context.way(complex(one.force[self.reading.index]))
         motion = self.names.kin.acceleration
         head = motion.point[motion.named[one.point]]
         return self.said.way_against.format(
@@ -225,7 +225,7 @@ class ForceVoice:
     def _lay(self, edge: Edge, way: str, *, back: bool = False) -> list[str]:
         """Tell a vector laid off; of nothing, nothing."""
         new, old = (edge.tail, edge.head) if back else (edge.head, edge.tail)
-        symbol = self.telling.symbol(edge.symbol)
+        symbol = self.context.symbol(edge.symbol)
         length = self.reading.length(edge)
         if self.reading.is_none(edge) or not length:
             self._ends[new] = self._ends[old]
@@ -243,9 +243,9 @@ class ForceVoice:
 
     def _length(self, edge: Edge) -> str:
         """Return how the length of a force on the plan is computed."""
-        telling, newtons = self.telling, self.telling.found(self.reading.read(edge))
-        formula = telling.scaled(newtons, self.reading.scale.per_mm, back=True)
-        return f"{formula} = {telling.short(self.reading.length(edge), 4)} {telling.units['mm']}"
+        context, newtons = self.context, self.context.found(self.reading.read(edge))
+        formula = context.scaled(newtons, self.reading.scale.per_mm, back=True)
+        return f"{formula} = {context.short(self.reading.length(edge), 4)} {context.units['mm']}"
 
     # Closing ---------------------------------------------------------------------------------
 
@@ -269,7 +269,7 @@ class ForceVoice:
 
     def _carried_by(self, line: LineName, out: PointName) -> Edge:
         """Return the side of the plan that lies on a line."""
-        step = self.telling.step[line]
+        step = self.context.step[line]
         assert isinstance(step, Parallel | Perpendicular)
         ends = {step.through, out}
         return next(e for e in self._edges if e.direction and {e.tail, e.head} == ends)
@@ -284,8 +284,8 @@ class ForceVoice:
                 template = self.words.draw_perpendicular
             case _:
                 template = self.words.draw_at_angle
-                angle = self.telling.short(edge.direction.angle, 4)
-        symbol = self.telling.symbol(edge.symbol)
+                angle = self.context.short(edge.direction.angle, 4)
+        symbol = self.context.symbol(edge.symbol)
         text = template.format(of=of, base=base, angle=angle)
         return f"{text}{self.words.carries.format(symbol=symbol)}."
 
@@ -294,7 +294,7 @@ class ForceVoice:
 
     def _span(self, edge: Edge) -> dict[str, str]:
         return {
-            "symbol": self.telling.symbol(edge.symbol),
+            "symbol": self.context.symbol(edge.symbol),
             "tail": self._ends[edge.tail],
             "head": self._ends[edge.head],
         }
@@ -310,7 +310,7 @@ class ForceVoice:
             elif same:
                 yield [
                     self.said.same.format(
-                        link=edge.on, symbol=self.telling.symbol(edge.symbol), same=same
+                        link=edge.on, symbol=self.context.symbol(edge.symbol), same=same
                     )
                 ]
             elif edge == self.plan.inner:
@@ -321,9 +321,9 @@ class ForceVoice:
 
     def _whole(self, edge: Edge) -> str:
         parts = [e for e in self._components(edge) if not self.reading.is_none(e)]
-        text = " + ".join(self.telling.symbol(part.symbol) for part in parts)
+        text = " + ".join(self.context.symbol(part.symbol) for part in parts)
         if len(parts) == 1:
-            return self.said.whole_single.format(symbol=self.telling.symbol(edge.symbol), part=text)
+            return self.said.whole_single.format(symbol=self.context.symbol(edge.symbol), part=text)
         return self.said.whole.format(parts=text, **self._span(edge))
 
     def _same(self, edge: Edge) -> str:
@@ -336,5 +336,5 @@ class ForceVoice:
             ends = (self._ends[other.tail], self._ends[other.head])
             if ends in ((tail, head), (head, tail)):
                 sign = "" if ends == (tail, head) else "−"
-                return f"{sign}{self.telling.symbol(other.symbol)}"
+                return f"{sign}{self.context.symbol(other.symbol)}"
         return ""

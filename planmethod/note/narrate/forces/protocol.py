@@ -9,11 +9,11 @@ import numpy as np
 from planmethod.construct.steps import Name
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.narrate.equations import balance_lines
-from planmethod.note.narrate.forces.common import Telling
-from planmethod.note.narrate.forces.lever import LeverVoice
-from planmethod.note.narrate.forces.loads import LoadVoice
-from planmethod.note.narrate.forces.moments import MomentVoice
-from planmethod.note.narrate.forces.plan import ForceVoice
+from planmethod.note.narrate.forces.common import ForceContext
+from planmethod.note.narrate.forces.lever import LeverNarrator
+from planmethod.note.narrate.forces.loads import LoadNarrator
+from planmethod.note.narrate.forces.moments import MomentNarrator
+from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.numbered import INDENT, Steps
 from planmethod.note.narrate.structure import group_title
@@ -40,49 +40,49 @@ def tell_forces(text: Steps, say: Formulas, index: int) -> None:
     AssemblyError
         Where a force plan does not close.
     """
-    telling = Telling(ForceReading(say.solution, index), say)
-    telling.reading.statics.si  # noqa: B018 - what cannot be drawn is told before anything else
-    _loads(text, telling)
-    _plans(text, telling)
-    _lever(text, telling)
+    context = ForceContext(ForceReading(say.solution, index), say)
+    context.reading.statics.si  # noqa: B018 - what cannot be drawn is told before anything else
+    _loads(text, context)
+    _plans(text, context)
+    _lever(text, context)
 
 
-def _loads(text: Steps, telling: Telling) -> None:
-    said, voice = telling.said, LoadVoice(telling)
+def _loads(text: Steps, context: ForceContext) -> None:
+    said, voice = context.said, LoadNarrator(context)
     text.chapter(said.title_loads)
     text.item([said.scale.format(scale=voice.scale())])
-    for link in telling.solution.problem.mechanism.links:
+    for link in context.solution.problem.mechanism.links:
         text.item(voice.link(link))
 
 
-def _plans(text: Steps, telling: Telling) -> None:
-    said, words = telling.said, telling.words
+def _plans(text: Steps, context: ForceContext) -> None:
+    said, words = context.said, context.words
     text.chapter(said.title_plans)
-    titles = [_short(telling, group) for group in reversed(telling.solution.structure.groups)]
-    driver = words.driver.format(link=telling.solution.problem.drive.link)
+    titles = [_short(context, group) for group in reversed(context.solution.structure.groups)]
+    driver = words.driver.format(link=context.solution.problem.drive.link)
     titles.append(driver[:1].lower() + driver[1:])
     text.item([said.order.format(order=", ".join(titles)), said.indices])
-    groups: list[AssurGroup | None] = [*reversed(telling.solution.structure.groups), None]
-    for number, (plan, group) in enumerate(zip(telling.reading.plans, groups, strict=True)):
+    groups: list[AssurGroup | None] = [*reversed(context.solution.structure.groups), None]
+    for number, (plan, group) in enumerate(zip(context.reading.plans, groups, strict=True)):
         text.part(driver if group is None else group_title(group, words))
-        _plan(text, telling, plan, number)
+        _plan(text, context, plan, number)
 
 
-def _short(telling: Telling, group: AssurGroup) -> str:
+def _short(context: ForceContext, group: AssurGroup) -> str:
     """Return a group's heading without its class: ``группа 4–5``."""
-    title = group_title(group, telling.words).partition(" (")[0].partition(":")[0]
+    title = group_title(group, context.words).partition(" (")[0].partition(":")[0]
     return title[:1].lower() + title[1:]
 
 
-def _plan(text: Steps, telling: Telling, plan: ForcePlan, number: int) -> None:
-    voice, moments = ForceVoice(telling, plan, number), MomentVoice(telling, plan)
+def _plan(text: Steps, context: ForceContext, plan: ForcePlan, number: int) -> None:
+    voice, moments = ForcePlanNarrator(context, plan, number), MomentNarrator(context, plan)
     text.item(voice.freed())
     if voice.is_nothing:
-        text.item([telling.said.nothing])
+        text.item([context.said.nothing])
         return
-    _balances(text, telling, plan)
-    if not _readable(telling, *(end for edge in plan.polygon for end in (edge.tail, edge.head))):
-        text.item([telling.said.unreadable])
+    _balances(text, context, plan)
+    if not _readable(context, *(end for edge in plan.polygon for end in (edge.tail, edge.head))):
+        text.item([context.said.unreadable])
         return
     for lines in moments.before():
         text.item(lines)
@@ -92,34 +92,34 @@ def _plan(text: Steps, telling: Telling, plan: ForcePlan, number: int) -> None:
         text.item(lines)
 
 
-def _readable(telling: Telling, *names: Name) -> bool:
+def _readable(context: ForceContext, *names: Name) -> bool:
     """Tell whether the hand has all of what is named: not where it divides by nothing."""
-    reading = telling.reading
+    reading = context.reading
     columns = (np.ravel(reading.statics.by_hand.value[name]) for name in names)
     return all(np.isfinite(c[reading.index if c.size > 1 else 0]) for c in columns)
 
 
-def _balances(text: Steps, telling: Telling, plan: ForcePlan) -> None:
-    said = telling.said
+def _balances(text: Steps, context: ForceContext, plan: ForcePlan) -> None:
+    said = context.said
     for balance in plan.balances:
         edges = [
-            replace(edge, symbol=telling.notation.symbol(edge.symbol))
+            replace(edge, symbol=context.notation.symbol(edge.symbol))
             for edge in balance.edges
-            if edge.known is not Known.BOTH or not telling.reading.is_none(edge)
+            if edge.known is not Known.BOTH or not context.reading.is_none(edge)
         ]
         template = said.balance_link if len(balance.links) == 1 else said.balance_group
         blank = [] if text.lines[-1] == "" else [""]
         text.lines += [*blank, template.format(links="–".join(balance.links)), ""]
-        text.formulas(balance_lines(edges, telling.names, WIDTH - len(INDENT)))
+        text.formulas(balance_lines(edges, context.names, WIDTH - len(INDENT)))
 
 
-def _lever(text: Steps, telling: Telling) -> None:
-    text.chapter(telling.said.title_lever)
-    if telling.reading.statics.hung is None:
-        text.item([telling.said.stands])
+def _lever(text: Steps, context: ForceContext) -> None:
+    text.chapter(context.said.title_lever)
+    if context.reading.statics.lever_plan is None:
+        text.item([context.said.stands])
         return
-    if not _readable(telling, telling.reading.statics.hung.balance):
-        text.item([telling.said.unreadable])
+    if not _readable(context, context.reading.statics.lever_plan.balance):
+        text.item([context.said.unreadable])
         return
-    for lines in LeverVoice(telling).items():
+    for lines in LeverNarrator(context).items():
         text.item(lines)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from planmethod.note.plaintext import given
 from planmethod.note.wording import Wording
-from planmethod.solved.forces.resultants import Kept, Why, farthest
+from planmethod.solved.forces.resultants import Hindrance, UnshiftedInertia, farthest
 from planmethod.solved.forces.statics import Statics
 
 
@@ -35,14 +35,14 @@ def shift_lines(statics: Statics, words: Wording, index: int | None = None) -> l
 
 def kept_lines(statics: Statics, words: Wording) -> list[str]:
     """Return which links keep the couple, and why, as rich text; the same for all positions."""
-    return [_kept(statics, one, words) for one in statics.kept]
+    return [_kept(statics, one, words) for one in statics.unshifted]
 
 
-def _kept(statics: Statics, one: Kept, words: Wording) -> str:
+def _kept(statics: Statics, one: UnshiftedInertia, words: Wording) -> str:
     text = {
-        Why.NO_FORCE: words.resultant_no_force,
-        Why.FAINT: words.resultant_faint,
-        Why.FAR: words.resultant_far,
+        Hindrance.NO_FORCE: words.resultant_no_force,
+        Hindrance.FAINT: words.resultant_faint,
+        Hindrance.FAR: words.resultant_far,
     }[one.why]
     return text.format(
         link=one.link,

@@ -8,7 +8,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, reaction_symbol
 from planmethod.problem.load_records import Dynamics
-from planmethod.solved.forces.reading import NOTHING, ForceReading
+from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
 
 
 def link_names(links: tuple[str, ...]) -> str:
@@ -65,7 +65,7 @@ def wanted(reading: ForceReading, say: Notation) -> str:
     symbols = [reaction_symbol(joint.on, joint.by) for joint in statics.reactions]
     for k, contact in statics.contacts.items():
         # Of a guide that gives a couple alone nobody can ask where its force acts.
-        is_none = abs(statics.reactions[k].force[reading.index]) <= NOTHING * reading.peak
+        is_none = abs(statics.reactions[k].force[reading.index]) <= FAINT_SHARE * reading.peak
         letter = "M" if is_none else "l"
         symbols.append(reaction_symbol(contact.joint.on, contact.joint.by, letter=letter))
     return ", ".join([*symbols, say.symbol(reading.balancing_symbol)])
