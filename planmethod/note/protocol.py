@@ -69,18 +69,13 @@ class _Writer(Steps):
         self.chapter(words.scales)
         self.item([words.scales_text.format(scales="; ".join(scale_texts(self.solution, words)))])
         self.item([words.ruler.format(ruler=given(self.solution.hand.ruler, words))])
-        titles = {
-            PlanKind.POSITION: words.plan_position,
-            PlanKind.VELOCITY: words.plan_velocity,
-            PlanKind.ACCELERATION: words.plan_acceleration,
-        }
         kind: PlanKind | None = None
         for section in self.names.construction.sections:
             if section.frame and not problem.bodies[FRAME].points:
                 continue  # guides alone: each is drawn where it is used
             if section.kind is not kind:
                 kind = section.kind
-                self.chapter(titles[kind])
+                self.chapter(words.plans[kind.value])
                 self._open_plan(kind)
             self._section(section)
         if problem.dynamics is not None:

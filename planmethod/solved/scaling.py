@@ -33,11 +33,8 @@ class Views:
 
     def box(self, kind: PlanKind) -> Box:
         """Return the box of a plan, mm."""
-        return {
-            PlanKind.POSITION: self.position,
-            PlanKind.VELOCITY: self.velocity,
-            PlanKind.ACCELERATION: self.acceleration,
-        }[kind]
+        box: Box = getattr(self, kind.value)
+        return box
 
     @classmethod
     def for_paper(cls, paper: str, positions: int) -> Views:

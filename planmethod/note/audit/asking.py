@@ -10,35 +10,30 @@ from planmethod.construct.steps import LayOff, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import ZERO
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.selector import POLE, Selector
 from planmethod.solved.solution import Solution
 
 PLANS: Mapping[str, PlanKind] = {
     "length": PlanKind.POSITION,
-    "segment velocity": PlanKind.VELOCITY,
-    "segment acceleration": PlanKind.ACCELERATION,
+    **{f"segment {kind.value}": kind for kind in MOTION[1:]},
 }
 """Quantities in millimetres of a plan, and of which."""
 
 COMPONENTS: Mapping[str, PlanKind] = {
-    "x": PlanKind.POSITION,
-    "y": PlanKind.POSITION,
-    "vx": PlanKind.VELOCITY,
-    "vy": PlanKind.VELOCITY,
-    "ax": PlanKind.ACCELERATION,
-    "ay": PlanKind.ACCELERATION,
+    f"{'' if kind is PlanKind.POSITION else FACTS[kind].letter}{axis}": kind
+    for kind in MOTION
+    for axis in "xy"
 }
 
 MAGNITUDES: Mapping[str, PlanKind] = {
-    "v": PlanKind.VELOCITY,
+    **{FACTS[kind].letter: kind for kind in MOTION[1:]},
     "vs": PlanKind.VELOCITY,
-    "a": PlanKind.ACCELERATION,
 }
 
 
 class NoAnswer(Enum):
-    """NoAnswer a quantity has no value."""
+    """Why a quantity has no value."""
 
     NO_WHAT = "no what"  # the file does not say which quantity it is
     NO_POSITION = "no position"  # the driver is never there

@@ -32,7 +32,6 @@ from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.sigmas import marked
 from planmethod.plans.legend import Quantity
-from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 
@@ -51,12 +50,8 @@ class Causes:
 
     def __init__(self, names: Names) -> None:
         self.names, self.words, self.solution = names, names.words, names.solution
-        titles = {
-            PlanKind.POSITION: names.words.plan_position,
-            PlanKind.VELOCITY: names.words.plan_velocity,
-            PlanKind.ACCELERATION: names.words.plan_acceleration,
-        }
-        self._titles = {kind: title[:1].lower() + title[1:] for kind, title in titles.items()}
+        titles = names.words.plans.items()
+        self._titles = {kind: title[:1].lower() + title[1:] for kind, title in titles}
 
     def lines(self, index: int) -> list[str]:
         """Return the worst result of a position and its largest causes; none if none is known."""
@@ -98,7 +93,7 @@ class Causes:
         text = plain_text(self._stroke(step))
         plans = self.names.construction.draft.plans
         plan = plans.get(step.out) or plans.get(getattr(step, "head", step.out))
-        return text if plan is None else f"{text} ({self._titles[plan]})"
+        return text if plan is None else f"{text} ({self._titles[plan.value]})"
 
     def _stroke(self, step: Step) -> str:
         names, words = self.names, self.words

@@ -120,16 +120,10 @@ def position_tables(
     if sliding:
         header = sigmas.header(words.columns_sliding, 2, 4, 6)
         parts.append((words.table_sliding, sigmas.table(header, sliding)))
-    titles = {
-        PlanKind.POSITION: words.plan_position,
-        PlanKind.VELOCITY: words.plan_velocity,
-        PlanKind.ACCELERATION: words.plan_acceleration,
-    }
     names = Names(solution, words)
     for kind, scale in zip(MOTION, scale_texts(solution, words), strict=True):
-        title = words.table_segments.format(
-            plan=titles[kind][:1].lower() + titles[kind][1:], scale=scale
-        )
+        plan = words.plans[kind.value]
+        title = words.table_segments.format(plan=plan[:1].lower() + plan[1:], scale=scale)
         rows = _segments(solution, names, kind, index, sigmas)
         if kind is PlanKind.POSITION:
             lines = sigmas.table(sigmas.header(words.columns_lengths, 2), rows)

@@ -44,9 +44,7 @@ class Wording:
     scales: str
     scales_text: str
     ruler: str
-    plan_position: str
-    plan_velocity: str
-    plan_acceleration: str
+    plans: Mapping[str, str]
     frame: str
     driver: str
     group: str

@@ -7,18 +7,14 @@ from dataclasses import replace
 from typing import Any
 
 from planmethod.construct.scale import Scale, series_near
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Scales
 from planmethod.render.sheets.pages import Page
 
 STEPS = 3
 """Most members of the series that a scale goes on by."""
 
-_KEYS = {
-    PlanKind.ACCELERATION: "mu_a",
-    PlanKind.VELOCITY: "mu_v",
-    PlanKind.POSITION: "mu_l",
-}
+_KEYS = {kind: FACTS[kind].scale for kind in reversed(MOTION)}
 """Keys of the scales, the plan that is to be largest first."""
 
 

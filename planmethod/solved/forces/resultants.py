@@ -26,7 +26,7 @@ _NOTHING = 1e-9
 
 
 class Hindrance(Enum):
-    """Hindrance a link keeps the force and the couple."""
+    """Why a link keeps the force and the couple."""
 
     NO_FORCE = "no force"  # no mass, or the centre of mass is fixed
     FAINT = "faint"  # in some position its acceleration is too small on the plan

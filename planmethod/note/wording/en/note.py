@@ -30,9 +30,11 @@ NOTE = Wording(
     scales_text="We take the scales {scales}.",
     ruler="Segments are laid off exactly and read with a ruler of {ruler} mm divisions; what "
     "stands in brackets after “exactly” is free of the error of reading.",
-    plan_position="Position plan",
-    plan_velocity="Velocity plan",
-    plan_acceleration="Acceleration plan",
+    plans={
+        "position": "Position plan",
+        "velocity": "Velocity plan",
+        "acceleration": "Acceleration plan",
+    },
     frame="Frame",
     driver="Driving link {link}",
     group="Group {links} ({letters}): class II, order 2, kind {kind}",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import MOTION, PlanKind
 from planmethod.problem.fields import Faults, Table, read_keys, read_text, show
 from planmethod.problem.names import is_label
 from planmethod.render.sheets.blocks import BLOCKS
@@ -37,7 +37,7 @@ SHEET_LIMIT = 12
 GROUP_DEPTH = 4
 MOST_PER_ROW = 12
 
-OF = {"velocity": PlanKind.VELOCITY, "acceleration": PlanKind.ACCELERATION}
+OF = {kind.value: kind for kind in MOTION if kind is not PlanKind.POSITION}
 COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
 
 
