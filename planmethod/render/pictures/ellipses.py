@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, cos, sin, sqrt, tau
+from math import atan2, cos, hypot, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -78,7 +78,7 @@ def half_axes(covariance: Reals) -> tuple[float, float, float]:
     """
     xx, yy, xy = float(covariance[0, 0]), float(covariance[1, 1]), float(covariance[0, 1])
     mean, half = (xx + yy) / 2, (xx - yy) / 2
-    spread = sqrt(half**2 + xy**2)
+    spread = hypot(half, xy)
     return sqrt(mean + spread), sqrt(max(mean - spread, 0.0)), atan2(xy, half) / 2
 
 
