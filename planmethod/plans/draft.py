@@ -311,12 +311,6 @@ class Draft:
         pairs = [(p, q) for i, p in enumerate(here) for q in here[i + 1 :]]
         return max(pairs, key=lambda pair: abs(body.points[pair[1]] - body.points[pair[0]]))
 
-    def has_direction(self, link: str) -> bool:
-        """Tell whether the plan fixes how a link is turned."""
-        points = self.problem.bodies[link].points
-        here = self.placed.get(link, [])
-        return link in self.axes or any(points[p] != points[here[0]] for p in here[1:])
-
     def locate(self, link: str, point: str) -> PointName:
         """Place a point of a link whose direction is known, from its coordinates."""
         if point in self.placed.get(link, []):

@@ -14,10 +14,9 @@ from dataclasses import replace
 from typing import assert_never
 
 import numpy as np
-import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
@@ -30,17 +29,20 @@ from planmethod.problem.model import Problem, Rule, Where
 from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain
+from planmethod.solved.reading import Complexes, Reading, Reals
+
+_Tried = tuple[Draft, Program, Reading]  # a closing of a group, and how it turned out
 
 TIE = 1e-9
 """Share of the mechanism's size below which two closings are the same."""
 
 
 def drive_data(
-    problem: Problem, draft: Draft, positions: npt.NDArray[np.float64]
-) -> dict[str, complex | float | npt.NDArray[np.float64]]:
+    problem: Problem, draft: Draft, positions: Reals
+) -> dict[str, complex | float | Reals]:
     """Return the data of a program at unit scales: a millimetre of the plan is then a metre."""
     drive = problem.drive
-    data: dict[str, complex | float | npt.NDArray[np.float64]] = dict(draft.numbers)
+    data: dict[str, complex | float | Reals] = dict(draft.numbers)
     data.update(draft.places)
     data.update({name: one.branch(positions) for name, one in draft.branches.items()})
     data.update(mu_l=1.0, mu_v=1.0, mu_a=1.0)
@@ -160,9 +162,7 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     )
 
 
-def _going_on(
-    problem: Problem, tried: tuple[Draft, Program, Trace], group: AssurGroup, closing: Closing
-) -> Closing:
+def _going_on(problem: Problem, tried: _Tried, group: AssurGroup, closing: Closing) -> Closing:
     """Return a closing that changes sides where the motion goes through a change point."""
     draft, program, _ = tried
     turn, low = problem.drive.coordinate.turn, closing.start
@@ -178,18 +178,19 @@ def _try(
     problem: Problem,
     groups: list[AssurGroup],
     choice: Mapping[tuple[str, ...], Closing],
-    positions: npt.NDArray[np.float64],
-) -> tuple[Draft, Program, Trace]:
+    positions: Reals,
+) -> _Tried:
     draft = draw_positions(problem, groups, choice)
     program = draft.b.program()
-    return draft, program, evaluate(program, drive_data(problem, draft, positions), Float64())
+    trace = evaluate(program, drive_data(problem, draft, positions), Float64())
+    return draft, program, Reading(trace, len(positions))
 
 
-def _score(rule: Rule, draft: Draft, trace: Trace) -> npt.NDArray[np.float64]:
+def _score(rule: Rule, draft: Draft, reading: Reading) -> Reals:
     """Return how well a closing satisfies a rule, m or m²: the larger the better, > 0 satisfied."""
 
-    def at(name: str) -> npt.NDArray[np.complex128]:
-        return np.asarray(trace.value[PointName(name)], dtype=complex)
+    def at(name: str) -> Complexes:
+        return reading.point(PointName(name))
 
     p = at(rule.point)
     match rule.where:
@@ -230,20 +231,18 @@ def _said(rule: Rule) -> str:
 def _judge(
     problem: Problem,
     rule: Rule,
-    both: list[tuple[Draft, Program, Trace]],
-    positions: npt.NDArray[np.float64],
+    both: list[_Tried],
+    positions: Reals,
 ) -> Closing:
     """Return the side that a rule asks for in the first position that tells the closings apart."""
-    scores = [
-        np.broadcast_to(_score(rule, draft, trace), positions.shape) for draft, _, trace in both
-    ]
+    scores = [_score(rule, draft, reading) for draft, _, reading in both]
     able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
     if not able.size:
-        draft, program, trace = both[0]
-        raise PositionError(explain(draft, program, trace, positions))
+        raise PositionError(explain(*both[0], positions))
     found = list(_places(problem, both, int(able[0])))[:-1]
     size = max(abs(point - found[0]) for point in found)
-    apart = abs(_at(both[0][2], rule.point, positions) - _at(both[1][2], rule.point, positions))
+    one, two = (reading.point(PointName(rule.point)) for _, _, reading in both)
+    apart = abs(one - two)
     # A dead position tells the closings of nothing: the next one that is asked does.
     distinct = able[apart[able] > TIE * size]
     if not distinct.size:
@@ -274,14 +273,11 @@ def _judge(
     return Closing(1 if plus > minus else -1, start=float(positions[first]))
 
 
-def _ambiguous(
-    rule: Rule, both: list[tuple[Draft, Program, Trace]], index: int, where: str
-) -> Fault:
+def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
     """Return the fault of a rule that both closings satisfy, with one that tells them apart."""
 
-    def at(trace: Trace, name: str) -> complex:
-        value = np.ravel(np.asarray(trace.value[PointName(name)], dtype=complex))
-        return complex(value[index if value.size > 1 else 0])
+    def at(reading: Reading, name: str) -> complex:
+        return complex(reading.point(PointName(name))[index])
 
     (draft, _, one), (_, _, two) = both
     c, d = at(one, rule.point), at(two, rule.point)
@@ -315,31 +311,23 @@ def _ambiguous(
     )
 
 
-def _at(trace: Trace, point: str, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
-    place = np.asarray(trace.value[PointName(point)], dtype=complex)
-    return np.asarray(np.broadcast_to(place, positions.shape), dtype=complex)
-
-
-def _places(
-    problem: Problem, both: list[tuple[Draft, Program, Trace]], at: int
-) -> Iterator[complex]:
-    for _, _, trace in both:
+def _places(problem: Problem, both: list[_Tried], at: int) -> Iterator[complex]:
+    for _, _, reading in both:
         for body in problem.bodies.values():
             for point in body.points:
-                value = trace.value.get(PointName(point))
-                if value is not None:
-                    place = complex(np.ravel(value)[at if np.size(value) > 1 else 0])
+                if point in reading.value:
+                    place = complex(reading.point(PointName(point))[at])
                     if math.isfinite(place.real):
                         yield place
     yield 1e-300 + 0j
 
 
-def _missing(group: AssurGroup, both: list[tuple[Draft, Program, Trace]]) -> Fault:
+def _missing(group: AssurGroup, both: list[_Tried]) -> Fault:
     """Return the fault of a group whose closing nobody chose, with both ways to say it."""
     c = inner_point(group)
     places = []
-    for draft, _, trace in both:
-        values = np.ravel(np.asarray(trace.value[PointName(c)], dtype=complex)) + draft.origin
+    for draft, _, reading in both:
+        values = reading.point(PointName(c)) + draft.origin
         able = values[np.isfinite(values)]
         places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})" if able.size else "nowhere")
     return Fault(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +17,7 @@ from planmethod.construct.steps import (
     MeetCircles,
     MeetLineCircle,
     MeetLines,
+    NumberName,
     Parallel,
     Perpendicular,
     PointName,
@@ -29,6 +29,7 @@ from planmethod.construct.steps import (
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
 from planmethod.solved.failures import Cause, Failure, Place
+from planmethod.solved.reading import Reading, Reals
 
 
 def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]:
@@ -47,20 +48,18 @@ def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]
     return first
 
 
-def explain(
-    draft: Draft, program: Program, trace: Trace, positions: npt.NDArray[np.float64]
-) -> Failure:
+def explain(draft: Draft, program: Program, reading: Reading, positions: Reals) -> Failure:
     """Return which step fails at the first position that fails, with its numbers.
 
     Parameters
     ----------
     draft : Draft
         From which the program comes.
-    trace : Trace
-        Read at unit scales.
+    reading : Reading
+        At unit scales.
     """
     problem = draft.problem
-    first = failing(program, trace, len(positions))
+    first = failing(program, reading.trace, reading.count)
     bad = np.flatnonzero(first >= 0)
     if not bad.size:
         place = Place.of(problem, positions, 0)
@@ -69,13 +68,11 @@ def explain(
     step = program.steps[int(first[index])]
     alike = int((first == first[index]).sum()) - 1
 
-    def real(key: Any) -> float:
-        value = np.asarray(trace.value[key], dtype=float)
-        return float(value if value.ndim == 0 else value[index])
+    def real(key: NumberName) -> float:
+        return float(reading.number(key)[index])
 
     def point(key: PointName) -> complex:
-        value = np.asarray(trace.value[key], dtype=complex)
-        return complex(value if value.ndim == 0 else value[index])
+        return complex(reading.point(key)[index])
 
     place = Place.of(problem, positions, index)
     ends = _without_length(step, program, point)
@@ -102,7 +99,13 @@ def _without_length(
     return None
 
 
-def _failure(step: Step, place: Place, draft: Draft, real: Any, point: Any) -> Failure:
+def _failure(
+    step: Step,
+    place: Place,
+    draft: Draft,
+    real: Callable[[NumberName], float],
+    point: Callable[[PointName], complex],
+) -> Failure:
     plan = draft.plans.get(step.out, PlanKind.POSITION)
     if plan is PlanKind.FORCE:
         return Failure(Cause.FORCES, place)

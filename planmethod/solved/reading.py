@@ -16,6 +16,7 @@ from planmethod.construct.steps import LineName, Name, NumberName, PointName, St
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
 Made = TypeVar("Made")
 Asked = ParamSpec("Asked")
 Memory = TypeVar("Memory", bound="Remembering")
@@ -57,6 +58,13 @@ class Reading:
         """Return a vector along a line, ndarray of shape (n,)."""
         along = np.asarray(self.value[line][1], dtype=complex)
         return np.broadcast_to(along, (self.count,))
+
+    def has(self, name: Name) -> Flags:
+        """Tell where there is a value, and no division by nothing; ndarray of shape (n,)."""
+        value = self.value[name]
+        parts = value if isinstance(value, tuple) else (value,)
+        there = [np.isfinite(np.asarray(part, dtype=complex)) for part in parts]
+        return np.broadcast_to(np.all(np.broadcast_arrays(*there), axis=0), (self.count,))
 
     def go_on(
         self, steps: Iterable[Step], data: Mapping[str, Number], arithmetic: Arithmetic

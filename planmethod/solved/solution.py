@@ -152,7 +152,7 @@ class Solution(Remembering):
         reading, program = self.read(Float64()), self.construction.program
         if (failing(program, reading.trace, len(self.positions)) >= 0).any():
             draft = self.construction.draft
-            raise PositionError(explain(draft, program, reading.trace, self.positions))
+            raise PositionError(explain(draft, program, reading, self.positions))
         return reading
 
     @cached_property

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-import numpy as np
-
 from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.wording import language
@@ -40,9 +38,7 @@ class Formulas:
 
     def readable(self, name: Name) -> bool:
         """Tell whether the hand has a value: not where it divides by what the ruler reads as 0."""
-        value = self.solution.by_hand.value[name]
-        parts = [np.ravel(part) for part in (value if isinstance(value, tuple) else (value,))]
-        return all(np.isfinite(part[self.index if part.size > 1 else 0]) for part in parts)
+        return bool(self.solution.by_hand.has(name)[self.index])
 
     def place(self, point: PointName) -> complex:
         """Return a point of the exact drawing, mm."""
@@ -51,8 +47,7 @@ class Formulas:
 
     def course(self, line: LineName) -> complex:
         """Return a vector along a line of the exact drawing."""
-        value = np.asarray(self.solution.paper.value[line][1], dtype=complex)
-        return complex(value if value.ndim == 0 else value[self.index])
+        return complex(self.solution.paper.course(line)[self.index])
 
     def per_mm(self, kind: PlanKind) -> float:
         """Return the scale of a plan, unit per mm."""

@@ -121,8 +121,8 @@ class MotionNarrator:
 
     def _turned(self, step: Compute) -> PlanKind | None:
         """Return the plan by which a step is how a link turns; None of other steps."""
-        tables = {PlanKind.VELOCITY: self.kin.omega, PlanKind.ACCELERATION: self.kin.epsilon}
-        return next((k for k, table in tables.items() if step.out in table.values()), None)
+        kinds = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
+        return next((kind for kind in kinds if step.out in self.kin.rates(kind).values()), None)
 
     def found(self, step: Compute) -> list[str]:
         """Return the formulas of a number that is a result, without sentences."""
@@ -191,7 +191,7 @@ class MotionNarrator:
 
     def _alike(self, step: Compute, kind: PlanKind) -> list[tuple[str, str]]:
         """Return the other links that turn so, and the symbols of that."""
-        table = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon
+        table = self.kin.rates(kind)
         own, letter = self.names.owner(step.out), self.names.symbol(step.out)[0]
         others = [k for k, number in table.items() if number == step.out and k != own]
         return [(other, f"{letter}_{{{other}}}") for other in others]

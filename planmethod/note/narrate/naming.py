@@ -261,8 +261,7 @@ class Names:
     def owner(self, number: NumberName) -> str:
         """Return the link whose own angular velocity or acceleration a number is."""
         for (kind, link), _ in self.kin.turnings.items():
-            table = self.kin.omega if kind is PlanKind.VELOCITY else self.kin.epsilon
-            if table.get(link) == number:
+            if self.kin.rates(kind).get(link) == number:
                 return link
         return self.solution.problem.drive.link
 

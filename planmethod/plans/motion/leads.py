@@ -91,6 +91,10 @@ class Kinematics:
     relatives: dict[tuple[str, str, str], Relative] = field(default_factory=dict)
     turnings: dict[tuple[PlanKind, str], Turning] = field(default_factory=dict)
 
+    def rates(self, kind: PlanKind) -> dict[str, NumberName]:
+        """Return how fast the links turn by a plan: omega of velocities, epsilon of the others."""
+        return self.omega if kind is PlanKind.VELOCITY else self.epsilon
+
     def share_turning(self, link: str, with_link: str) -> None:
         """Note that a prismatic pair makes two links turn alike."""
         for table in (self.omega, self.epsilon):

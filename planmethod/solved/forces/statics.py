@@ -148,7 +148,7 @@ class Statics(Remembering):
         """
         if not self.closes.all():
             draft, at = self.board.draft, self.solution.positions
-            raise PositionError(explain(draft, self.program, self._si.trace, at))
+            raise PositionError(explain(draft, self.program, self._si, at))
         return self._si
 
     @cached_property

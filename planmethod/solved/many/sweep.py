@@ -21,6 +21,7 @@ from planmethod.solved.closings import drive_data
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.many.rows import Row, rows_of
+from planmethod.solved.reading import Reading
 from planmethod.solved.results import Results
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
@@ -313,10 +314,10 @@ class Sweep:
         data.update({name: closing.branch(at) for name, closing in self.branches.items()})
         if self.loads is not None:
             data.update(zip(self.loads.names, self.loads.at(at), strict=True))
-        trace = evaluate(self.program, data, Float64())
-        if failing(self.program, trace, 1)[0] < 0:
+        reading = Reading(evaluate(self.program, data, Float64()), 1)
+        if failing(self.program, reading.trace, 1)[0] < 0:
             return None
-        return explain(self._draft, self.program, trace, at)
+        return explain(self._draft, self.program, reading, at)
 
 
 def sweep_variants(

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from planmethod.construct.steps import Name
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.narrate.equations import balance_lines
@@ -94,9 +92,8 @@ def _plan(text: Steps, context: ForceContext, plan: ForcePlan, number: int) -> N
 
 def _readable(context: ForceContext, *names: Name) -> bool:
     """Tell whether the hand has all of what is named: not where it divides by nothing."""
-    reading = context.reading
-    columns = (np.ravel(reading.statics.by_hand.value[name]) for name in names)
-    return all(np.isfinite(c[reading.index if c.size > 1 else 0]) for c in columns)
+    hand, index = context.reading.statics.by_hand, context.reading.index
+    return all(hand.has(name)[index] for name in names)
 
 
 def _balances(text: Steps, context: ForceContext, plan: ForcePlan) -> None:
