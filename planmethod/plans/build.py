@@ -10,7 +10,8 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName, Step
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.structure import Structure
-from planmethod.plans.draft import Choice, Draft
+from planmethod.plans.closing import Choice
+from planmethod.plans.draft import Draft
 from planmethod.plans.legend import PlanSegment, Quantity, motion_quantities, plan_segments
 from planmethod.plans.model import Plan, PlanKind
 from planmethod.plans.motion.board import Motion

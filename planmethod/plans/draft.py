@@ -5,17 +5,14 @@ from __future__ import annotations
 import cmath
 import copy
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import Enum
 from typing import NamedTuple
-
-import numpy as np
-import numpy.typing as npt
 
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
 from planmethod.mechanism.model import FRAME
+from planmethod.plans.closing import Choice, Closing
+from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Slide
 
@@ -24,72 +21,6 @@ TINY = 1e-12
 
 FAR = 10.0
 """Distance from the origin, in sizes of a mechanism, from which places are counted from its own."""
-
-
-@dataclass(frozen=True, slots=True)
-class Closing:
-    """In which of its two ways a group closes (способ сборки).
-
-    Attributes
-    ----------
-    side : int
-        +1 or -1, in all positions unless it changes.
-    parallel : bool
-        The group closes a parallelogram, on no side of its line of centres for good.
-    start : float
-        Driver position that ``side`` belongs to, degrees or m.
-    changes : tuple of float
-        Change points: driver positions in which a motion that goes on smoothly changes sides.
-    turn : float
-        After which the changes come again: 360 of a crank; of a slider out of all reach.
-    """
-
-    side: int = 1
-    parallel: bool = False
-    start: float = 0.0
-    changes: tuple[float, ...] = ()
-    turn: float = 1e12
-
-    def branch(self, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Return +1 where the side is the first one, else -1; it depends on the position alone."""
-        passed = np.zeros(np.shape(positions))
-        for change in self.changes:
-            for sign, place in ((1, positions), (-1, np.asarray(self.start))):
-                passed += sign * np.floor((place - change) / self.turn)
-        return np.where(passed % 2 == 0, 1.0, -1.0)
-
-
-class DimensionKind(Enum):
-    """What a given number tells (вид размера), and how its name begins."""
-
-    LENGTH = "l_"  # distance of two points
-    ALONG = "x_"  # from a point along a line
-    ACROSS = "y_"  # and across it
-    OFFSET = "e_"  # of a point from a guide
-    ANGLE = "angle_"  # of a link or of a guide, degrees
-    WAY = "s"  # of the driving slider
-
-
-@dataclass(frozen=True, slots=True)
-class Dimension:
-    """Given number of a construction, in metres or in millimetres of the drawing (размер).
-
-    Attributes
-    ----------
-    kind : DimensionKind
-    of : tuple of str
-        Points that it places or lies between; the link or guide that an angle turns.
-    letters : str
-        What its length on the drawing is called.
-    """
-
-    kind: DimensionKind
-    of: tuple[str, ...]
-    letters: str
-
-
-Choice = Mapping[tuple[str, ...], Closing]
-"""Closing of each group that has two, by its links."""
 
 
 def degrees(angle: complex) -> float:

@@ -23,7 +23,8 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import draw_positions
-from planmethod.plans.draft import Closing, Draft
+from planmethod.plans.closing import Closing
+from planmethod.plans.draft import Draft
 from planmethod.plans.motion.position import has_two_closings, inner_point, parallelogram
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.solved.changes import changes

@@ -25,7 +25,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
-from planmethod.plans.draft import DimensionKind
+from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import (
     FACTS,
     MOTION,

@@ -17,7 +17,7 @@ from planmethod.construct.steps import (
 from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import NO_BREAK, given
-from planmethod.plans.draft import DimensionKind
+from planmethod.plans.dimensions import DimensionKind
 
 COORDINATES = (DimensionKind.ALONG, DimensionKind.ACROSS)
 

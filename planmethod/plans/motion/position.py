@@ -8,7 +8,9 @@ from planmethod.construct.steps import LineName, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Prismatic, Revolute
-from planmethod.plans.draft import Closing, Dimension, DimensionKind, Draft, side, way
+from planmethod.plans.closing import Closing
+from planmethod.plans.dimensions import Dimension, DimensionKind
+from planmethod.plans.draft import Draft, side, way
 from planmethod.problem.model import Problem, Slide
 
 EQUAL = 1e-9

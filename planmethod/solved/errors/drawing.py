@@ -14,8 +14,7 @@ from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName
-
-Flags = npt.NDArray[np.bool_]
+from planmethod.solved.reading import Flags
 
 RADIAN = float(np.degrees(1.0))
 """What the sigma of a direction is to be compared with, degrees: the length it is the turn of."""

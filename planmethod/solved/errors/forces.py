@@ -22,14 +22,13 @@ from planmethod.solved.errors.drawing import (
     Drafted,
     DrawnKind,
     DrawnQuantity,
-    Flags,
     number,
 )
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.statics import Statics
-from planmethod.solved.reading import Reals
+from planmethod.solved.reading import Flags, Reals
 
 BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
 """Labels: what balances the driver by the force plans and by the lever, lever minus plans."""

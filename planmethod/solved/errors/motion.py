@@ -17,10 +17,10 @@ from planmethod.solved.errors.drawing import (
     Drafted,
     DrawnKind,
     DrawnQuantity,
-    Flags,
     number,
 )
 from planmethod.solved.errors.spread import DRAWS, Errors
+from planmethod.solved.reading import Flags
 from planmethod.solved.solution import Solution
 
 

@@ -21,8 +21,8 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName, operands
 from planmethod.errors import PlanMethodError
-from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity, Flags
-from planmethod.solved.reading import Reals
+from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
+from planmethod.solved.reading import Flags, Reals
 
 Key = TypeVar("Key", bound=str)
 

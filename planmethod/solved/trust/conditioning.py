@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
-from planmethod.plans.draft import DimensionKind
+from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.solved.reading import Reals
 from planmethod.solved.results import natural_size, results_of

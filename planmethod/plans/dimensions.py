@@ -1,0 +1,35 @@
+"""What the given numbers of a construction tell (размеры)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class DimensionKind(Enum):
+    """What a given number tells (вид размера), and how its name begins."""
+
+    LENGTH = "l_"  # distance of two points
+    ALONG = "x_"  # from a point along a line
+    ACROSS = "y_"  # and across it
+    OFFSET = "e_"  # of a point from a guide
+    ANGLE = "angle_"  # of a link or of a guide, degrees
+    WAY = "s"  # of the driving slider
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """Given number of a construction, in metres or in millimetres of the drawing (размер).
+
+    Attributes
+    ----------
+    kind : DimensionKind
+    of : tuple of str
+        Points that it places or lies between; the link or guide that an angle turns.
+    letters : str
+        What its length on the drawing is called.
+    """
+
+    kind: DimensionKind
+    of: tuple[str, ...]
+    letters: str
