@@ -1,0 +1,1 @@
+"""Checking of answers: keys, works of students, verdicts, mistakes, marks (проверка работ)."""
