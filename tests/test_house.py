@@ -18,7 +18,7 @@ LATE_IN = ("planmethod.commands.", "planmethod.options", "planmethod.render.back
 
 LATE_OF = {
     # Only problems with loads have forces, only some ask for the drafting errors.
-    "planmethod.note.audit.forces": "forces",
+    "planmethod.solved.selected.forces": "forces",
     "planmethod.note.narrate.forces": "forces",
     "planmethod.note.records.forcecolumns": "forces",
     "planmethod.note.tables.causes": "drafting errors",

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from slotted import R, problem_of
 
 from planmethod.cli import cli
-from planmethod.note.audit.asking import NoAnswer
+from planmethod.solved.selected.asking import NoAnswer
 from planmethod.note.audit.audit import (
     Audited,
     Verdict,

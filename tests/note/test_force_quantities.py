@@ -12,9 +12,9 @@ from loaded import with_resultant
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
-from planmethod.note.audit.asking import NoAnswer, UnansweredError
+from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.note.audit.audit import Audited, Verdict, audit, source_force_scale
-from planmethod.note.audit.quantities import Quantities
+from planmethod.solved.selected.quantities import Quantities
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import loads
 from planmethod.problem.model import Problem

@@ -11,7 +11,7 @@ import pytest
 
 import planmethod
 from planmethod.errors import ExitCode
-from planmethod.note.audit.asking import NoAnswer
+from planmethod.solved.selected.asking import NoAnswer
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language

@@ -13,7 +13,7 @@ from loaded import with_resultant
 from test_forces_sheet import arrows, couples, shown, views, within
 from worked import drawn_sheets, problem_of
 
-from planmethod.note.audit.quantities import Quantities
+from planmethod.solved.selected.quantities import Quantities
 from planmethod.note.wording import language
 from planmethod.problem.selector import parse_selector
 from planmethod.render.control.remarks import Severity

@@ -9,8 +9,8 @@ from decimal import Decimal
 from enum import Enum
 
 from planmethod.languages import LANGUAGES
-from planmethod.note.audit.asking import PLANS, NoAnswer, UnansweredError
-from planmethod.note.audit.quantities import Quantities, is_angle
+from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError
+from planmethod.solved.selected.quantities import Quantities, is_angle
 from planmethod.note.wording import wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Published, Scales

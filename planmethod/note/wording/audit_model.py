@@ -11,7 +11,7 @@ class AuditWording:
     """What the document of the audit says in one language.
 
     ``verdicts`` and ``counted`` are by the values of `planmethod.note.audit.audit.Verdict`,
-    ``whys`` by those of `planmethod.note.audit.quantities.Why`.
+    ``whys`` by those of `planmethod.solved.selected.quantities.Why`.
     """
 
     title: str

@@ -13,7 +13,7 @@ from functools import cached_property
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
-from planmethod.note.audit.asking import Asking, NoAnswer, UnansweredError
+from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
 from planmethod.plans.forces.board import SCALE, Force, Given
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
@@ -86,27 +86,42 @@ class ForceQuantities:
         if first == "angle":
             return self._angle(self._line(rest, names))
         asking = Asking(self.solution, self.statics.board.draft.copy())
-        match first:
-            case "arm":
-                asked = self._arm(asking, self._line(rest, names[:-1]), names[-1])
-            case "F":
-                asked = self._size(self._joint(*names).force)
-            case "Ft" | "Fn":
-                asked = self._component(asking, kind, names)
-            case "M":
-                asked = self._couple(self._joint(*names).couple)
-            case "balance" | "lever":
-                asked = self._balance(asking, kind, names)
-            case "shift":
-                asked = self._shift(asking, names[0])
-            case _:
-                asked = self._load(self._given(kind, names[0]))
+        asked = self.answer(asking, selector)
         reading, hand = (self._drawn, self.solution.hand) if by_hand else (self._exact, Float64())
         found = reading.go_on(asking.steps, asking.draft.numbers, hand)
         value = float(found.number(asked)[self.position])
         if first in ("arm", "shift") and not by_hand:
             value /= self.solution.scales[PlanKind.POSITION].per_mm
         return value if first in ("balance", "lever") and not names else abs(value)
+
+    def answer(self, asking: Asking, selector: Selector) -> NumberName:
+        """Return the number that answers a selector, other than that of an angle.
+
+        Parameters
+        ----------
+        asking : Asking
+            On a draft that has the force plans; gets the further steps.
+
+        Raises
+        ------
+        UnansweredError
+        """
+        kind, names = selector.kind, selector.names
+        first, _, rest = kind.partition(" ")
+        match first:
+            case "arm":
+                return self._arm(asking, self._line(rest, names[:-1]), names[-1])
+            case "F":
+                return self._size(self._joint(*names).force)
+            case "Ft" | "Fn":
+                return self._component(asking, kind, names)
+            case "M":
+                return self._couple(self._joint(*names).couple)
+            case "balance" | "lever":
+                return self._balance(asking, kind, names)
+            case "shift":
+                return self._shift(asking, names[0])
+        return self._load(self._given(kind, names[0]))
 
     def turn(self, selector: Selector) -> float:
         """Return how far a force turns when its end on the plan moves by one mm, degrees."""

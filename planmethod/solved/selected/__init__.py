@@ -1,0 +1,1 @@
+"""Quantities by the short grammar of ``[published]`` (величины по краткой записи)."""
