@@ -29,6 +29,7 @@ COMMANDS = (
     "layouts",
     "new",
     "bench",
+    "form",
 )
 """Names of the commands; each is a function of the module of its name in `planmethod.commands`."""
 

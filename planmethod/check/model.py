@@ -41,6 +41,25 @@ class Verdict(Enum):
     UNREADABLE = "unreadable"
 
 
+class Unread(Enum):
+    """Why something in a work cannot be read (почему не прочитано); the words are in ``note``."""
+
+    NUMBER = "number"
+    UNIT = "unit"
+    SENSE = "sense"
+    POSITION = "position"
+    DATE = "date"  # the spreadsheet program made a date of a number
+    FORMULA = "formula"  # one that nobody has computed
+    TWICE = "twice"  # written before, and otherwise
+    QUANTITY = "quantity"  # a value without the quantity that it is of
+    SCALE = "scale"
+    STUDENT = "student"  # a row without a student
+    COLUMN = "column"  # a column with a head that nobody knows
+    KEY = "key"  # the same of a key in JSON or TOML
+    FIELDS = "fields"  # a row with more fields than there are heads
+    ROW = "row"  # a row of the form that is gone
+
+
 @dataclass(frozen=True, slots=True)
 class Written:
     """One answer as it stands in a work (записанный ответ).
@@ -72,6 +91,11 @@ class Written:
         Why it cannot be read, with the text; empty when it can.
     raw : str
         Value as it was written: "1,2·10^3".
+    why : Unread or None
+        What kind of fault ``unreadable`` tells of, for pages in other languages: its words take
+        ``fault``.
+    fault : str
+        Text that cannot be read.
     """
 
     what: str = ""
@@ -87,6 +111,8 @@ class Written:
     where: str = ""
     unreadable: str = ""
     raw: str = ""
+    why: Unread | None = None
+    fault: str = ""
 
     @property
     def is_blank(self) -> bool:
@@ -114,6 +140,9 @@ class Work:
         File that it was read from.
     remarks : tuple of Written
         What could not be read and is no answer: a scale, a row without a student.
+    fingerprint : str
+        Of the problem that the form was made for, see `planmethod.check.form.fingerprint_of`; empty
+        of other works.
     """
 
     student: str
@@ -124,6 +153,7 @@ class Work:
     problem: str = ""
     where: str = ""
     remarks: tuple[Written, ...] = ()
+    fingerprint: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,6 +195,8 @@ class KeyEntry:
         Position of the driver, from 0.
     hidden : tuple of str
         Codes of mistakes that this answer cannot show.
+    signed : bool
+        Whether the sign belongs to the number; of a size it tells nothing and is not shown.
     """
 
     id: str
@@ -184,6 +216,7 @@ class KeyEntry:
     points: float = 1.0
     position: int = 0
     hidden: tuple[str, ...] = ()
+    signed: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,6 +245,10 @@ class Judged:
     slip : bool
         His value is not his millimetres times his scale.
     points, of : float
+    remark : str
+        Of the instructor, by hand.
+    by_hand : bool
+        Whether the instructor set the points.
     """
 
     id: str
@@ -227,6 +264,8 @@ class Judged:
     slip: bool = False
     points: float = 0.0
     of: float = 0.0
+    remark: str = ""
+    by_hand: bool = False
 
     @property
     def where(self) -> str:
@@ -249,6 +288,9 @@ class Diagnosis:
         Link, point or pair that the mistake was made at, as plain text: "3", "B3/2".
     values : mapping of str to float
         What the mistake gives for each answer, SI.
+    places : mapping of str to complex
+        Points of the velocity and acceleration plans that have the mistake, by their names in the
+        program (``v:B3``), m/s and m/s², as the program has them; empty where nobody made them.
     """
 
     codes: tuple[str, ...]
@@ -256,6 +298,7 @@ class Diagnosis:
     roots: tuple[str, ...]
     where: str = ""
     values: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    places: Mapping[str, complex] = field(default_factory=lambda: MappingProxyType({}))
 
 
 @dataclass(frozen=True, slots=True)
@@ -266,6 +309,10 @@ class Checked:
     ----------
     suspicious : bool
         Closer to the exact values than any pencil comes: they are not off the drawing.
+    remark : str
+        Of the instructor, by hand.
+    by_hand : bool
+        Whether the instructor set points.
     """
 
     work: Work
@@ -275,3 +322,5 @@ class Checked:
     points: float = 0.0
     of: float = 0.0
     suspicious: bool = False
+    remark: str = ""
+    by_hand: bool = False

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import assert_never
+from typing import TypeAlias, assert_never
 
 import numpy as np
 
@@ -191,7 +191,12 @@ def limit_of(step: Step) -> float:
             return 0.0
 
 
-def evaluate(program: Program, data: Mapping[str, Number], ar: Arithmetic) -> Trace:
+Put: TypeAlias = Callable[[Name, Number], Number]
+
+
+def evaluate(
+    program: Program, data: Mapping[str, Number], ar: Arithmetic, put: Put | None = None
+) -> Trace:
     """Evaluate every step once, in order.
 
     Parameters
@@ -200,17 +205,28 @@ def evaluate(program: Program, data: Mapping[str, Number], ar: Arithmetic) -> Tr
     data : mapping
         Values of the Given points (complex, mm) and Known numbers, scalars or shape (n,).
     ar : Arithmetic
+    put : callable, optional
+        Takes what a step has made and returns what the further steps shall use in its place: a
+        value that somebody has found himself (подстановка).
     """
-    return go_on(Trace({}, {}), program.steps, data, ar)
+    return go_on(Trace({}, {}), program.steps, data, ar, put)
 
 
-def go_on(trace: Trace, steps: Iterable[Step], data: Mapping[str, Number], ar: Arithmetic) -> Trace:
+def go_on(
+    trace: Trace,
+    steps: Iterable[Step],
+    data: Mapping[str, Number],
+    ar: Arithmetic,
+    put: Put | None = None,
+) -> Trace:
     """Return a trace with further steps, which may use everything that it has.
 
     Parameters
     ----------
     data : mapping
         Values of what the further steps take as given or known.
+    put : callable, optional
+        As of `evaluate`.
     """
     lifted = {name: ar.lift(value) for name, value in data.items()}
     env, margin = dict(trace.value), dict(trace.margin)
@@ -220,5 +236,5 @@ def go_on(trace: Trace, steps: Iterable[Step], data: Mapping[str, Number], ar: A
             if room is not None:
                 margin[step.out] = room
                 value = ar.guard(room, limit_of(step), value)
-            env[step.out] = value
+            env[step.out] = value if put is None else put(step.out, value)
     return Trace(env, margin)

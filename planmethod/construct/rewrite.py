@@ -49,14 +49,15 @@ def substituted(program: Program, names: Iterable[Name]) -> Program:
     return rewritten(program, change)
 
 
-def rewritten(program: Program, change: Callable[[Step], Step]) -> Program:
+def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]]) -> Program:
     """Return a program with every step changed, or left as it is.
 
     Parameters
     ----------
     change : callable
         Takes a step and returns what stands in its place: the same step, or another one that makes
-        the same name of the same kind out of what is made before it.
+        the same name of the same kind out of what is made before it; or several, the last of which
+        does.
 
     Raises
     ------
@@ -64,11 +65,15 @@ def rewritten(program: Program, change: Callable[[Step], Step]) -> Program:
         When a step makes another name or kind than the one it stands for, or uses what is not
         made before it.
     """
-    steps = tuple(change(step) for step in program.steps)
-    for before, after in zip(program.steps, steps, strict=True):
+    steps: list[Step] = []
+    for before in program.steps:
+        changed = change(before)
+        several = changed if isinstance(changed, tuple) else (changed,)
+        after = several[-1]
         if (after.out, makes(after)) != (before.out, makes(before)):
             raise ProgramError(f"{after.out} cannot stand for {before.out}")
-    return Program(steps)
+        steps.extend(several)
+    return Program(tuple(steps))
 
 
 def dependents(program: Program, names: Iterable[Name]) -> frozenset[Name]:

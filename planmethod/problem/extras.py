@@ -16,7 +16,13 @@ from planmethod.problem.fields import (
 )
 from planmethod.problem.model import Published
 from planmethod.problem.names import TITLE_LIMIT, listed, near, segment, short
-from planmethod.problem.selector import SelectorError, is_force, parse_selector, unknown_names
+from planmethod.problem.selector import (
+    Selector,
+    SelectorError,
+    is_force,
+    parse_selector,
+    unknown_names,
+)
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -85,15 +91,16 @@ def read_published(
             key: read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
             for key in ("unit", "what", "note")
         }
-        position = _read_position(faults, f"{path}.position", given.get("position"), positions)
+        position = read_position(faults, f"{path}.position", given.get("position"), positions)
         if texts["what"]:
-            _check_what(faults, f"{path}.what", texts["what"], points, links, dynamics)
+            check_what(faults, f"{path}.what", texts["what"], points, links, dynamics)
         if value is not None:
             found.append(Published(name, value, per_mm=per_mm, position=position, **texts))
     return tuple(found)
 
 
-def _read_position(faults: Faults, path: str, value: object, positions: int) -> int | None:
+def read_position(faults: Faults, path: str, value: object, positions: int) -> int | None:
+    """Read which position of the driver is meant, from 0; ``positions`` is 0 when not known."""
     if value is None:
         return None
     if not isinstance(value, int) or isinstance(value, bool) or value < 0:
@@ -105,28 +112,29 @@ def _read_position(faults: Faults, path: str, value: object, positions: int) -> 
     return value
 
 
-def _check_what(
+def check_what(
     faults: Faults,
     path: str,
     what: str,
     points: Collection[str],
     links: Collection[str],
     dynamics: Dynamics | None,
-) -> None:
+) -> Selector | None:
+    """Parse ``what`` and check its names; None where it cannot be parsed."""
     try:
         selector = parse_selector(what)
     except SelectorError as error:
         faults.add(path, str(error), 'For example: "v C", "an C B", "omega 2", "F 2 1".')
-        return
+        return None
     if not points or not links:
-        return
+        return selector
     if is_force(selector) and dynamics is None:
         faults.add(
             path,
             f"'{short(what)}' is of the force analysis, and the file has no masses and no loads",
             "Give [dynamics] or [[loads]].",
         )
-        return
+        return selector
     loads = [load.name for load in dynamics.loads] if dynamics else []
     for name in unknown_names(selector, points, links, loads):
         guess = near(name, [*points, *links, *loads])
@@ -135,6 +143,7 @@ def _check_what(
             known += f"; links: {listed(links)}" + (f"; loads: {listed(loads)}" if loads else "")
         hint = f"Did you mean '{guess}'?" if guess else f"{known}."
         faults.add(path, f"the mechanism has no '{name}'", hint)
+    return selector
 
 
 def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:

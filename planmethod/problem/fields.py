@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import Any, TypeGuard
+from enum import Enum
+from typing import Any, TypeGuard, TypeVar
 
 from planmethod.errors import Fault
 from planmethod.problem.names import (
@@ -24,6 +25,7 @@ FAULT_LIMIT = 100
 """More faults than this are counted, not listed."""
 
 Table = Mapping[str, Any]
+M = TypeVar("M", bound=Enum)
 
 
 class Faults:
@@ -100,6 +102,7 @@ def read_number(
     low: float = -1e9,
     high: float = 1e9,
     positive: bool = False,
+    hint: str = "Check the unit: the file is in SI units and degrees.",
 ) -> float | None:
     """Read a finite number within bounds; None after noting a fault.
 
@@ -109,6 +112,8 @@ def read_number(
         What stands here, with its unit: ``a length in metres``.
     positive : bool
         Zero and negative numbers are then reported as such, before the bounds are looked at.
+    hint : str
+        What to do about a number that is out of bounds.
     """
     if not is_number(value):
         faults.add(path, f"expected {what}, got {show(value)}", _unquoted(value))
@@ -127,10 +132,18 @@ def read_number(
         faults.add(
             path,
             f"expected {what} from {low:g} to {high:g}, got {number:g}",
-            "Check the unit: the file is in SI units and degrees.",
+            hint,
         )
         return None
     return number
+
+
+def read_whole(faults: Faults, path: str, value: object, low: int, high: int) -> int | None:
+    """Read a whole number within bounds; None after noting a fault."""
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        faults.add(path, f"expected a whole number from {low} to {high}, got {show(value)}")
+        return None
+    return value
 
 
 def read_flag(faults: Faults, path: str, value: object) -> bool | None:
@@ -232,6 +245,32 @@ def unmask(faults: Faults, path: str, name: str) -> str:
         meant = short(fold(name))
         faults.add(path, describe_lookalikes(name), f"Type '{meant}' in the Latin layout.")
     return fold(name) if fold(name).isascii() else name
+
+
+def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) -> str | None:
+    """Read one of a few words."""
+    words = tuple(known)
+    if not isinstance(value, str):
+        faults.add(path, f"expected {_either(words)}, got {show(value)}")
+        return None
+    word = unmask(faults, path, value)
+    if word not in words:
+        guess = near(word, words)
+        hint = f"Did you mean '{guess}'?" if guess else ""
+        faults.add(path, f"expected {_either(words)}, got {show(value)}", hint)
+        return None
+    return word
+
+
+def read_member(faults: Faults, path: str, value: object, kind: type[M]) -> M | None:
+    """Read one of the words of an enumeration."""
+    word = read_word(faults, path, value, (item.value for item in kind))
+    return None if word is None else kind(word)
+
+
+def _either(words: tuple[str, ...]) -> str:
+    *first, last = (f"'{word}'" for word in words)
+    return f"{', '.join(first)} or {last}"
 
 
 def read_point_name(faults: Faults, path: str, value: object) -> str | None:

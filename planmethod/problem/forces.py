@@ -15,6 +15,7 @@ from planmethod.problem.fields import (
     read_keys,
     read_point_name,
     read_text,
+    read_word,
     report_unknown,
     show,
     unmask,
@@ -23,7 +24,7 @@ from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near
-from planmethod.problem.sizes import read_phase, read_size, read_word
+from planmethod.problem.sizes import read_phase, read_size
 
 NAME_LIMIT = 40
 _NAME_RE = re.compile(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")

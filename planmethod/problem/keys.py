@@ -18,6 +18,7 @@ TOP = (
     "stamp",
     "sheet",
     "published",
+    "answers",
     "variants",
     "dynamics",
     "loads",
@@ -94,6 +95,19 @@ LOAD = ("name", "link", "at", "force", "couple", "angle", "against", "phases")
 TABLE = ("over", "values", "interpolation")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
+ANSWER = (
+    "what",
+    "id",
+    "letters",
+    "unit",
+    "points",
+    "form",
+    "sense",
+    "position",
+    "digits",
+    "segment",
+    "tolerance",
+)
 
 KNOWN: dict[str, tuple[str, ...]] = {
     "top": TOP,
@@ -109,6 +123,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "stamp": tuple(STAMP),
     "sheet": SHEET,
     "published": PUBLISHED,
+    "answer": ANSWER,
     "dynamics": DYNAMICS,
     "mass": MASS,
     "load": LOAD,
@@ -125,4 +140,5 @@ POSITION_LIMIT = 10_000
 VARIANT_LIMIT = 400
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200
+ANSWER_LIMIT = 200
 ROW_LIMIT = POSITION_LIMIT

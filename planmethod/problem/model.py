@@ -221,6 +221,63 @@ class Published:
     position: int | None = None
 
 
+class AnswerForm(Enum):
+    """In what an answer is given (вид ответа)."""
+
+    VALUE = "value"
+    MM = "mm"  # millimetres of the student's own plan
+    BOTH = "both"  # either is taken
+
+
+class AskedSense(Enum):
+    """As what the sense of an answer is asked (направление)."""
+
+    TURN = "turn"  # ↺ or ↻
+    DIRECTION = "direction"  # left, right, up or down
+    ANGLE = "angle"  # degrees from +x
+
+
+@dataclass(frozen=True, slots=True)
+class AskedAnswer:
+    """What students are asked for (вопрос).
+
+    Attributes
+    ----------
+    id : str
+        How it is called in every output; each has its own.
+    what : str
+        The quantity in the words of ``[published]``, also where the file has a name of ``--ask``.
+    letters : tuple of str
+        How the department writes it: ``VB₃``, ``v_B3``.
+    unit : str
+        As the file has it; empty for SI.
+    points : float
+    form : AnswerForm
+    sense : AskedSense or None
+        None where the sense is not asked.
+    position : int or None
+        Position of the driver, from 0; None where the file says none.
+    digits : int or None
+        Significant digits asked for.
+    segment : str
+        Letters of its segment: ``p-b3``; empty for that of the quantity.
+    tolerance : float or None
+        The department's own, as a share of the value: 0.05.
+    """
+
+    id: str
+    what: str
+    letters: tuple[str, ...] = ()
+    unit: str = ""
+    points: float = 1.0
+    form: AnswerForm = AnswerForm.BOTH
+    sense: AskedSense | None = None
+    position: int | None = None
+    digits: int | None = None
+    segment: str = ""
+    tolerance: float | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class SheetSettings:
     """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not said.
@@ -270,6 +327,8 @@ class Problem:
     guides : mapping of str to (str or None, complex, float)
         Frame guides by name: fixed point's name if so given, base in m, angle in degrees.
     assembly : tuple of Rule
+    answers : tuple of AskedAnswer
+        What students are asked for, in the order of the file; empty where it does not say.
     dynamics : Dynamics or None
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     tables : mapping
@@ -290,6 +349,7 @@ class Problem:
     stamp: Mapping[str, str] = field(default_factory=dict)
     sheet: SheetSettings = SheetSettings()
     published: tuple[Published, ...] = ()
+    answers: tuple[AskedAnswer, ...] = ()
     variants: tuple[str, ...] = ()
     variant: str | None = None
     dynamics: Dynamics | None = None

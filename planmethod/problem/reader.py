@@ -10,6 +10,7 @@ from typing import Any
 from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
+from planmethod.problem.answers import Scene, read_answers
 from planmethod.problem.bodies import place_points
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.extras import read_heading, read_published, read_tables
@@ -158,6 +159,15 @@ def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem 
         dynamics,
         len(drive.positions) if drive else 0,
     )
+    scene = Scene(
+        () if faults else points,
+        () if faults else tuple(links),
+        mechanism.revolutes if mechanism else (),
+        slides,
+        dynamics,
+        drive,
+    )
+    answers = read_answers(faults, given.get("answers", []), scene)
     if faults or drive is None or mechanism is None:
         assert faults, "a part was left out without a word"
         return None
@@ -180,6 +190,7 @@ def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem 
         stamp=stamp,
         sheet=sheet,
         published=published,
+        answers=answers,
         dynamics=dynamics,
         tables=tables,
     )

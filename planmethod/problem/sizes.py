@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from enum import Enum
 from itertools import pairwise
-from typing import TypeVar
 
 from planmethod.problem import keys
 from planmethod.problem.fields import (
@@ -15,14 +12,14 @@ from planmethod.problem.fields import (
     read_angle,
     read_coordinate,
     read_keys,
+    read_member,
     read_number,
     show,
-    unmask,
 )
 from planmethod.problem.load_records import Interpolation, Moving, Over, Phase, Turning
 from planmethod.problem.load_records import Table as SizeTable
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed, near
+from planmethod.problem.names import listed
 
 TURN = 360.0
 """A table over phi repeats after so many degrees."""
@@ -31,33 +28,6 @@ _TABLE = '{ over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear"
 _PHASES = 'phases = { phi = [90, 270] } or phases = { moving = "down" }'
 
 Spans = tuple[tuple[float, float], ...]
-M = TypeVar("M", bound=Enum)
-
-
-def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) -> str | None:
-    """Read one of a few words."""
-    words = tuple(known)
-    if not isinstance(value, str):
-        faults.add(path, f"expected {_either(words)}, got {show(value)}")
-        return None
-    word = unmask(faults, path, value)
-    if word not in words:
-        guess = near(word, words)
-        hint = f"Did you mean '{guess}'?" if guess else ""
-        faults.add(path, f"expected {_either(words)}, got {show(value)}", hint)
-        return None
-    return word
-
-
-def _read_member(faults: Faults, path: str, value: object, kind: type[M]) -> M | None:
-    """Read one of the words of an enumeration."""
-    word = read_word(faults, path, value, (item.value for item in kind))
-    return None if word is None else kind(word)
-
-
-def _either(words: tuple[str, ...]) -> str:
-    *first, last = (f"'{word}'" for word in words)
-    return f"{', '.join(first)} or {last}"
 
 
 # Sizes -------------------------------------------------------------------------------------------
@@ -108,7 +78,7 @@ def _read_table(
 def _read_over(
     faults: Faults, path: str, value: object, drive: Drive | None, *, couple: bool
 ) -> Over | None:
-    over = _read_member(faults, path, value, Over)
+    over = read_member(faults, path, value, Over)
     if over is None:
         return None
     if couple and over in (Over.X, Over.Y):
@@ -138,7 +108,7 @@ def _read_interpolation(
         hint = "There is a value for each position."
         faults.add(where, 'does not go with over = "position"', hint)
         return None
-    return _read_member(faults, where, given["interpolation"], Interpolation)
+    return read_member(faults, where, given["interpolation"], Interpolation)
 
 
 Rows = tuple[tuple[float, ...], tuple[float, ...]]
@@ -254,14 +224,14 @@ def read_phase(
             faults.add(f"{path}.phi", f"link {drive.link} slides, it has no phi", hint)
     if "moving" in given:
         where = f"{path}.moving"
-        moving = _read_member(faults, where, given["moving"], Moving)
+        moving = read_member(faults, where, given["moving"], Moving)
         if couple:
             hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
             faults.add(where, "does not go with a couple", hint)
         elif still is not None:
             faults.add(where, f"point {still} is fixed and does not move")
     if "turning" in given:
-        turning = _read_member(faults, f"{path}.turning", given["turning"], Turning)
+        turning = read_member(faults, f"{path}.turning", given["turning"], Turning)
     if len(faults) != before or spans is None:
         return None
     return Phase(spans, moving, turning)

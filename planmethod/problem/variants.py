@@ -25,7 +25,7 @@ _FREE = ("gears", "point")
 """Tables whose keys later parts check."""
 
 _HOLDERS = (Mapping, list)
-"""What a path may lead through: a table, or the loads."""
+"""What a path may lead through: a table, the loads or the answers."""
 
 _MOTION = ("frame", "links", "driver", "assembly")
 """Tables on which all published values depend."""
@@ -80,7 +80,7 @@ def _overrides(
 
 def _is_leaf(path: Path) -> bool:
     """Whether a table at this path is one value: spans, places, sizes and phases of loads."""
-    if path[:1] == ("loads",):
+    if path[:1] in (("loads",), ("answers",)):
         return len(path) == 3
     return path[:-1] == ("driver",) or (path[:1] == ("assembly",) and len(path) > 1)
 
@@ -96,12 +96,15 @@ def _get(base: Any, path: Path) -> Any:
 
 
 def _key(level: object, part: str) -> str | int:
-    """Key for a part of a path; a load goes by its number from 0, or by its name."""
+    """Key for a part of a path; a load goes by its number from 0, or by its name.
+
+    So does an answer, or by its id.
+    """
     if not isinstance(level, list) or not all(isinstance(entry, Mapping) for entry in level):
         return part
     if part.isdecimal():
         return int(part) if len(part) < 6 and int(part) < len(level) else part
-    names = [entry.get("name") for entry in level]
+    names = [entry.get("name", entry.get("id")) for entry in level]
     return names.index(part) if part in names else part
 
 
@@ -130,6 +133,8 @@ def _known_under(path: Path) -> tuple[str, ...]:
         return keys.SPAN
     if first == "dynamics" and len(path) > 1:
         return keys.MASS if path[1] == "links" and len(path) == 3 else ()
+    if first == "answers":
+        return keys.ANSWER if len(path) == 2 else ()
     if first == "loads":
         return {2: keys.LOAD, 3: _LOAD_TABLES.get(path[-1], ())}.get(len(path), ())
     return keys.KNOWN.get(first, ()) if len(path) == 1 else ()
@@ -148,7 +153,8 @@ def _may_add(path: Path) -> bool:
 def _names_in(table: object) -> list[str]:
     """Names that may follow in a path."""
     if isinstance(table, list):
-        return [str(e.get("name", i)) for i, e in enumerate(table) if isinstance(e, Mapping)]
+        entries = [(i, entry) for i, entry in enumerate(table) if isinstance(entry, Mapping)]
+        return [str(e.get("name", e.get("id", i))) for i, e in entries]
     return list(table) if isinstance(table, Mapping) else []
 
 

@@ -18,7 +18,18 @@ from planmethod.problem.families import FAMILIES
 from planmethod.problem.keys import KNOWN
 from planmethod.problem.reader import read_parsed
 
-GOOD = [*map(template, FAMILIES), CRANK + LOADED]
+ASKED = """
+[[answers]]
+what = "v C"
+letters = ["v_C", "VC"]
+sense = true
+position = 1
+[[answers]]
+what = "F_B_2/1"
+segment = "p b"
+form = "mm"
+"""
+GOOD = [*map(template, FAMILIES), CRANK + ASKED + LOADED]
 NAMES = ["A", "B", "C", "D", "O", "S2", "AB", "BC", "CD", "OA", "1", "2", "3", "x-x", "А", "0", ""]
 WORDS = [
     *(key for keys in KNOWN.values() for key in keys),

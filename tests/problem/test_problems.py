@@ -163,6 +163,7 @@ SCHEMA_TABLES = {
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
     "sheet": SCHEMA["$defs"]["sheet"]["properties"],
     "published": SCHEMA["$defs"]["published"]["additionalProperties"]["properties"],
+    "answer": SCHEMA["$defs"]["answer"]["properties"],
     "dynamics": SCHEMA["$defs"]["dynamics"]["properties"],
     "mass": SCHEMA["$defs"]["mass"]["properties"],
     "load": SCHEMA["$defs"]["load"]["properties"],

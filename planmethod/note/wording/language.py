@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 from planmethod.note.numbers import Notation
 from planmethod.note.wording.audit_model import AuditWording
+from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.control_model import ControlWording
 from planmethod.note.wording.force_model import ForceWording
+from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.sheet_model import SheetWording
@@ -34,6 +36,10 @@ class Language:
         The norm control.
     specimens : SpecimenWording
     audit : AuditWording
+    check : CheckWording
+        The checking of works.
+    form : FormWording
+        The form to fill in, and what cannot be read in works.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -50,5 +56,7 @@ class Language:
     control: ControlWording
     specimens: SpecimenWording
     audit: AuditWording
+    check: CheckWording
+    form: FormWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

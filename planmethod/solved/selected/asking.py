@@ -11,6 +11,8 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import ZERO
 from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.plans.motion.board import Motion
+from planmethod.plans.segments import Segments
 from planmethod.problem.selector import POLE, Selector
 from planmethod.solved.solution import Solution
 
@@ -99,9 +101,22 @@ class Asking:
         """The further steps."""
         return self.b.steps[self._done :]
 
+    def segments(self, plan: PlanKind) -> Segments:
+        """Return the segments of the velocity or the acceleration plan."""
+        return self._segments[plan]
+
+    def motion(self, plan: PlanKind) -> Motion:
+        """Return the points of the velocity or the acceleration plan."""
+        return self.kin.acceleration if plan is PlanKind.ACCELERATION else self.kin.velocity
+
+    @property
+    def free_name(self) -> str:
+        """A name that no step has."""
+        return f"asked{len(self.b.steps)}"
+
     def compute(self, *powers: tuple[NumberName, int]) -> NumberName:
         """Return a further product of powers."""
-        return self.b.compute(f"asked{len(self.b.steps)}", *powers)
+        return self.b.compute(self.free_name, *powers)
 
     def answer(self, selector: Selector) -> Answer:
         """Return the number that a selector of the motion asks for.
@@ -125,7 +140,7 @@ class Asking:
             rates, power = (self.kin.omega, 2) if kind == "an" else (self.kin.epsilon, 1)
             return Answer(self.compute((rates[link], power), *arm) if link in rates else self.zero)
         if kind in ("ak", "ar"):
-            return Answer(self._relative(kind, *names))
+            return Answer(self.relative(kind, *names))
         (link,) = names
         if link not in self.solution.links:
             raise UnansweredError(NoAnswer.NO_LINK)
@@ -141,7 +156,7 @@ class Asking:
         pole, head = self.point(plan, POLE), self.point(plan, name)
         angle = self.draft.known(f"angle_{axis}", 0.0 if axis == "x" else 90.0)
         line = self.b.at_angle(pole, None, angle)
-        length = self.b.measure_along(f"asked{len(self.b.steps)}", pole, head, line)
+        length = self.b.measure_along(self.free_name, pole, head, line)
         return Answer(self.compute((self._scale(plan), 1), (length, 1)), signed=True)
 
     def _scale(self, plan: PlanKind) -> NumberName:
@@ -151,7 +166,7 @@ class Asking:
         one, two = self.point(plan, tail), self.point(plan, head)
         if one == two:
             return self.zero
-        return self._segments[plan].value(one, two, f"asked{len(self.b.steps)}")
+        return self._segments[plan].value(one, two, self.free_name)
 
     def _length(self, plan: PlanKind, tail: str, head: str) -> Answer:
         one, two = self.point(plan, tail), self.point(plan, head)
@@ -185,7 +200,7 @@ class Asking:
 
     def point(self, plan: PlanKind, name: str) -> PointName:
         """Return the plan point of a point's name; the pole of the position plan is the origin."""
-        motion = self.kin.acceleration if plan is PlanKind.ACCELERATION else self.kin.velocity
+        motion = self.motion(plan)
         if name == POLE:
             return motion.pole  # the velocity plan's lies at 0 on the paper, as the origin does
         if name not in self.kin.velocity.named:
@@ -198,7 +213,8 @@ class Asking:
         motion = self.kin.velocity
         return {link: place for link, place in motion.point if motion.label(link, place) == name}
 
-    def _relative(self, letter: str, one: str, other: str) -> NumberName:
+    def relative(self, letter: str, one: str, other: str) -> NumberName:
+        """Return a number of the sliding of two coincident points: ``v``, ``ak`` or ``ar``."""
         label = self.kin.velocity.label
         for relative in self.kin.relatives.values():
             place = relative.point

@@ -19,6 +19,7 @@ from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
 from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
+from planmethod.plans.segments import Ends
 from planmethod.problem.selector import Selector
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.statics import Statics, statics_of
@@ -123,6 +124,22 @@ class ForceQuantities:
                 return self._shift(asking, names[0])
         return self._load(self._given(kind, names[0]))
 
+    def sense(self, selector: Selector) -> float:
+        """Return -1 where the plan has the reaction that acts back, else 1."""
+        return self._joint(*selector.names).sense
+
+    def directed(self, selector: Selector) -> Ends:
+        """Return the ends of the segment that has the direction an ``angle`` asks for.
+
+        Raises
+        ------
+        UnansweredError
+            When the force is nothing.
+        """
+        line = self._line(selector.kind.partition(" ")[2], selector.names)
+        self._directed(line)
+        return line.force.ends if line.sense > 0 else line.force.ends[::-1]
+
     def turn(self, selector: Selector) -> float:
         """Return how far a force turns when its end on the plan moves by one mm, degrees."""
         line = self._line(selector.kind.partition(" ")[2], selector.names)
@@ -183,7 +200,7 @@ class ForceQuantities:
         ray = asking.b.join(tail, head)
         if kind == "Ft":
             ray = asking.b.perpendicular(tail, ray)
-        length = asking.b.measure_along("asked", *force.ends, ray)
+        length = asking.b.measure_along(asking.free_name, *force.ends, ray)
         return asking.compute((self.statics.board.scale, 1), (length, 1))
 
     def _balance(self, asking: Asking, kind: str, names: tuple[str, ...]) -> NumberName:
@@ -230,12 +247,12 @@ class ForceQuantities:
         """Return the arm of a force; that of a guide acts where its moment puts it."""
         self._directed(line)
         pole, force = asking.point(PlanKind.POSITION, about), line.force
-        arm = asking.b.measure_arm("asked arm", pole, force.at, *force.ends)
+        arm = asking.b.measure_arm(asking.free_name, pole, force.at, *force.ends)
         if line.couple is None:
             return arm
         size, mu_l = self.statics.board.segments.known(force.ends), asking.draft.mu_l
         shift = asking.compute((line.couple, 1), (size, -1), (mu_l, -1))
-        return asking.b.total("asked", arm, shift)
+        return asking.b.total(asking.free_name, arm, shift)
 
     # Names -----------------------------------------------------------------------------------
 

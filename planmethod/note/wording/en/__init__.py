@@ -1,8 +1,10 @@
 """English (английский язык)."""
 
 from planmethod.note.wording.en.audit import AUDIT
+from planmethod.note.wording.en.check import CHECK
 from planmethod.note.wording.en.control import CONTROL
 from planmethod.note.wording.en.forces import FORCES
+from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
 from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
 from planmethod.note.wording.en.note import NOTE
@@ -23,6 +25,8 @@ LANGUAGE = Language(
     control=CONTROL,
     specimens=SPECIMENS,
     audit=AUDIT,
+    check=CHECK,
+    form=FORM,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

@@ -2,8 +2,10 @@
 
 from planmethod.note.wording.language import Language
 from planmethod.note.wording.ru.audit import AUDIT
+from planmethod.note.wording.ru.check import CHECK
 from planmethod.note.wording.ru.control import CONTROL
 from planmethod.note.wording.ru.forces import FORCES
+from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
 from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
 from planmethod.note.wording.ru.note import NOTE
@@ -23,6 +25,8 @@ LANGUAGE = Language(
     control=CONTROL,
     specimens=SPECIMENS,
     audit=AUDIT,
+    check=CHECK,
+    form=FORM,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

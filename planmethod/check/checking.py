@@ -1,0 +1,164 @@
+"""Checking of a work: from what is written to verdicts, diagnosis and points (проверка работы)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from planmethod.check.diagnosis import diagnose
+from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
+from planmethod.check.key import entry_of
+from planmethod.check.marks import Settings
+from planmethod.check.model import Checked, Diagnosis, Judged, Verdict, Work, Written
+from planmethod.check.questions import Sign
+from planmethod.check.task import Item, Task
+from planmethod.check.tolerance import limit_of
+from planmethod.plans.model import FACTS
+from planmethod.solved.selected.asking import UnansweredError
+
+SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
+
+TOO_NEAR = 1e-4
+"""Chance with which a hand comes as near to the exact values as some answers do."""
+
+
+def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
+    """Judge a work: a pure function of a task and what was written.
+
+    Parameters
+    ----------
+    also : sequence of Item
+        What the others of the group were asked, where the problem file asks nothing.
+    """
+    found: dict[int, list[tuple[Written, Item]]] = {}
+    judged: dict[int, Judged] = {}
+    for number, written in enumerate(work.answers):
+        name = written.id or written.what
+        try:
+            item = task.find(written)
+        except UnansweredError:
+            judged[number] = Judged(name, Verdict.UNREADABLE, written=written, of=1.0)
+            continue
+        if written.unreadable:
+            judged[number] = _unjudged(task, item, Verdict.UNREADABLE, written)
+        elif written.is_blank:
+            judged[number] = _unjudged(task, item, Verdict.BLANK, written)
+        else:
+            found.setdefault(item.position, []).append((written, item))
+    numbers = {id(written): number for number, written in enumerate(work.answers)}
+    diagnosis: list[Diagnosis] = []
+    examined: list[Examined] = []
+    for position, here in sorted(found.items()):
+        scales = _scales(task, work, here, position)
+        sheet = task.sheet(position, scales, work.ruler_mm)
+        ready: list[Examined] = []
+        for written, item in here:
+            try:
+                ready.append(examine(task, sheet, item, written))
+            except UnusableError:
+                judged[numbers[id(written)]] = _unjudged(task, item, Verdict.UNREADABLE, written)
+        replay(task, sheet, ready)
+        decide(sheet, ready, task.settings.near)
+        diagnosis += diagnose(task, sheet, ready)
+        for one in ready:
+            judged[numbers[id(one.written)]] = _judged(task, one)
+        examined += ready
+    answers = [judged[number] for number in sorted(judged)]
+    given = {answer.id for answer in answers}
+    for item in (*task.declared, *also):
+        if item.id not in given:
+            answers.append(_unjudged(task, item, Verdict.BLANK, None))
+            given.add(item.id)
+    points = math.fsum(answer.points for answer in answers)
+    whole = math.fsum(answer.of for answer in answers)
+    return Checked(
+        work,
+        task.variant,
+        tuple(answers),
+        tuple(diagnosis),
+        round(points, 6),
+        round(whole, 6),
+        _suspicious(examined),
+    )
+
+
+def _scales(
+    task: Task, work: Work, here: Sequence[tuple[Written, Item]], position: int
+) -> dict[str, float]:
+    """Return his scales; one that he does not tell is found from a value beside its millimetres."""
+    scales = {name: mu for name, mu in work.scales.items() if name in SCALED}
+    given = task.solution.problem.scales
+    for written, item in here:
+        question = item.question
+        if question.scale in scales or not question.scale or question.is_mm:
+            continue
+        if getattr(given, question.scale, None) is not None:
+            continue
+        plan = question.plan
+        if plan and question.unit == FACTS[plan].unit and written.mm and written.value:
+            scales[question.scale] = abs(written.value / written.mm)
+    return scales
+
+
+def _unjudged(task: Task, item: Item, verdict: Verdict, written: Written | None) -> Judged:
+    sheet = task.sheet(item.position)
+    limit = limit_of(sheet, item.question, task.settings, item.fixed)
+    of = 0.0 if verdict is Verdict.UNREADABLE else item.points
+    return Judged(item.id, verdict, entry_of(task, item, limit), written, of=of)
+
+
+def _judged(task: Task, one: Examined) -> Judged:
+    item, settings = one.item, task.settings
+    share = share_of(one, settings)
+    return Judged(
+        item.id,
+        one.verdict,
+        entry_of(task, item, one.limit),
+        one.written,
+        one.value,
+        one.limit.tolerance(one.step),
+        one.source,
+        one.local,
+        one.local_tolerance,
+        one.sense_right,
+        one.slip,
+        round(item.points * share, 6),
+        item.points,
+    )
+
+
+def share_of(one: Examined, settings: Settings) -> float:
+    """Return the share of its points that an answer gets."""
+    shares = {
+        Verdict.OK: 1.0,
+        Verdict.NEAR: settings.near_share,
+        Verdict.INHERITED: settings.inherited_share,
+        Verdict.INCONSISTENT: settings.inconsistent_share,
+        Verdict.UNSEEN: settings.unseen_share,
+    }
+    asked = one.item.asks_sense and not one.limit.zero
+    if one.verdict is Verdict.WRONG:
+        # The sense is an answer of its own: wrong, it leaves the number its points.
+        if one.sense_right is False and (one.right or one.follows):
+            return 1.0 - settings.sense_share
+        return settings.sense_share if asked and one.sense_right else 0.0
+    share = shares[one.verdict]
+    if asked and one.sense_right is None and one.written.sense is None and not one.signed:
+        share -= settings.sense_share * share
+    return share
+
+
+def _suspicious(found: Sequence[Examined]) -> bool:
+    """Tell whether answers are nearer to the exact values than a hand ever draws."""
+    seen = [
+        one
+        for one in found
+        if one.limit.sigma > 0 and one.item.question.sign is not Sign.ANGLE and not one.limit.zero
+    ]
+    if len(seen) < 5:
+        return False
+    chance = 1.0
+    for one in seen:
+        off = max(one.off, one.step / 2)
+        chance *= min(1.0, math.erf(off / one.limit.sigma / math.sqrt(2.0)))
+    return bool(chance < TOO_NEAR ** (len(seen) / 2))

@@ -1,0 +1,266 @@
+"""Why answers are wrong: the explanation that clearly fits best, or honest doubt (диагностика)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from statistics import median
+
+from planmethod.check.explain import Explanation, Fact, Fit, Numbers
+from planmethod.check.judge import Examined, distance, facts_of, put_in
+from planmethod.check.mistakes.model import Scene
+from planmethod.check.mistakes.scales import scale_by
+from planmethod.check.model import Diagnosis, Verdict
+from planmethod.check.questions import RATES, Sign
+from planmethod.check.sheet import Sheet
+from planmethod.check.slips import put_explanation, slips
+from planmethod.check.task import Task
+from planmethod.construct.steps import Name, PointName, makes, operands
+from planmethod.plans.model import MOTION
+
+CLEARLY = 6.0
+"""How much better the best explanation must be than the next one to be named."""
+
+TRIED, CLOSELY = 8, 3
+"""Named explanations that are compared, and those with the errors of their own plans."""
+
+MANY = 2
+"""So many wrong numbers that some of them are like something by chance."""
+
+UNNAMED = 3.0
+"""How common a number is that is wrong and nobody knows why, beside one mistake at one place."""
+
+
+def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]:
+    """Name what is wrong with a sheet, and pass on what follows from it.
+
+    The verdicts of the answers that follow from a recognised mistake become `Verdict.INHERITED`.
+    """
+    wrong = [one for one in found if one.verdict is Verdict.WRONG]
+    if not wrong:
+        return []
+    facts, own = facts_of(sheet, found, task.settings.k), _numbers(sheet, found)
+    whole = _whole(task, sheet, wrong, facts, own)
+    if whole is not None:
+        return [_passed_on(task, sheet, found, whole)]
+    return _one_by_one(task, sheet, found, wrong, facts, own)
+
+
+def _numbers(sheet: Sheet, found: list[Examined]) -> Numbers:
+    return Numbers(put_in(sheet, found), put_in(sheet, found, values=True))
+
+
+def _whole(
+    task: Task, sheet: Sheet, wrong: list[Examined], facts: list[Fact], own: Numbers
+) -> list[Fit] | None:
+    """Return the explanations of everything that is answered, the best first; None where none is."""
+    fits = _fits(task, sheet, wrong, facts, own)
+    best = fits[0] if fits else None
+    if best is None or not best.likely:
+        fits = sorted([*fits, *_of_others(task, sheet, facts, own)], key=lambda fit: fit.score)
+        best = fits[0] if fits else None
+    if best is None or not best.likely:
+        return None
+    return [fit for fit in fits if fit.likely and fit.score < best.score + CLEARLY]
+
+
+def _fits(
+    task: Task, sheet: Sheet, wrong: list[Examined], facts: list[Fact], own: Numbers
+) -> list[Fit]:
+    """Return how explanations fit, the best first."""
+    explained = task.explanations(sheet)
+    tried = [*explained.nearest(facts, TRIED), *_scaled(task, sheet, wrong)]
+    fits = sorted((explained.fit(e, facts, own) for e in tried), key=lambda fit: fit.score)
+    close = [explained.fit(fit.explanation, facts, own, closely=True) for fit in fits[:CLOSELY]]
+    fits = [*close, *fits[CLOSELY:]]
+    for one in wrong:
+        for code, where, value, prior in slips(sheet, one):
+            made = put_explanation(sheet, one, code, where, value, prior, free=False)
+            if made is not None:
+                fits.append(explained.fit(made, facts, own))
+        code = "slip" if one.slip or (one.computed and one.contradicts) else ""
+        made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
+        if made is not None:
+            fits.append(explained.fit(made, facts, own))
+    return _different(sorted(fits, key=lambda fit: fit.score), facts)
+
+
+def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
+    """Return fits without those that give the same numbers as a more common explanation."""
+    kept: list[Fit] = []
+    for fit in sorted(fits, key=lambda fit: -fit.explanation.prior):
+        given = fit.explanation.values
+        if fit.explanation.free or not any(
+            _same(given, other.explanation.values, facts)
+            for other in kept
+            if not other.explanation.free
+        ):
+            kept.append(fit)
+    return sorted(kept, key=lambda fit: fit.score)
+
+
+def _same(one: Mapping[str, float], two: Mapping[str, float], facts: list[Fact]) -> bool:
+    """Tell whether two explanations give the same answers."""
+    return all(
+        abs(fact.of(one[fact.id]) - fact.of(two[fact.id])) <= fact.least * 0.5 for fact in facts
+    )
+
+
+def _scaled(task: Task, sheet: Sheet, wrong: list[Examined]) -> Iterator[Explanation]:
+    """Yield a plan that was drawn to another scale than it is read by."""
+    for plan in MOTION[1:]:
+        ratios = [
+            abs(one.value / one.limit.exact)
+            for one in wrong
+            if one.item.question.plan is plan
+            and one.item.question.selector.kind not in RATES
+            and one.limit.exact
+            and one.value
+        ]
+        if len(ratios) < 2:
+            continue
+        factor = median(ratios)
+        if all(abs(ratio / factor - 1.0) < 0.05 for ratio in ratios):
+            made = task.explanations(sheet).of_change(scale_by(Scene(sheet), plan, factor))
+            if made is not None:
+                yield made
+
+
+def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: Numbers) -> Iterator[Fit]:
+    """Yield how the numbers of the other variants fit."""
+    explained = task.explanations(sheet)
+    for other in task.others():
+        position = sheet.questions.position
+        theirs = task.asked_of(other, position)
+        if theirs is None:
+            continue
+        yield explained.fit(
+            Explanation("P2", other.variant or "", theirs.exact, theirs.trace, theirs), facts, own
+        )
+
+
+# What follows --------------------------------------------------------------------------------
+
+
+def _passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fit]) -> Diagnosis:
+    """Return the diagnosis of a whole sheet, with what follows from its mistake inherited."""
+    best = fits[0].explanation
+    codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
+    sure = len(codes) == 1 and bool(codes[0])
+    wrong = [one for one in found if one.verdict is Verdict.WRONG]
+    begins = [one for one in wrong if one.item.id in best.begins]
+    root = begins[0] if begins else min(wrong, key=lambda one: _rank(sheet, one))
+    for one in found:
+        if one is root or one.verdict is not Verdict.WRONG:
+            continue
+        if _follows(one, best, task.settings.near):
+            one.verdict, one.source = Verdict.INHERITED, root.item.id
+    _repoint(found)
+    if "" in codes:  # nothing is better than that it is just wrong
+        codes = () if fits[0].explanation.code == "" else tuple(c for c in codes if c)
+        sure = False
+    roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
+    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, _told(found, best))
+
+
+def _told(found: list[Examined], explanation: Explanation) -> dict[str, float]:
+    return {one.item.id: explanation.values[one.item.question.id] for one in found}
+
+
+def _follows(one: Examined, explanation: Explanation, near: float) -> bool:
+    """Tell whether an answer is what an explanation gives."""
+    given = explanation.values[one.item.question.id]
+    exact = abs(one.limit.exact)
+    share = max(abs(given) / exact, 0.3) if exact else 1.0
+    tolerance = max(one.limit.tolerance(one.step), one.limit.spread) * near * share
+    turned = one.sense_right is False and one.item.question.sign is Sign.TURN
+    if turned and given * one.limit.exact > 0:
+        return False
+    return distance(one.item, one.value, given, signed=one.signed) <= tolerance
+
+
+def _repoint(found: list[Examined]) -> None:
+    """Let what follows an answer that itself follows another one follow that."""
+    by_id = {one.item.id: one for one in found}
+    for one in found:
+        while one.source and by_id[one.source].source:
+            one.source = by_id[one.source].source
+
+
+def _rank(sheet: Sheet, one: Examined) -> tuple[int, bool, int]:
+    """Return how early on the plans an answer is found: by the last point that it needs."""
+    name = one.slot
+    if name is None:
+        return (len(sheet.order), True, 0)
+    return (_last_point(sheet, name), one.item.question.selector.kind in RATES, sheet.order[name])
+
+
+def _last_point(sheet: Sheet, name: Name) -> int:
+    seen, todo, last = {name}, [name], -1
+    while todo:
+        step = sheet.made[todo.pop()]
+        if makes(step) is PointName:
+            last = max(last, sheet.order[step.out])
+            continue
+        for other, _ in operands(step):
+            if other not in seen:
+                seen.add(other)
+                todo.append(other)
+    return last
+
+
+# One by one ----------------------------------------------------------------------------------
+
+
+def _one_by_one(
+    task: Task,
+    sheet: Sheet,
+    found: list[Examined],
+    wrong: list[Examined],
+    facts: list[Fact],
+    own: Numbers,
+) -> list[Diagnosis]:
+    """Name what can be named where no one mistake explains the whole sheet."""
+    explained = task.explanations(sheet)
+    diagnoses: list[Diagnosis] = []
+    by_question = {one.item.question.id: one for one in found}
+    left = list(wrong)
+    for explanation in explained.nearest(facts, TRIED):
+        kept = [f for f in facts if _follows(by_question[f.id], explanation, task.settings.near)]
+        gained = [
+            one
+            for one in left
+            if any(f.id == one.item.question.id for f in kept)
+            and not _idle(sheet, one, explanation)
+        ]
+        if len(gained) < 2 or len(facts) - len(kept) > max(1, len(facts) // 4):
+            continue
+        fit = explained.fit(explanation, kept, own, closely=True)
+        plain = [explained.fit(e, kept, own) for e in explained.nearest(kept, 2)]
+        rivals = {p.explanation.code for p in plain if p.score < fit.score + CLEARLY}
+        if fit.likely and rivals <= {explanation.code}:
+            diagnoses.append(_passed_on(task, sheet, gained, [fit]))
+            left = [one for one in left if one not in gained]
+            break
+    left = [one for one in left if one.verdict is Verdict.WRONG]
+    for one in left:
+        diagnoses.append(_alone(sheet, one, many=len(left) > MANY))
+    _repoint(found)
+    return diagnoses
+
+
+def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
+    """Tell whether an explanation leaves an answer as it is."""
+    given = abs(explanation.values[one.item.question.id])
+    return abs(given - abs(sheet.exact[one.item.question.id])) <= one.limit.tolerance()
+
+
+def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
+    """Return what can be said of one number by itself; of one of many only what is sure."""
+    roots = (one.item.id,)
+    if one.sense_right is False and (one.right or one.follows or one.near):
+        return Diagnosis(("sign",), True, roots)
+    codes = {} if many else dict.fromkeys(code for code, *_ in slips(sheet, one))
+    if one.slip or (one.computed and one.contradicts and not codes):
+        codes = codes or {"slip": None}
+    named = tuple(codes)
+    return Diagnosis(named, len(named) == 1, roots)

@@ -1,0 +1,307 @@
+"""Which mistake gives a student's numbers: explanations and how well each fits (диагностика).
+
+An explanation predicts every answer of a sheet: the program with a mistake in it, or the right one
+with one number put in that is somehow wrong. They are compared by the likelihood of what was
+written, with the errors of drawing and reading, so that a vague explanation does not win by luck.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.check.mistakes import changes
+from planmethod.check.mistakes.model import Change, Scene
+from planmethod.check.sheet import Local, Own, Sheet
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.steps import Name, NumberName
+
+WIDE = math.log(1e4)
+"""Range of what a slip can make of a number, as the logarithm of a ratio."""
+
+LEAST_SHARE = 0.3
+"""An answer that a mistake makes small is drawn no better than a third of the right one."""
+
+FAR = 30.0
+"""Sigmas squared beyond which it does not matter how far off an answer is."""
+
+ONE_MISTAKE = 2 * math.log(20.0)
+
+MISREAD_SENSE = 9.0
+"""What a sense told the other way costs: one in a hundred is a slip of the pen."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """One answer as the explanations have to give it.
+
+    Attributes
+    ----------
+    id : str
+    value : float
+        Size, or with its sign where he tells it.
+    signed : bool
+    step : float
+        Unit of the last digit.
+    least : float
+        Sigma that nothing written by hand is better than.
+    slot : NumberName or None
+        Number of the program that the answer stands for; None of what nothing follows from.
+    per_slot : float
+        What it counts in the unit of the answer.
+    name : NumberName or None
+        Number that is the answer itself.
+    sense : callable or None
+        Tells whether the sense that he wrote is right on a sheet; None where it cannot be said.
+    """
+
+    id: str
+    value: float
+    signed: bool
+    step: float
+    least: float
+    slot: NumberName | None = None
+    per_slot: float = 1.0
+    name: NumberName | None = None
+    sense: Callable[[Trace], bool | None] | None = None
+
+    def of(self, value: float) -> float:
+        """Return a value as it is compared with his."""
+        return value if self.signed else abs(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """A student's own numbers: all, and only those that are answers, not lengths at his scale."""
+
+    all: Own
+    values: Own
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """What may have been done, and what it gives (объяснение).
+
+    Attributes
+    ----------
+    code : str
+        Empty of a number that is wrong and nobody knows why.
+    where : str
+    values : mapping of str to float
+        Every answer.
+    trace : Trace
+    sheet : Sheet
+        The plans that it is made on.
+    begins : tuple of str
+        Answers that it begins with, where that is known.
+    free : str
+        Question whose answer it takes as it is.
+    fixed : str
+        Question whose answer it tells whatever goes before it.
+    prior : float
+    change : Change or None
+        Of the steps.
+    """
+
+    code: str
+    where: str
+    values: Mapping[str, float]
+    trace: Trace
+    sheet: Sheet
+    begins: tuple[str, ...] = ()
+    free: str = ""
+    fixed: str = ""
+    prior: float = 1.0
+    change: Change | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """How well an explanation fits.
+
+    Attributes
+    ----------
+    score : float
+        Twice the negative logarithm of the likelihood, with the prior; the smaller the better.
+    chi2 : float
+    count : int
+        Answers that it predicts.
+    """
+
+    explanation: Explanation
+    score: float
+    chi2: float
+    count: int
+
+    @property
+    def likely(self) -> bool:
+        """Whether so bad a fit comes by chance more than once in a hundred times."""
+        return exceeds(self.chi2, self.count) > 0.01
+
+
+def exceeds(chi2: float, count: int) -> float:
+    """Return how often chi-squared of a number of answers is larger (Wilson and Hilferty)."""
+    if count < 1:
+        return 1.0
+    spread = 2.0 / (9.0 * count)
+    z = ((chi2 / count) ** (1 / 3) - (1 - spread)) / math.sqrt(spread)
+    return 0.5 * math.erfc(z / math.sqrt(2.0))
+
+
+class Explanations:
+    """All named explanations of one sheet, worked out once for all who drew it."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.sheet = sheet
+        self.scene = Scene(sheet)
+        self._named: list[Explanation] | None = None
+        self._last: tuple[Own, dict[Name, float]] | None = None
+        self._locals: dict[tuple[int, frozenset[Name]], Local] = {}
+
+    @property
+    def named(self) -> list[Explanation]:
+        """Mistakes of the program, each with what it gives."""
+        if self._named is None:
+            self._named = [*self._evaluated(changes(self.scene))]
+        return self._named
+
+    def _evaluated(self, found: Iterator[Change]) -> Iterator[Explanation]:
+        for change in found:
+            made = self.of_change(change)
+            if made is not None:
+                yield made
+
+    def of_change(self, change: Change) -> Explanation | None:
+        """Return what a mistake gives; None where nothing can be drawn with it."""
+        sheet = self.sheet
+        trace = evaluate(change.program(sheet.program), {**sheet.data, **change.data}, Float64())
+        values = sheet.taken(trace)
+        if not all(math.isfinite(value) for value in values.values()):
+            return None
+        return Explanation(
+            change.code,
+            change.where,
+            values,
+            trace,
+            sheet,
+            prior=change.prior,
+            change=change,
+        )
+
+    @cached_property
+    def _table(self) -> npt.NDArray[np.float64]:
+        """Return what every named explanation gives for every question, shape (e, q)."""
+        ids = [question.id for question in self.sheet.asked]
+        return np.array([[e.values[i] for i in ids] for e in self.named]).reshape(-1, len(ids))
+
+    @cached_property
+    def _sigmas(self) -> npt.NDArray[np.float64]:
+        found = np.array([self.sheet.sigma(question) for question in self.sheet.asked])
+        return np.where(np.isfinite(found), found, 0.0)
+
+    def nearest(self, facts: Sequence[Fact], count: int) -> list[Explanation]:
+        """Return the named explanations that come nearest, answers that are far off not counting."""
+        rows = {question.id: row for row, question in enumerate(self.sheet.asked)}
+        chosen = [rows[fact.id] for fact in facts]
+        if not self.named or not chosen:
+            return []
+        given = self._table[:, chosen]
+        signed = np.array([fact.signed for fact in facts])
+        values = np.array([fact.value for fact in facts])
+        right = np.abs(np.array([self.sheet.exact[fact.id] for fact in facts]))
+        own = np.array([fact.least**2 + fact.step**2 / 12 for fact in facts])
+        share = np.where(right == 0, 1.0, np.abs(given) / np.where(right == 0, 1.0, right))
+        variance = self._sigmas[chosen] ** 2 * np.maximum(share, LEAST_SHARE) ** 2
+        off = values - np.where(signed, given, np.abs(given))
+        bad = np.minimum(off**2 / (variance + own), FAR).sum(axis=1)
+        moved = np.abs(given - np.array([self.sheet.exact[fact.id] for fact in facts]))
+        idle = (moved <= 1e-9 * np.abs(given)).all(axis=1)  # it changes nothing that is answered
+        bad = bad + np.where(
+            idle & ~np.array([fact.sense is not None for fact in facts]).any(), FAR, 0
+        )
+        order = np.argsort(bad, kind="stable")[:count]
+        return [self.named[number] for number in order]
+
+    # Fits ------------------------------------------------------------------------------------
+
+    def fit(
+        self,
+        explanation: Explanation,
+        facts: Sequence[Fact],
+        numbers: Numbers,
+        *,
+        closely: bool = False,
+    ) -> Fit:
+        """Return how well an explanation fits what was written.
+
+        Every answer is judged by what comes out of the earlier ones with the mistake in the plans:
+        so their likelihoods multiply, and what is computed from them is exact.
+
+        Parameters
+        ----------
+        own : Numbers
+        closely : bool
+            With the errors of the plans that have the mistake; else with those of the right ones,
+            in proportion.
+        """
+        sheet, change = explanation.sheet, explanation.change
+        of_scale = change is not None and change.of_scale
+        own = numbers.values if of_scale else numbers.all
+        came = self._replayed(explanation, own)
+        left = self._left(explanation, own) if closely else sheet.local(own)
+        chi2, logdet, count = 0.0, 0.0, 0
+        for fact in facts:
+            slot, per_slot = (fact.name, 1.0) if of_scale else (fact.slot, fact.per_slot)
+            if fact.id == explanation.free or slot is None or slot not in came:
+                continue
+            given = came[slot] * per_slot
+            sigma = left.sigma.get(slot, 0.0) * per_slot
+            if fact.id == explanation.fixed:
+                sigma *= abs(explanation.values[fact.id] / given) if given else 1.0
+                given = explanation.values[fact.id]
+            elif not closely:
+                right = abs(sheet.exact[fact.id])
+                sigma *= max(abs(given) / right, LEAST_SHARE) if right else 1.0
+            count += 1
+            if not math.isfinite(given):
+                chi2 = math.inf
+                continue
+            variance = sigma**2 + fact.least**2 + fact.step**2 / 12
+            chi2 += (fact.value - fact.of(given)) ** 2 / variance
+            logdet += math.log(2 * math.pi * variance)
+        score = chi2 + logdet + ONE_MISTAKE - 2 * math.log(explanation.prior)
+        if explanation.free:
+            free = next(fact for fact in facts if fact.id == explanation.free)
+            usual = abs(sheet.exact[free.id])
+            score += 2 * math.log(max(abs(free.value), usual, free.least) * WIDE)
+        for fact in facts:
+            right_way = None if fact.sense is None else fact.sense(explanation.trace)
+            score += MISREAD_SENSE if right_way is False else 0.0
+        return Fit(explanation, score, chi2, count)
+
+    def _replayed(self, explanation: Explanation, own: Own) -> dict[Name, float]:
+        change, sheet = explanation.change, explanation.sheet
+        if change is None and sheet is self.sheet:  # of every slip of one student the same
+            if self._last is None or self._last[0] is not own:
+                self._last = own, sheet.replayed(own)[0]
+            return self._last[1]
+        if change is None:
+            return sheet.replayed(own)[0]
+        return sheet.replayed(own, change.program(sheet.program), change.data)[0]
+
+    def _left(self, explanation: Explanation, own: Own) -> Local:
+        """Return what is left open when his numbers are given, on the plans with the mistake."""
+        change, sheet = explanation.change, explanation.sheet
+        if change is None:
+            return sheet.local(own)
+        key = (id(explanation), frozenset[Name](own))
+        if key not in self._locals:
+            program = change.program(sheet.program)
+            self._locals[key] = sheet.localised(own, program, {**sheet.data, **change.data})
+        return self._locals[key]

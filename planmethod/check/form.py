@@ -1,0 +1,250 @@
+"""The form that a student fills in: a workbook without what the answers are (бланк ответов)."""
+
+from __future__ import annotations
+
+import datetime
+import hashlib
+import io
+import json
+import re
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from typing import Any
+
+from planmethod.check.model import KeyEntry
+from planmethod.check.works.gather import is_of
+from planmethod.check.works.units import ratio_of, read_unit
+from planmethod.check.works.xlsx_file import META
+from planmethod.note.wording import language
+from planmethod.note.wording.form_model import FormWording
+from planmethod.problem.model import Problem
+
+SCHEMA = 1
+
+_MADE = datetime.datetime(2000, 1, 1)
+_MODIFIED = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
+_WIDTHS = (5, 14, 24, 13, 13, 14, 11, 28, 22)
+_SHOWN = ("name", "title", "sheet", "stamp", "published", "source", "variants", "variant")
+"""What of a problem does not change what the answers are."""
+
+_AGREE = 0.01
+"""Share of the value by which mm × μ may differ from it before the form says so."""
+
+
+def fingerprint_of(problem: Problem) -> str:
+    """Return what tells problems apart: SHA-256 of all of it that the answers depend on.
+
+    Comments and the order of the file, its titles and published values make no difference.
+    """
+    kept = {name: part for name, part in _parts(problem).items() if name not in _SHOWN}
+    text = json.dumps(kept, sort_keys=True, ensure_ascii=False, default=_parts)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _parts(record: Any) -> Any:
+    """Return what a record is made of, for JSON."""
+    if is_dataclass(record):
+        return {part.name: getattr(record, part.name) for part in fields(record)}
+    if isinstance(record, Mapping):
+        return dict(record)
+    return record.value if isinstance(record, Enum) else str(record)
+
+
+def form_of(
+    entries: Sequence[KeyEntry],
+    *,
+    problem: str,
+    variant: str | None = None,
+    fingerprint: str = "",
+    student: str = "",
+    title: str = "",
+    lang: str = "ru",
+) -> bytes:
+    """Return the form as XLSX: locked but for the answers, with lists of senses and units.
+
+    Of the entries nothing is written but what is asked. The same arguments give the same bytes.
+
+    Parameters
+    ----------
+    student : str
+        Name to stand in the head; his to write when empty.
+    """
+    import openpyxl
+
+    words = language(lang).form
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.title = words.sheet
+    units = [unit for unit in words.units if read_unit(unit)]
+    _write_meta(book, entries, units, problem, variant, fingerprint)
+    scales = _write_head(sheet, entries, words, problem, variant, student, title)
+    _write_rows(sheet, entries, words, units, scales)
+    for number, width in enumerate(_WIDTHS, 1):
+        sheet.column_dimensions[openpyxl.utils.get_column_letter(number)].width = width
+    sheet.page_setup.orientation = "landscape"
+    sheet.page_setup.paperSize = 9
+    sheet.page_setup.fitToHeight = 0
+    sheet.sheet_properties.pageSetUpPr = openpyxl.worksheet.properties.PageSetupProperties(
+        fitToPage=True
+    )
+    sheet.column_dimensions["B"].hidden = True  # the letters stand in the next one
+    sheet.protection.sheet = True
+    sheet.protection.formatColumns = False
+    return saved(book)
+
+
+def saved(book: Any) -> bytes:
+    """Return a workbook of openpyxl as bytes that depend on nothing but what is in it."""
+    book.properties.creator = "planmethod"
+    book.properties.created = _MADE
+    stream, fixed = io.BytesIO(), io.BytesIO()
+    book.save(stream)
+    with zipfile.ZipFile(stream) as made, zipfile.ZipFile(fixed, "w") as archive:
+        for name in made.namelist():
+            data = made.read(name)
+            if name == "docProps/core.xml":  # the time of saving
+                data = _MODIFIED.sub(rb"\g<1>2000-01-01T00:00:00Z", data)
+            member = zipfile.ZipInfo(name, _MADE.timetuple()[:6])
+            archive.writestr(member, data, zipfile.ZIP_DEFLATED)
+    return fixed.getvalue()
+
+
+def _write_meta(
+    book: Any,
+    entries: Sequence[KeyEntry],
+    units: Sequence[str],
+    problem: str,
+    variant: str | None,
+    fingerprint: str,
+) -> None:
+    """Write what the form is of, and what the units are, on a sheet that is not shown."""
+    sheet = book.create_sheet(META)
+    said = [("schema", str(SCHEMA)), ("problem", problem), ("variant", variant or "")]
+    said += [("fingerprint", fingerprint), *(("id", entry.id) for entry in entries)]
+    for number, (name, text) in enumerate(said, 1):
+        sheet.cell(number, 1, name)
+        _write(sheet.cell(number, 2), text)
+    for number, unit in enumerate(units, 1):
+        sheet.cell(number, 4, unit)
+        found = read_unit(unit)
+        sheet.cell(number, 5, found.factor if found else None)
+    sheet.protection.sheet = True
+    sheet.sheet_state = "veryHidden"
+
+
+def _write_head(
+    sheet: Any,
+    entries: Sequence[KeyEntry],
+    words: FormWording,
+    problem: str,
+    variant: str | None,
+    student: str,
+    title: str,
+) -> dict[str, str]:
+    """Write who he is and his scales; return the cells of the scales."""
+    from openpyxl.styles import Font
+
+    _write(sheet["A1"], title or words.title)
+    sheet["A1"].font = Font(bold=True, size=14)
+    for line in words.advice:
+        sheet.append([line])
+    given = [(words.student, student), (words.group, ""), (words.variant, variant or "")]
+    for label, text in (*given, (words.problem, problem)):
+        sheet.append([label])
+        cell = sheet.cell(sheet.max_row, 4)
+        _write(cell, text)
+        if label != words.problem and not (label == words.variant and text):
+            _open(cell)
+    places: dict[str, str] = {}
+    asked = {entry.scale for entry in entries if entry.mm is not None}
+    for name, label in words.scales.items():
+        if name in asked:
+            sheet.append([label])
+            places[name] = f"$D${sheet.max_row}"
+            _open(sheet.cell(sheet.max_row, 4))
+    if places:
+        sheet.append([words.ruler])
+        _open(sheet.cell(sheet.max_row, 4))
+    return places
+
+
+def _write_rows(
+    sheet: Any,
+    entries: Sequence[KeyEntry],
+    words: FormWording,
+    units: Sequence[str],
+    scales: Mapping[str, str],
+) -> None:
+    """Write a row for each answer."""
+    from openpyxl.styles import Font
+    from openpyxl.worksheet.datavalidation import DataValidation
+
+    positions = any(entry.position for entry in entries)
+    sheet.append([])
+    sheet.append([*words.columns, *([words.position] if positions else [])])
+    head = sheet.max_row
+    for cell in sheet[head]:
+        cell.font = Font(bold=True)
+    sheet.freeze_panes = f"A{head + 1}"
+    lists: dict[tuple[str, ...], Any] = {}
+    for number, entry in enumerate(entries, 1):
+        row = head + number
+        fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
+        own = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
+        for column, text in ((1, number), (2, entry.id), (3, entry.label), (7, own)):
+            _write(sheet.cell(row, column), text)
+        for column in (4, 6):
+            if column == 6 or entry.mm is not None:
+                _open(sheet.cell(row, column))
+        offered = [(7, fitting)]
+        if entry.asks_sense:
+            turns = entry.unit in _TURNING
+            senses = list(words.senses.values())
+            offered.append((8, tuple(senses[:2] if turns else senses[2:])))
+        for column, choices in offered:
+            if not choices:
+                continue
+            _open(sheet.cell(row, column))
+            if choices not in lists:
+                formula = f'"{",".join(choices)}"'
+                lists[choices] = DataValidation(type="list", formula1=formula, error=words.refused)
+                sheet.add_data_validation(lists[choices])
+            lists[choices].add(f"{'ABCDEFGH'[column - 1]}{row}")
+        scale = scales.get(entry.scale)
+        if scale and is_of(entry.unit, entry.scale):  # ω is not its millimetres times μ
+            sheet.cell(row, 5, f'=IF({scale}="","",{scale})')
+            # The first unit stands for SI where a unit is none of the list.
+            worth = f"F{row}*IFERROR(VLOOKUP(G{row},{META}!$D:$E,2,FALSE),1)"
+            sheet.cell(
+                row,
+                9,
+                f'=IF(OR(D{row}="",E{row}="",F{row}=""),"",IFERROR(IF(ABS(ABS(D{row}*E{row})'
+                f'-ABS({worth}))<={_AGREE}*ABS({worth}),"{words.agrees}","{words.differs}"),""))',
+            )
+        if positions:
+            sheet.cell(row, 10, entry.position + 1)
+
+
+_TURNING = ("1/s", "1/s²", "N·m")
+"""Units of what turns one way or the other."""
+
+
+def _open(cell: Any) -> None:
+    """Let a cell be filled in, and show that it is meant to be."""
+    from openpyxl.styles import Border, PatternFill, Protection, Side
+
+    line = Side(style="thin", color="999999")
+    cell.protection = Protection(locked=False)
+    cell.fill = PatternFill("solid", fgColor="FFF9D6")
+    cell.border = Border(left=line, right=line, top=line, bottom=line)
+
+
+def _write(cell: Any, value: str | int) -> None:
+    """Write a text, which never is a formula, into a cell; or a number."""
+    if isinstance(value, str):
+        value = "".join(letter for letter in value if letter.isprintable())[:1000]
+    cell.value = value or None
+    if isinstance(value, str) and value:
+        cell.data_type = "s"

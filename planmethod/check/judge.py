@@ -1,0 +1,385 @@
+"""Verdicts: against the exact value, and against what follows from a student's own numbers.
+
+A right answer that does not follow from his wrong ones is told apart from one that does, and a
+wrong one that follows from an earlier one is not held against him twice.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+
+from planmethod.check.explain import Fact
+from planmethod.check.model import Verdict, Work, Written
+from planmethod.check.questions import RATES, Sign
+from planmethod.check.sense import is_right
+from planmethod.check.sheet import Own, Sheet, scalar
+from planmethod.check.task import Item, Task
+from planmethod.check.tolerance import Limit, limit_of
+from planmethod.construct.evaluate import Trace
+from planmethod.construct.steps import Name, NumberName
+from planmethod.plans.model import FACTS
+from planmethod.solved.selected.asking import UnansweredError
+
+USABLE = 3.0
+"""An earlier number may be off by this factor for others to follow from it (Numbas)."""
+
+FELT = 1e-6
+"""Share of an answer that a change of an earlier one by as much of itself must move it by."""
+
+MILLIMETRES = ("mm", "мм")
+
+
+@dataclass(slots=True)
+class Examined:
+    """One answer under examination (рассматриваемый ответ).
+
+    Attributes
+    ----------
+    item : Item
+    written : Written
+    limit : Limit
+    value : float
+        SI, with a sign where he tells one.
+    signed : bool
+        Whether the sign is his.
+    step : float
+        Unit of its last digit, SI.
+    mm : float or None
+        Length of its segment on his plan.
+    told : float or None
+        What his millimetres make at his scale, where he gives both.
+    slot : NumberName or None
+        Number of the program that he puts his own in place of first.
+    per_slot : float
+        What that number counts in the unit of the answer.
+    """
+
+    item: Item
+    written: Written
+    limit: Limit
+    value: float
+    signed: bool
+    step: float
+    mm: float | None = None
+    told: float | None = None
+    slot: NumberName | None = None
+    per_slot: float = 1.0
+    right: bool = False
+    near: bool = False
+    sense_right: bool | None = None
+    local: float | None = None
+    local_tolerance: float | None = None
+    follows: bool | None = None
+    contradicts: bool = False
+    slip: bool = False
+    parents: dict[str, float] = field(default_factory=dict)
+    verdict: Verdict = Verdict.WRONG
+    source: str = ""
+    computed: bool = False
+
+    @property
+    def off(self) -> float:
+        """How far it is off the exact value."""
+        return distance(self.item, self.value, self.limit.exact, signed=self.signed)
+
+
+def distance(item: Item, value: float, other: float, *, signed: bool) -> float:
+    """Return how far two values of an answer are apart: of sizes, of numbers, of angles."""
+    match item.question.sign:
+        case Sign.ANGLE:
+            return abs((value - other + 180.0) % 360.0 - 180.0)
+        case Sign.STRICT:
+            return abs(value - other)
+        case Sign.TURN if signed:
+            return abs(abs(value) - abs(other))  # the sense is judged by itself
+    return abs(abs(value) - abs(other))
+
+
+class UnusableError(Exception):
+    """An answer cannot be judged; the message is for him who wrote it."""
+
+
+def examine(task: Task, sheet: Sheet, item: Item, written: Written) -> Examined:
+    """Take an answer as the sheet has it.
+
+    Raises
+    ------
+    UnusableError
+        When its millimetres have no scale.
+    """
+    question = item.question
+    limit = limit_of(sheet, question, task.settings, item.fixed)
+    value, mm, step = written.value, written.mm, written.step
+    if question.is_mm:
+        value, mm, step = _in_mm(sheet, item, written), None, written.step
+        if written.unit.strip().lower() in MILLIMETRES:
+            step *= 1000.0
+        if written.value is None:
+            step = written.mm_step
+    told = None
+    if mm is not None and not question.is_mm:
+        told = _told(sheet, item, mm)
+        if value is None:
+            if told is None:
+                raise UnusableError("mm")
+            value, step = told, written.mm_step * abs(told / mm) if mm else 0.0
+            told = None
+    assert value is not None
+    signed = question.sign in (Sign.STRICT, Sign.ANGLE)
+    if question.sign is Sign.TURN:
+        sense = written.sense
+        if sense is not None and sense.turns:
+            value, signed = abs(value) * (1.0 if sense.value == "ccw" else -1.0), True
+        elif value < 0:
+            signed = True
+    elif question.sign is Sign.SIZE:
+        value = abs(value)
+    found = Examined(item, written, limit, value, signed, step, mm, told)
+    found.sense_right = _sense(sheet, found)
+    found.right = limit.allows(found.off, abs(value), step)
+    found.near = limit.allows(found.off, abs(value), step, task.settings.near)
+    return found
+
+
+def _in_mm(sheet: Sheet, item: Item, written: Written) -> float:
+    """Return a length on a plan, mm: of a true length in metres too."""
+    if written.mm is not None:
+        return written.mm
+    assert written.value is not None
+    unit = written.unit.strip().lower()
+    if not unit:
+        return written.value
+    if unit in MILLIMETRES:
+        return written.value * 1000.0
+    return written.value / sheet.scales[item.question.scale]
+
+
+def _told(sheet: Sheet, item: Item, mm: float) -> float | None:
+    """Return what a length on his plan makes of the answer; None where only he knows."""
+    question = item.question
+    if question.selector.kind in RATES or question.unit != (
+        FACTS[question.plan].unit if question.plan else ""
+    ):
+        length = sheet.length(question)
+        return abs(sheet.exact[question.id]) * mm / length if length else None
+    return mm * sheet.scales[question.scale]
+
+
+def _sense(sheet: Sheet, found: Examined) -> bool | None:
+    """Tell whether the sense is right that he tells; None where he tells none."""
+    question, sense = found.item.question, found.written.sense
+    if found.limit.zero or question.sign in (Sign.STRICT, Sign.ANGLE):
+        return None
+    if sense is not None:
+        return is_right(sheet, question, sense)
+    if found.signed:
+        return found.value * found.limit.exact > 0
+    return None
+
+
+# His own numbers -----------------------------------------------------------------------------
+
+
+def put_in(sheet: Sheet, found: list[Examined], *, values: bool = False) -> Own:
+    """Return a student's own numbers by what they stand for in the program.
+
+    Parameters
+    ----------
+    values : bool
+        Only what he says that segments stand for, and not how long they then are at his scale.
+    """
+    own: dict[NumberName, tuple[float, bool]] = {}
+
+    def put(name: NumberName | None, value: float, signed: bool) -> None:
+        if name is not None and name in sheet.order:
+            own.setdefault(name, (value, signed))
+
+    for one in found:
+        question = one.item.question
+        name, length = question.name, question.length
+        if name is None or one.limit.zero:  # what is too short to be read tells nothing
+            continue
+        one.slot, one.per_slot = slot_of(sheet, one)
+        if one.slot != name and not values:
+            mm = one.mm if one.mm is not None else one.value / one.per_slot
+            put(one.slot, mm, False)
+        if one.slot == name or values or one.told is not None:
+            put(name, one.value, one.signed)
+        if one.mm is not None:
+            put(length, one.mm, False)
+    return own
+
+
+def slot_of(sheet: Sheet, one: Examined) -> tuple[NumberName | None, float]:
+    """Return the first number of the program that an answer stands for, and what it counts."""
+    question = one.item.question
+    name, length = question.name, question.length
+    direct = name != length and question.selector.kind not in RATES
+    if name is not None and length is not None and direct:
+        if sheet.order[length] < sheet.order[name]:
+            return length, sheet.scales[question.scale]
+    return name, 1.0
+
+
+def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
+    """Find what comes out of a student's own earlier numbers for every answer."""
+    own = put_in(sheet, found)
+    if not own:
+        return
+    came, _ = sheet.replayed(own)
+    left = sheet.local(own)
+    by_slot: dict[Name, Examined] = {}
+    for one in found:
+        if one.slot is not None:
+            by_slot.setdefault(one.slot, one)
+            if one.item.question.name is not None:
+                by_slot.setdefault(one.item.question.name, one)
+            if one.mm is not None and one.item.question.length is not None:
+                by_slot.setdefault(one.item.question.length, one)
+    settings = task.settings
+    for one in found:
+        slot = one.slot
+        if one.told is not None:
+            slack = abs(one.told) * (0.002 + one.written.mm_step / 2 / max(one.mm or 1.0, 1e-9))
+            if one.item.question.selector.kind in RATES:
+                slack += settings.k * left.sigma.get(slot, 0.0) if slot else 0.0
+            one.slip = abs(abs(one.value) - abs(one.told)) > slack + one.step / 2 + 1e-12
+        if slot is None or slot not in came or not math.isfinite(came[slot]):
+            continue
+        local = came[slot] * one.per_slot
+        rounding = 0.0
+        for (name, earlier), slope in left.slopes.items():
+            if name != slot:
+                continue
+            parent = by_slot.get(earlier)
+            if parent is None or parent is one:
+                continue
+            size = abs(own[NumberName(earlier)][0])
+            share = abs(slope) * size * one.per_slot
+            if share > FELT * abs(local):
+                one.parents[parent.item.id] = max(one.parents.get(parent.item.id, 0.0), share)
+                step = parent.step / parent.per_slot if earlier == parent.slot else 0.0
+                rounding += abs(slope) * one.per_slot * step / 2
+        if not one.parents:
+            continue
+        grown = max(1.0, abs(local / one.limit.exact)) if one.limit.exact else 1.0
+        sigma = left.sigma[slot] * one.per_slot * grown
+        spread = settings.k * sigma
+        if spread > settings.cap * abs(local) and not one.limit.zero:
+            continue  # his plan cannot tell
+        least = max(settings.floor_share * abs(local), one.limit.per_mm * settings.floor_mm / 2)
+        tolerance = max(math.hypot(spread, one.step / 2) + rounding, least)
+        one.local, one.local_tolerance = local, tolerance
+        apart = distance(one.item, one.value, local, signed=one.signed)
+        turned = one.signed and one.value * local < 0 and one.item.question.sign is Sign.TURN
+        one.follows = apart <= tolerance and not turned
+        one.contradicts = apart > tolerance * settings.near or turned
+        one.computed = sigma < 0.004 * abs(local)
+
+
+# Verdicts ------------------------------------------------------------------------------------
+
+
+def usable(one: Examined) -> bool:
+    """Tell whether other answers can follow from a wrong one."""
+    exact, value = abs(one.limit.exact), abs(one.value)
+    return exact > 0 and exact / USABLE <= value <= exact * USABLE
+
+
+def decide(sheet: Sheet, found: list[Examined], near: float) -> None:
+    """Give every answer its verdict, in the order in which the plans find them."""
+    by_id = {one.item.id: one for one in found}
+
+    def order(one: Examined) -> int:
+        return sheet.order.get(one.slot, len(sheet.order)) if one.slot else len(sheet.order)
+
+    for one in sorted(found, key=order):
+        wrong = [
+            by_id[name]
+            for name, _ in sorted(one.parents.items(), key=lambda pair: -pair[1])
+            if by_id[name].verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
+        ]
+        one.verdict = _verdict(one, wrong, near)
+        if one.verdict is Verdict.INHERITED:
+            worst = sorted(wrong, key=lambda parent: parent.verdict is Verdict.NEAR)
+            parent = next(p for p in worst if usable(p))
+            one.source = parent.source or parent.item.id
+
+
+def _verdict(one: Examined, wrong: list[Examined], near: float) -> Verdict:
+    inherits = bool(one.follows) and any(map(usable, wrong))
+    sense = one.sense_right is not False
+    if not one.limit.seen:
+        within = one.off <= max(one.limit.spread, one.limit.most)
+        if within and sense:
+            return Verdict.INCONSISTENT if wrong and one.contradicts else Verdict.UNSEEN
+        if inherits:
+            return Verdict.INHERITED
+        if one.follows and sense:
+            return Verdict.UNSEEN
+        far = one.off > near * max(one.limit.spread, one.limit.most)
+        return Verdict.WRONG if far or one.contradicts or not sense else Verdict.UNSEEN
+    if one.right and sense:
+        return Verdict.INCONSISTENT if wrong and one.contradicts else Verdict.OK
+    if inherits:
+        return Verdict.INHERITED
+    if one.near and sense and not one.slip:
+        return Verdict.NEAR
+    return Verdict.WRONG
+
+
+# Facts for the diagnosis ---------------------------------------------------------------------
+
+
+def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
+    """Return what an explanation has to give: every answer of a sheet, each quantity once."""
+    facts: dict[str, Fact] = {}
+    for one in found:
+        question = one.item.question
+        if question.sign is Sign.ANGLE or one.limit.zero:
+            continue
+        strict = question.sign is Sign.STRICT
+        sense: Callable[[Trace], bool | None] | None = None
+        if not strict and not one.limit.zero and one.sense_right is not None:
+            sense = partial(_way, sheet, one)
+        least = max(0.4 * min(one.limit.least, 0.02 * abs(one.limit.exact)), 1e-9) / k
+        least = max(least, 0.002 * abs(one.value))
+        value = one.value if strict else abs(one.value)
+        facts.setdefault(
+            question.id,
+            Fact(
+                question.id,
+                value,
+                strict,
+                one.step,
+                least,
+                one.slot,
+                one.per_slot,
+                question.name,
+                sense,
+            ),
+        )
+    return list(facts.values())
+
+
+def _way(sheet: Sheet, one: Examined, trace: Trace) -> bool | None:
+    if one.written.sense is not None:
+        return is_right(sheet, one.item.question, one.written.sense, trace)
+    return scalar(one.item.question.take(trace)) * one.value > 0
+
+
+def resolved(
+    task: Task, work: Work
+) -> tuple[dict[Written, Item], Mapping[Written, UnansweredError]]:
+    """Return what every readable answer of a work is of, and those that nobody knows."""
+    items: dict[Written, Item] = {}
+    unknown: dict[Written, UnansweredError] = {}
+    for written in work.answers:
+        try:
+            items[written] = task.find(written)
+        except UnansweredError as error:
+            unknown[written] = error
+    return items, unknown

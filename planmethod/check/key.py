@@ -1,0 +1,122 @@
+"""The key: what every answer should be, how far it may be off, what it cannot show (ключ)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from planmethod.check.marks import DEFAULT, Settings
+from planmethod.check.model import KeyEntry
+from planmethod.check.sense import sense_of
+from planmethod.check.task import Item, Task
+from planmethod.check.tolerance import Limit, limit_of
+from planmethod.plans.model import FACTS
+from planmethod.problem.model import Problem
+from planmethod.solved.solution import Solution
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """Key of one variant (ключ варианта).
+
+    Attributes
+    ----------
+    problem : Problem
+    variant : str or None
+    entries : tuple of KeyEntry
+    scales : mapping of str to float
+        Of the plans, unit per mm.
+    hidden : mapping of str to tuple of str
+        Mistakes that none of the answers can show, and the places where they can be made.
+    """
+
+    problem: Problem
+    variant: str | None
+    entries: tuple[KeyEntry, ...]
+    scales: Mapping[str, float]
+    hidden: Mapping[str, tuple[str, ...]]
+
+
+def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
+    """Return the key of a solution: of what its problem asks, else of the usual quantities."""
+    return key_of_task(Task(solution, settings))
+
+
+def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
+    """Return the key of some of what is asked of a variant; of all when absent."""
+    chosen = tuple(task.usual() if items is None else items)
+    entries: dict[str, KeyEntry] = {}
+    unseen: dict[str, list[str]] = {}  # places of a mistake that nothing shows
+    scales: dict[str, float] = {}
+    for position in dict.fromkeys(item.position for item in chosen):
+        here = [item for item in chosen if item.position == position]
+        sheet = task.sheet(position)
+        scales = {**sheet.scales, **scales}
+        limits = {
+            item.id: limit_of(sheet, item.question, task.settings, item.fixed) for item in here
+        }
+        shown: dict[str, set[str]] = {item.id: set() for item in here}
+        codes: dict[str, None] = {}
+        for explanation in task.explanations(sheet).named:
+            code = explanation.code
+            codes[code] = None
+            visible = False
+            for item in here:
+                value, limit = explanation.values[item.question.id], limits[item.id]
+                if _shows(limit, value, turned=item.asks_sense):
+                    shown[item.id].add(code)
+                    visible = True
+            if not visible and explanation.where not in unseen.setdefault(code, []):
+                unseen[code].append(explanation.where)
+        for item in here:
+            hides = tuple(code for code in codes if code not in shown[item.id])
+            entries[item.id] = entry_of(task, item, limits[item.id], hidden=hides)
+    return Key(
+        task.solution.problem,
+        task.variant,
+        tuple(entries[item.id] for item in chosen),
+        scales,
+        {code: tuple(places) for code, places in unseen.items() if places},
+    )
+
+
+def _shows(limit: Limit, value: float, *, turned: bool) -> bool:
+    """Tell whether an answer with a mistake is surely off."""
+    off = abs(abs(value) - abs(limit.exact))
+    beyond = off > max(limit.spread, limit.tolerance())
+    return not limit.zero and (beyond or (turned and value * limit.exact < 0))
+
+
+def entry_of(task: Task, item: Item, limit: Limit, *, hidden: tuple[str, ...] = ()) -> KeyEntry:
+    """Return the line of the key of one item, at the scales of the problem."""
+    question, sheet = item.question, task.sheet(item.position)
+    length = sheet.length(question)
+    plan = question.plan
+    return KeyEntry(
+        item.id,
+        item.label or question.id,
+        question.symbol,
+        question.unit,
+        limit.exact,
+        limit.sigma,
+        limit.tolerance(),
+        limit.seen,
+        limit.zero,
+        length,
+        "" if plan is None or question.is_mm else FACTS[plan].scale,
+        segment_of(task, item),
+        None if limit.zero else sense_of(sheet, question),
+        item.asks_sense,
+        item.points,
+        item.position,
+        hidden,
+    )
+
+
+def segment_of(task: Task, item: Item) -> str:
+    """Return the letters of the segment of an item: ``p-b3``; empty where it has none."""
+    length = item.question.length
+    for segment in task.solution.construction.segments:
+        if length in (segment.length, segment.drawn):
+            return segment.name
+    return ""

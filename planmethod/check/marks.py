@@ -1,0 +1,189 @@
+"""Settings of a department: how strictly it judges, points and marks (настройки кафедры)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from planmethod.errors import ExitCode, ProblemError
+from planmethod.problem.fields import (
+    Faults,
+    is_number,
+    read_keys,
+    read_number,
+    read_text,
+    read_word,
+    show,
+)
+from planmethod.problem.source import parse, read_source
+
+PROFILES = ("board", "cad", "coarse")
+"""Profiles of drafting errors that a tolerance can follow from."""
+
+POLICIES = ("construction", "department", "wider", "stricter")
+"""Whose tolerance counts: the drawing's, the flat one, the wider of them, the stricter."""
+
+MARK_LIMIT = 20
+_TINY = 1e-9
+"""Sums of points are not exact: a share that close below a bound has reached it."""
+
+
+class SettingsError(ProblemError):
+    """The settings of a department are faulty; all their faults are in `faults`."""
+
+    exit_code = ExitCode.USAGE
+    kind = "settings file"
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How a department judges answers (настройки кафедры).
+
+    Attributes
+    ----------
+    k : float
+        Standard deviations of drafting that an answer may be off.
+    cap : float
+        Share of the value that a tolerance never exceeds: above it the drawing cannot show the
+        answer.
+    floor_mm : float, mm
+        Length on the plan that a tolerance never falls short of.
+    floor_share : float
+        The same as a share of the value.
+    near : float
+        Up to so many tolerances an answer is near.
+    near_share, inherited_share, inconsistent_share, unseen_share : float
+        Share of its points that an answer gets with such a verdict.
+    sense_share : float
+        Share of the points of an answer that its sense is worth, where it is asked.
+    department : float
+        The department's flat tolerance, a share of the value.
+    policy : str
+        Whose tolerance counts, one of `POLICIES`.
+    profile : str
+        One of `PROFILES`.
+    ruler_mm : float or None, mm
+        Step to which lengths are read; None for that of the profile.
+    marks : tuple of (float, str)
+        From which share of the points a mark is given, the best first, the last from 0.
+    """
+
+    k: float = 2.5
+    cap: float = 0.10
+    floor_mm: float = 0.5
+    floor_share: float = 0.005
+    near: float = 1.6
+    near_share: float = 0.7
+    inherited_share: float = 1.0
+    inconsistent_share: float = 1.0
+    unseen_share: float = 1.0
+    sense_share: float = 0.3
+    department: float = 0.05
+    policy: str = "construction"
+    profile: str = "board"
+    ruler_mm: float | None = None
+    marks: tuple[tuple[float, str], ...] = ((0.85, "5"), (0.7, "4"), (0.5, "3"), (0.0, "2"))
+
+    def mark(self, share: float) -> str:
+        """Return the mark for a share of the points, 0 to 1."""
+        return next(
+            (mark for least, mark in self.marks if share >= least - _TINY), self.marks[-1][1]
+        )
+
+
+DEFAULT = Settings()
+
+_SHARE = "Shares are from 0 to 1: 0.05 for 5 %."
+_NUMBERS: Mapping[str, tuple[str, float, float, str]] = MappingProxyType(
+    {
+        "k": ("a number of standard deviations", 0.5, 10.0, "2.5 faults few honest answers."),
+        "cap": ("a share", 0.005, 1.0, _SHARE),
+        "floor_mm": ("a length in mm", 0.0, 5.0, "It is measured on the plan."),
+        "floor_share": ("a share", 0.0, 0.5, _SHARE),
+        "near": ("a number of tolerances", 1.0, 10.0, "1 for no answers that are near."),
+        "near_share": ("a share", 0.0, 1.0, _SHARE),
+        "inherited_share": ("a share", 0.0, 1.0, _SHARE),
+        "inconsistent_share": ("a share", 0.0, 1.0, _SHARE),
+        "unseen_share": ("a share", 0.0, 1.0, _SHARE),
+        "sense_share": ("a share", 0.0, 1.0, _SHARE),
+        "department": ("a share", 0.001, 1.0, _SHARE),
+        "ruler_mm": ("a step of reading in mm", 0.01, 5.0, "A ruler has 0.5 or 1."),
+    }
+)
+"""Keys that take a number: what it is, its bounds, and what to do about one beyond them."""
+
+KEYS = (*_NUMBERS, "policy", "profile", "marks")
+
+
+def load_settings(path: Path) -> Settings:
+    """Read the settings of a department from a TOML file.
+
+    Raises
+    ------
+    SettingsError
+        With every fault of the file: key, what was expected, what was found, the nearest name.
+    """
+    name = str(path)
+    try:
+        table = parse(read_source(path), name=name)
+    except ProblemError as error:
+        raise SettingsError(name, error.faults) from None
+    faults = Faults()
+    told: dict[str, Any] = {}
+    for key, value in read_keys(faults, "", table, KEYS).items():
+        if key in _NUMBERS:
+            what, low, high, hint = _NUMBERS[key]
+            told[key] = read_number(faults, key, value, what, low=low, high=high, hint=hint)
+        elif key == "policy":
+            told[key] = read_word(faults, key, value, POLICIES)
+        elif key == "profile":
+            told[key] = read_word(faults, key, value, PROFILES)
+        else:
+            told[key] = _read_marks(faults, value)
+    if not faults and told.get("floor_share", DEFAULT.floor_share) > told.get("cap", DEFAULT.cap):
+        faults.add("cap", "the cap is below floor_share", "No answer could be judged: raise it.")
+    if faults:
+        raise SettingsError(name, faults.found)
+    return Settings(**told)
+
+
+def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
+    """Read marks: pairs of a share and a name, the best first, the last from 0."""
+    example = 'For example: marks = [[0.85, "5"], [0.7, "4"], [0.5, "3"], [0, "2"]]'
+    if not isinstance(value, list) or not 1 <= len(value) <= MARK_LIMIT:
+        faults.add("marks", f"expected 1 to {MARK_LIMIT} marks, got {show(value)}", example)
+        return ()
+    found: list[tuple[float, str]] = []
+    for index, entry in enumerate(value):
+        path = f"marks[{index}]"
+        if not isinstance(entry, list) or len(entry) != 2:
+            faults.add(path, f"expected [share, mark], got {show(entry)}", example)
+            continue
+        share = read_number(
+            faults, f"{path}[0]", entry[0], "a share", low=0.0, high=1.0, hint=_SHARE
+        )
+        mark = read_text(faults, f"{path}[1]", _unquoted(entry[1]), limit=MARK_LIMIT)
+        if mark is not None and not mark.strip():
+            faults.add(f"{path}[1]", "the mark is empty", example)
+        elif share is not None and mark is not None:
+            found.append((share, mark.strip()))
+    if len(found) < len(value):
+        return ()
+    for index, ((above, _), (below, mark)) in enumerate(pairwise(found)):
+        if not below < above:
+            hint = "The best mark stands first."
+            said = f"'{mark}' is from {below:g}, the mark before it from {above:g}"
+            faults.add(f"marks[{index + 1}]", said, hint)
+    if found[-1][0] != 0:
+        hint = f"Add the mark of what is worse: [0, \"2\"], or let '{found[-1][1]}' be from 0."
+        faults.add("marks", f"the last mark is from {found[-1][0]:g}, expected 0", hint)
+    return tuple(found)
+
+
+def _unquoted(value: object) -> object:
+    """Take a whole number for a mark: 5 is "5"."""
+    return str(value) if is_number(value) and isinstance(value, int) else value

@@ -1,0 +1,20 @@
+"""Mistakes as rewrites of the program: one function each, in tuples (ошибки студентов)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+from planmethod.check.mistakes import forces, motion, scales
+from planmethod.check.mistakes.model import Change, Scene
+
+Mistake: TypeAlias = Callable[[Scene], Iterator[Change]]
+
+MISTAKES: tuple[Mistake, ...] = (*motion.MISTAKES, *scales.MISTAKES, *forces.MISTAKES)
+"""Every mistake of a program: each yields the places where it can be made."""
+
+
+def changes(scene: Scene) -> Iterator[Change]:
+    """Yield every mistake at every place of a sheet."""
+    for mistake in MISTAKES:
+        yield from mistake(scene)

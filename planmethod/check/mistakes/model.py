@@ -1,0 +1,129 @@
+"""What a mistake is: other steps in the place of some, other data (ошибка как замена шагов)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+
+from planmethod.check.sheet import Sheet, scalar
+from planmethod.construct.program import Program
+from planmethod.construct.rewrite import rewritten
+from planmethod.construct.steps import (
+    Compute,
+    Known,
+    Name,
+    NumberName,
+    PointName,
+    Step,
+)
+from planmethod.plans.forces.board import Board
+from planmethod.plans.model import PlanKind
+from planmethod.plans.motion.leads import Turning
+from planmethod.plans.segments import Segments
+
+Powers = tuple[tuple[NumberName, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One mistake at one place of a program (ошибка в одном месте).
+
+    Attributes
+    ----------
+    code : str
+    where : str
+        Link, point or pair, as people write it.
+    steps : mapping of Name to tuple of Step
+        What stands in the place of a step.
+    data : mapping of str to float
+        Data in place of the given ones, or of new steps.
+    prior : float
+        How common it is beside other mistakes; 1 of the usual ones.
+    of_scale : bool
+        Whether it is made with a scale: what he read is then not his value over the scale.
+    """
+
+    code: str
+    where: str
+    steps: Mapping[Name, tuple[Step, ...]] = field(default_factory=lambda: MappingProxyType({}))
+    data: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    prior: float = 1.0
+    of_scale: bool = False
+
+    def program(self, program: Program) -> Program:
+        """Return a program with the mistake in it."""
+        if not self.steps:
+            return program
+        return rewritten(program, lambda step: self.steps.get(step.out, step))
+
+
+class Scene:
+    """A sheet as the mistakes look at it: which steps do what (что где построено)."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.sheet = sheet
+        self.solution = sheet.questions.solution
+        self.problem = self.solution.problem
+        self.kin = self.solution.construction.kinematics
+        self.draft = sheet.questions.asking.draft
+        self.steps = sheet.program.steps
+        self.made = sheet.made
+
+    @property
+    def board(self) -> Board | None:
+        """The force plans, where the sheet has any."""
+        statics = self.sheet.questions.statics
+        return None if statics is None else statics.board
+
+    def segments(self, plan: PlanKind) -> Segments:
+        """Return the segments of the velocity or the acceleration plan."""
+        return self.sheet.questions.asking.segments(plan)
+
+    def exact(self, name: Name) -> float:
+        """Return the exact value of a number."""
+        return scalar(self.sheet.trace.value[name])
+
+    def turnings(self, plan: PlanKind) -> Iterator[tuple[str, Turning]]:
+        """Yield the links whose ω (ε) is read off a plan that the sheet has."""
+        rates = self.kin.rates(plan)
+        for (of, link), turning in self.kin.turnings.items():
+            if of is plan and rates.get(link) in self.made:
+                yield link, turning
+
+    def compute(self, name: Name | None) -> Compute | None:
+        """Return the step that computes a number; None where the sheet has no such step."""
+        step = None if name is None else self.made.get(name)
+        return step if isinstance(step, Compute) else None
+
+    @cached_property
+    def rates(self) -> dict[NumberName, str]:
+        """Angular velocities by their numbers, and a link that turns so."""
+        found: dict[NumberName, str] = {}
+        for link, name in self.kin.omega.items():
+            found.setdefault(name, link)
+        return found
+
+    def signed(self, step: Compute, powers: Powers, factor: float = 1.0) -> Compute:
+        """Return a product with the sign that the right one has."""
+        value = factor
+        for name, power in powers:
+            value *= self.exact(name) ** power
+        turn = -1.0 if value * self.exact(step.out) < 0 else 1.0
+        return Compute(step.out, factor * turn, powers)
+
+
+def times(step: Compute, factor: float) -> tuple[Step, ...]:
+    """Return a product with another factor: times the right one."""
+    return (Compute(step.out, step.factor * factor, step.powers, step.size),)
+
+
+def known(name: str) -> tuple[NumberName, Known]:
+    """Return a new number of the data and its step."""
+    return NumberName(name), Known(NumberName(name))
+
+
+def fresh(name: Name, mark: str) -> PointName:
+    """Return the name of a further point."""
+    return PointName(f"{name} {mark}")

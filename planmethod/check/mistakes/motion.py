@@ -1,0 +1,346 @@
+"""Mistakes in velocity and acceleration plans (ошибки в планах скоростей и ускорений)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planmethod.check.mistakes.model import Change, Powers, Scene, fresh, known, times
+from planmethod.construct.steps import (
+    Carry,
+    Compute,
+    Join,
+    LayOff,
+    LineName,
+    Measure,
+    MeasureAlong,
+    MeetLines,
+    Name,
+    NumberName,
+    Parallel,
+    Perpendicular,
+    PointName,
+    Similar,
+    Step,
+)
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.model import PlanKind
+from planmethod.plans.motion.leads import Relative, Turning
+
+V, A = PlanKind.VELOCITY, PlanKind.ACCELERATION
+
+
+# Rays ----------------------------------------------------------------------------------------
+
+
+def _along_the_link(scene: Scene, plan: PlanKind, code: str) -> Iterator[Change]:
+    for link, turning in scene.turnings(plan):
+        for step in scene.steps:
+            if isinstance(step, Perpendicular) and _is_ray(scene, step, turning):
+                swapped = Parallel(step.out, step.through, step.to)
+                yield Change(code, link, {step.out: (swapped,)})
+
+
+def _is_ray(scene: Scene, step: Perpendicular, turning: Turning) -> bool:
+    """Tell whether a perpendicular is the line across a link that its turning is read along."""
+    line = scene.made[step.to]
+    ends = {turning.joint, turning.place}
+    return (
+        step.through == turning.start and isinstance(line, Join) and {line.tail, line.head} == ends
+    )
+
+
+def velocity_along_link(scene: Scene) -> Iterator[Change]:
+    """V1: v_BA laid along the link."""
+    yield from _along_the_link(scene, V, "V1")
+
+
+def tangential_along_link(scene: Scene) -> Iterator[Change]:
+    """N4: the line of aᵗ drawn along the link."""
+    yield from _along_the_link(scene, A, "N4")
+
+
+def driver_reversed(scene: Scene) -> Iterator[Change]:
+    """V2: the driver moves the other way."""
+    drive = scene.problem.drive
+    name = drive.coordinate.rates[0]
+    if name in scene.made and drive.rate:
+        yield Change("V2", drive.link, data={name: -drive.rate})
+
+
+def similarity_wrong(scene: Scene) -> Iterator[Change]:
+    """V3: the ratio from the other end; the triangle mirrored."""
+    for step in scene.steps:
+        if not isinstance(step, Similar):
+            continue
+        where = scene.draft.letters.get(step.out, str(step.out)).upper()
+        turned = Similar(
+            step.out,
+            step.plan_c,
+            step.plan_b,
+            step.link_s,
+            step.link_b,
+            step.link_c,
+            step.side,
+            step.span,
+            step.arm,
+        )
+        yield Change("V3", where, {step.out: (turned,)})
+        line, across = LineName(f"{step.out} base"), LineName(f"{step.out} across")
+        foot, image = fresh(step.out, "foot"), fresh(step.out, "image")
+        mirrored = (
+            Join(line, step.link_b, step.link_c),
+            Perpendicular(across, step.link_s, line),
+            MeetLines(foot, line, across),
+            Carry(image, foot, step.link_s, foot),
+            Similar(
+                step.out,
+                step.plan_b,
+                step.plan_c,
+                image,
+                step.link_b,
+                step.link_c,
+                step.side,
+                step.span,
+                step.arm,
+            ),
+        )
+        yield Change("V3", where, {step.out: mirrored})
+
+
+def sliding_forgotten(scene: Scene) -> Iterator[Change]:
+    """V4: v_A3 taken as v_A1, the relative velocity forgotten."""
+    for relative in _swinging(scene):
+        head, start = relative.head, relative.start
+        if head not in scene.made:
+            continue
+        steps: dict[Name, tuple[Step, ...]] = {head: (Carry(head, start, start, start),)}
+        for step in scene.steps:
+            if isinstance(step, MeasureAlong) and step.head == head and step.tail != start:
+                read = NumberName(f"{step.out} whole")
+                turn = -1.0 if scene.exact(step.out) < 0 else 1.0
+                whole = (
+                    Measure(read, step.tail, step.head),
+                    Compute(step.out, turn, ((read, 1),)),
+                )
+                steps[step.out] = whole
+        yield Change("V4", relative.name, steps)
+
+
+def _swinging(scene: Scene) -> Iterator[Relative]:
+    """Yield the slidings along guides that turn."""
+    for relative in scene.kin.relatives.values():
+        if relative.to != FRAME and relative.to in scene.kin.omega:
+            yield relative
+
+
+def arm_wrong(scene: Scene) -> Iterator[Change]:
+    """V5: ω by another arm: a given length of the link, or the distance of the pivots."""
+    for link, turning in scene.turnings(V):
+        step = scene.compute(scene.kin.omega[link])
+        if step is None:
+            continue
+        value = step.powers[0]
+        right = abs(scene.exact(value[0]) / scene.exact(step.out))
+        for length in sorted(_arms(scene, link, turning)):
+            if abs(length - right) > 1e-6 * right:
+                number, made = known(f"{step.out} arm")
+                swapped = Compute(step.out, step.factor, (value, (number, -1)), step.size)
+                yield Change("V5", link, {step.out: (made, swapped)}, {number: length})
+
+
+def _arms(scene: Scene, link: str, turning: Turning) -> set[float]:
+    """Return lengths that are taken for an arm by mistake, m."""
+    bodies = scene.problem.bodies
+    points = bodies[link].points
+    found = {
+        round(abs(points[p] - points[q]), 12)
+        for p in points
+        for q in points
+        if points[p] != points[q]
+    }
+    frame, pivot = bodies[FRAME].points, scene.problem.drive.pivot
+    if turning.joint in frame and pivot is not None and pivot in frame and pivot != turning.joint:
+        found.add(round(abs(frame[turning.joint] - frame[pivot]), 12))
+    return {length for length in found if length > 0}
+
+
+# Coriolis ------------------------------------------------------------------------------------
+
+
+def _turned(scene: Scene) -> Iterator[tuple[Relative, Compute]]:
+    values = scene.segments(A).values
+    for relative in scene.kin.relatives.values():
+        start, end = relative.a_start, relative.a_turned
+        if start is None or end is None or start == end:
+            continue
+        step = scene.compute(values.get((start, end)))
+        if step is not None:
+            yield relative, step
+
+
+def coriolis_forgotten(scene: Scene) -> Iterator[Change]:
+    """A1: no Coriolis acceleration."""
+    for relative, step in _turned(scene):
+        yield Change("A1", relative.name, {step.out: times(step, 0.0)}, prior=3.0)
+
+
+def coriolis_reversed(scene: Scene) -> Iterator[Change]:
+    """A2: the Coriolis acceleration turned the other way."""
+    for relative, step in _turned(scene):
+        yield Change("A2", relative.name, {step.out: times(step, -1.0)}, prior=2.0)
+
+
+def coriolis_half(scene: Scene) -> Iterator[Change]:
+    """A3: the factor 2 missing."""
+    for relative, step in _turned(scene):
+        yield Change("A3", relative.name, {step.out: times(step, 0.5)}, prior=1.5)
+
+
+def coriolis_of_absolute(scene: Scene) -> Iterator[Change]:
+    """A4: an absolute velocity of the coincident points in place of the relative one."""
+    velocities = scene.segments(V)
+    for relative, step in _turned(scene):
+        for head in (relative.head, relative.start):
+            speed = velocities.values.get((scene.kin.velocity.pole, head))
+            if speed in scene.made and speed is not None:
+                powers = (step.powers[0], (speed, 1))
+                made = scene.signed(step, powers, abs(step.factor))
+                yield Change("A4", relative.name, {step.out: (made,)})
+
+
+def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
+    """A5: ω of the crank in place of that of the slotted link."""
+    drive = scene.problem.drive
+    rate = scene.kin.omega.get(drive.link)
+    for relative, step in _turned(scene):
+        if rate is not None and rate in scene.made and step.powers[0][0] != rate:
+            made = scene.signed(step, ((rate, 1), step.powers[1]), abs(step.factor))
+            yield Change("A5", relative.name, {step.out: (made,)})
+
+
+def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:
+    """A6: a Coriolis acceleration where the guide does not turn."""
+    scale = scene.segments(A).scale
+    for relative in scene.kin.relatives.values():
+        start, head = relative.a_start, relative.a_head
+        if start is None or start != relative.a_turned or relative.to in scene.kin.omega:
+            continue
+        for line in scene.steps:
+            if not (
+                isinstance(line, Parallel) and line.through == start and _meets(scene, line, head)
+            ):
+                continue
+            for rate, link in scene.rates.items():
+                if (
+                    rate not in scene.made
+                    or relative.point not in scene.problem.bodies[link].points
+                ):
+                    continue
+                across = LineName(f"{line.out} across")
+                value, length = NumberName(f"{line.out} ak"), NumberName(f"{line.out} |k|")
+                end = fresh(line.out, "k")
+                steps: tuple[Step, ...] = (
+                    Perpendicular(across, start, line.to),
+                    Compute(value, 2.0, ((rate, 1), (relative.speed, 1))),
+                    Compute(length, 1.0, ((value, 1), (scale, -1))),
+                    LayOff(end, start, across, length),
+                    Parallel(line.out, end, line.to),
+                )
+                yield Change("A6", relative.name, {line.out: steps})
+
+
+def _meets(scene: Scene, line: Parallel, head: PointName | None) -> bool:
+    step = None if head is None else scene.made.get(head)
+    return isinstance(step, MeetLines) and line.out in (step.first, step.second)
+
+
+# Normal and tangential components ------------------------------------------------------------
+
+
+def _normals(scene: Scene) -> Iterator[tuple[str, Compute, Powers]]:
+    """Yield the normal components ω²·l: letters, step, factors of the length."""
+    for name in scene.segments(A).values.values():
+        step = scene.compute(name)
+        if step is not None and step.powers[0][0] in scene.rates and step.powers[0][1] == 2:
+            yield str(name).removeprefix("an_"), step, step.powers[1:]
+
+
+def normal_outward(scene: Scene) -> Iterator[Change]:
+    """N1: aⁿ directed away from the pivot."""
+    for where, step, _ in _normals(scene):
+        yield Change("N1", where, {step.out: times(step, -1.0)})
+
+
+def normal_forgotten(scene: Scene) -> Iterator[Change]:
+    """N2: no aⁿ."""
+    for where, step, _ in _normals(scene):
+        yield Change("N2", where, {step.out: times(step, 0.0)}, prior=1.5)
+
+
+def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
+    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link."""
+    for where, step, length in _normals(scene):
+        rate = step.powers[0][0]
+        inverse = tuple((name, -power) for name, power in length)
+        wrong: list[Powers] = [
+            ((rate, 2), *inverse),
+            ((rate, 1), *length),
+            ((rate, 1), *length, *length),
+            ((rate, 2), *length, *length, *length),
+        ]
+        wrong += [
+            ((other, 2), *length) for other in scene.rates if other != rate and other in scene.made
+        ]
+        for powers in wrong:
+            made = Compute(step.out, step.factor, powers, size=True)
+            yield Change("N3", where, {step.out: (made,)})
+
+
+def epsilon_of_whole(scene: Scene) -> Iterator[Change]:
+    """E2: ε by the whole acceleration in place of aᵗ."""
+    motion = scene.kin.acceleration
+    for link, turning in scene.turnings(A):
+        step = scene.compute(scene.kin.epsilon[link])
+        if step is None:
+            continue
+        joint = motion.point.get((link, turning.joint), motion.pole)
+        for tail in dict.fromkeys((motion.pole, joint)):
+            read = NumberName(f"{step.out} whole")
+            value = NumberName(f"{step.out} a")
+            turn = -1.0 if scene.exact(step.powers[0][0]) < 0 else 1.0
+            whole = (
+                Measure(read, tail, turning.head),
+                Compute(value, turn, ((read, 1), (scene.segments(A).scale, 1))),
+                Compute(step.out, step.factor, ((value, 1), *step.powers[1:]), step.size),
+            )
+            yield Change("E2", link, {step.out: whole})
+
+
+def turning_reversed(scene: Scene) -> Iterator[Change]:
+    """Sense of one ω or ε, and all that follows from it."""
+    for plan in (V, A):
+        for link, _ in scene.turnings(plan):
+            step = scene.compute(scene.kin.rates(plan)[link])
+            if step is not None:
+                yield Change("sign", link, {step.out: times(step, -1.0)})
+
+
+MISTAKES = (
+    velocity_along_link,
+    driver_reversed,
+    similarity_wrong,
+    sliding_forgotten,
+    arm_wrong,
+    coriolis_forgotten,
+    coriolis_reversed,
+    coriolis_half,
+    coriolis_of_absolute,
+    coriolis_of_crank,
+    coriolis_for_nothing,
+    normal_outward,
+    normal_forgotten,
+    normal_by_wrong_formula,
+    tangential_along_link,
+    epsilon_of_whole,
+    turning_reversed,
+)

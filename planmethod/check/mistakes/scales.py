@@ -1,0 +1,160 @@
+"""Mistakes with scales and units, and another position of the mechanism (масштабы, единицы)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from planmethod.check.mistakes.model import Change, Scene
+from planmethod.construct.steps import (
+    Compute,
+    Measure,
+    MeasureAlong,
+    MeetCircles,
+    MeetLineCircle,
+    Name,
+    NumberName,
+    Side,
+    Step,
+    Way,
+)
+from planmethod.plans.dimensions import DimensionKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind
+
+READ = (Measure, MeasureAlong)
+
+
+def _readings(scene: Scene, plan: PlanKind) -> Iterator[Compute]:
+    """Yield the steps that turn a length found on a plan into what it stands for."""
+    for name in dict.fromkeys(scene.segments(plan).values.values()):
+        step = scene.compute(name)
+        if step is not None and (NumberName(FACTS[plan].scale), 1) in step.powers:
+            yield step
+
+
+def _swapped(
+    step: Compute, scale: NumberName, other: tuple[tuple[NumberName, int], ...]
+) -> Compute:
+    powers = tuple(p for pair in step.powers for p in (other if pair == (scale, 1) else (pair,)))
+    return Compute(step.out, step.factor, powers, step.size)
+
+
+def scale_inverted(scene: Scene) -> Iterator[Change]:
+    """S1: mm divided by μ where they are multiplied."""
+    for plan in MOTION[1:]:
+        scale = NumberName(FACTS[plan].scale)
+        steps: dict[Name, tuple[Step, ...]] = {
+            step.out: (_swapped(step, scale, ((scale, -1),)),) for step in _readings(scene, plan)
+        }
+        if steps:
+            yield Change("S1", FACTS[plan].scale, steps, of_scale=True)
+
+
+def scale_of_another_plan(scene: Scene) -> Iterator[Change]:
+    """S3: the μ of another plan."""
+    for plan in MOTION[1:]:
+        scale = NumberName(FACTS[plan].scale)
+        readings = list(_readings(scene, plan))
+        for other in MOTION:
+            name = NumberName(FACTS[other].scale)
+            if other is plan or name not in scene.made or not readings:
+                continue
+            steps: dict[Name, tuple[Step, ...]] = {
+                step.out: (_swapped(step, scale, ((name, 1),)),) for step in readings
+            }
+            yield Change("S3", FACTS[plan].scale, steps, of_scale=True)
+
+
+def scale_by(scene: Scene, plan: PlanKind, factor: float) -> Change:
+    """Return the mistake of a plan whose μ is another one by a factor."""
+    steps: dict[Name, tuple[Step, ...]] = {
+        step.out: (replace(step, factor=step.factor * factor),) for step in _readings(scene, plan)
+    }
+    return Change("scale", FACTS[plan].scale, steps, prior=0.05, of_scale=True)
+
+
+def units_of_speed(scene: Scene) -> Iterator[Change]:
+    """S2: rev/min for 1/s, n/30 without π, degrees for radians."""
+    drive = scene.problem.drive
+    name = drive.coordinate.rates[0]
+    if drive.pivot is None or name not in scene.made or not drive.rate:
+        return
+    for factor in (30.0 / math.pi, 1.0 / math.pi, 180.0 / math.pi, math.pi / 30.0):
+        yield Change("S2", drive.link, data={name: drive.rate * factor})
+
+
+def units_of_length(scene: Scene) -> Iterator[Change]:
+    """S2: lengths in mm in formulas that want metres."""
+    lengths = {
+        name
+        for name, dimension in scene.draft.dimensions.items()
+        if dimension.kind is DimensionKind.LENGTH
+    }
+    steps: dict[Name, tuple[Step, ...]] = {}
+    for step in scene.steps:
+        if not isinstance(step, Compute) or step.out in scene.draft.dimensions:
+            continue
+        power = sum(power for name, power in step.powers if name in lengths)
+        if power:
+            steps[step.out] = (replace(step, factor=step.factor * 1000.0**power),)
+    if steps:
+        yield Change("S2", "l", steps)
+
+
+def true_for_drawn(scene: Scene) -> Iterator[Change]:
+    """Length of a link read on the drawing and taken for its true one."""
+    scale = NumberName(FACTS[PlanKind.POSITION].scale)
+    steps: dict[Name, tuple[Step, ...]] = {}
+    for step in scene.steps:
+        if not isinstance(step, Compute):
+            continue
+        powers = dict(step.powers)
+        read = any(isinstance(scene.made[name], READ) for name in powers)
+        if scale in powers and read:
+            power = powers.pop(scale)
+            made = Compute(step.out, step.factor * 0.001**power, tuple(powers.items()), step.size)
+            steps[step.out] = (made,)
+    if steps:
+        yield Change("true_mm", "l", steps)
+
+
+def other_assembly(scene: Scene) -> Iterator[Change]:
+    """P1: a group closed the other way."""
+    for step in scene.steps:
+        swapped: Step
+        match step:
+            case MeetCircles():
+                other = Side.LEFT if step.side is Side.RIGHT else Side.RIGHT
+                swapped = replace(step, side=other)
+            case MeetLineCircle():
+                way = Way.BACKWARD if step.way is Way.FORWARD else Way.FORWARD
+                swapped = replace(step, way=way)
+            case _:
+                continue
+        yield Change("P1", str(step.out), {step.out: (swapped,)})
+
+
+def other_angle(scene: Scene) -> Iterator[Change]:
+    """P1: the angle of the crank counted the other way, or from another axis."""
+    drive = scene.problem.drive
+    name = drive.coordinate.name
+    if drive.pivot is None or name not in scene.made:
+        return
+    phi = scene.exact(NumberName(name))
+    told: set[float] = {phi % 360.0}
+    for other in (-phi, 180.0 - phi, phi + 180.0, 90.0 - phi, phi + 90.0, phi - 90.0):
+        if other % 360.0 not in told:
+            told.add(other % 360.0)
+            yield Change("P1", drive.link, data={name: other})
+
+
+MISTAKES = (
+    scale_inverted,
+    scale_of_another_plan,
+    units_of_speed,
+    units_of_length,
+    true_for_drawn,
+    other_assembly,
+    other_angle,
+)

@@ -1,0 +1,123 @@
+"""Judged works as records and as rows of a table for machines (записи и строки результатов)."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from planmethod.check.model import Checked, Diagnosis, Judged, KeyEntry
+from planmethod.check.pages.speech import told
+from planmethod.note.numbers import finite_or_none
+
+COLUMNS = (
+    "student", "variant", "id", "what", "verdict", "from", "value", "exact", "tolerance", "unit",
+    "mm", "exact_mm", "sense", "sense_right", "local", "points", "of", "codes", "where", "remark",
+)  # fmt: skip
+"""Columns of ``results.csv``."""
+
+_FORMULA = "=+-@\t\r"
+
+
+def record(checked: Checked) -> dict[str, Any]:
+    """Return a judged work as plain data: SI, full precision, None for what there is not."""
+    return {
+        "student": checked.work.student,
+        "variant": checked.variant,
+        "answers": [_answer(judged) for judged in checked.answers],
+        "diagnosis": [_diagnosis(diagnosis) for diagnosis in checked.diagnosis],
+        "points": finite_or_none(checked.points),
+        "of": finite_or_none(checked.of),
+        "suspicious": checked.suspicious,
+        "remark": checked.remark or None,
+        "by_hand": checked.by_hand,
+        "unreadable": [
+            {"where": written.where, "what": written.unreadable} for written in checked.work.remarks
+        ],
+    }
+
+
+def _answer(judged: Judged) -> dict[str, Any]:
+    key, written = judged.key, judged.written
+    sense = None if written is None or written.sense is None else written.sense.value
+    return {
+        "id": judged.id,
+        "verdict": judged.verdict.value,
+        "from": judged.follows or None,
+        "value": _told(judged.value, key),
+        "exact": None if key is None else _told(key.exact, key),
+        "tolerance": _number(judged.tolerance),
+        "mm": None if written is None else _number(written.mm),
+        "exact_mm": None if key is None else _number(key.mm),
+        "points": _number(judged.points),
+        "where": judged.where or None,
+        "unit": None if key is None else key.unit,
+        "of": _number(judged.of),
+        "position": None if key is None else key.position + 1,
+        "local": _told(judged.local, key),
+        "sense": sense,
+        "exact_sense": None if key is None or key.sense is None else key.sense.value,
+        "sense_right": judged.sense_right,
+        "slip": judged.slip,
+        "unreadable": None if written is None else written.unreadable or None,
+        "remark": judged.remark or None,
+        "by_hand": judged.by_hand,
+    }
+
+
+def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
+    return {
+        "codes": list(diagnosis.codes),
+        "sure": diagnosis.sure,
+        "roots": list(diagnosis.roots),
+        "where": diagnosis.where or None,
+    }
+
+
+def _told(value: float | None, key: KeyEntry | None) -> float | None:
+    return _number(value if value is None or key is None else told(value, key))
+
+
+def _number(value: float | None) -> float | None:
+    return None if value is None else finite_or_none(value)
+
+
+def codes_of(checked: Checked, judged: Judged) -> tuple[str, ...]:
+    """Return the codes of the mistakes that begin at an answer."""
+    found = [code for d in checked.diagnosis if judged.id in d.roots for code in d.codes]
+    return tuple(dict.fromkeys(found))
+
+
+def safe(text: str) -> str:
+    """Return a text that no table program takes for a formula."""
+    return f"'{text}" if text[:1] and text[0] in _FORMULA else text
+
+
+def csv_bytes(works: Iterable[Checked]) -> bytes:
+    """Return ``results.csv``: an answer a row, semicolons, decimal points, UTF-8 with a mark."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, delimiter=";", lineterminator="\r\n")
+    writer.writerow(COLUMNS)
+    for checked in works:
+        writer.writerows(_rows(checked))
+    return text.getvalue().encode("utf-8-sig")
+
+
+def _rows(checked: Checked) -> Iterator[list[str]]:
+    for judged in checked.answers:
+        cells = _answer(judged) | {
+            "student": checked.work.student,
+            "variant": checked.variant,
+            "what": "" if judged.key is None else judged.key.label,
+            "codes": " ".join(codes_of(checked, judged)),
+        }
+        yield [_cell(cells[column]) for column in COLUMNS]
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(int(value))
+    return repr(value) if isinstance(value, float) else safe(str(value))

@@ -1,0 +1,240 @@
+"""A student's segments over the true plan (план студента поверх верного)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from planmethod.check.model import Checked, Diagnosis, Judged, Verdict
+from planmethod.construct.steps import PointName
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.wording.language import Language
+from planmethod.plans.model import FACTS, PlanKind
+from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, shifted
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.planview import plan_picture, plan_places
+from planmethod.render.symbols import vector_arrow
+from planmethod.solved.reading import remembered
+from planmethod.solved.solution import Solution
+
+KINDS = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
+OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED)
+MARGIN = 3.0
+"""Room around everything, mm."""
+
+LARGEST = 2.5
+"""A segment that is longer than so many true plans is not drawn: it would leave nothing to see."""
+
+
+@dataclass(frozen=True, slots=True)
+class Own:
+    """A segment as the student has it, mm of the drawing (отрезок студента).
+
+    ``number`` is that of its answer in the table, None of what belongs to a mistake's plan alone.
+    """
+
+    tail: complex
+    head: complex
+    is_right: bool
+    number: int | None
+
+    @property
+    def label_at(self) -> complex:
+        """Where its number stands: on the line, nearer to the head."""
+        return self.tail + 0.62 * (self.head - self.tail)
+
+    def items(self) -> list[Item]:
+        """Return its ink: a line and an arrowhead."""
+        return vector_arrow(self.tail, self.head, length=4.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Overlay:
+    """One plan with a student's segments.
+
+    Attributes
+    ----------
+    kind : PlanKind
+    index : int
+        Position of the driver, from 0.
+    drawing : Drawing
+        The true plan.
+    own : tuple of Own
+    bounds : Bounds
+        What is to be seen of the drawing's plane, mm.
+    scale : str
+        Inscription of the scale, rich text.
+    mistake : str
+        Code of the mistake whose plan is shown; empty where none is.
+    """
+
+    kind: PlanKind
+    index: int
+    drawing: Drawing
+    own: tuple[Own, ...]
+    bounds: Bounds
+    scale: str
+    mistake: str = ""
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        left, low, right, high = self.bounds
+        return right - left, high - low
+
+
+def overlays(solution: Solution, checked: Checked, words: Language) -> list[Overlay]:
+    """Return the plans of velocities and accelerations in the position where trouble begins."""
+    index = _position(checked, len(solution.positions))
+    made = (_overlay(solution, checked, kind, index, words) for kind in KINDS)
+    return [overlay for overlay in made if overlay is not None]
+
+
+def _position(checked: Checked, count: int) -> int:
+    """Return the position that is drawn: that of the first root, else of the first wrong answer."""
+    roots = {id for diagnosis in checked.diagnosis for id in diagnosis.roots}
+    told = [judged for judged in checked.answers if judged.key is not None]
+    for chosen in (
+        [judged for judged in told if judged.id in roots],
+        [judged for judged in told if judged.verdict in OFF],
+        told,
+    ):
+        for judged in chosen:
+            if judged.key is not None and judged.key.position < count:
+                return judged.key.position
+    return 0
+
+
+@remembered
+def true_plan(solution: Solution, kind: PlanKind, index: int) -> tuple[Drawing, complex]:
+    """Return a plan alone as a drawing, and where its pole lies there."""
+    picture: Picture = plan_picture(solution, kind, index)
+    pole = complex(MARGIN - picture.bounds[0], MARGIN - picture.bounds[1])
+    drawing = Drawing(picture.width + 2 * MARGIN, picture.height + 2 * MARGIN)
+    drawing.extend(shifted(picture.items, pole))
+    return drawing, pole
+
+
+@remembered
+def ends_by_letters(solution: Solution, kind: PlanKind) -> Mapping[str, PointName]:
+    """Return the points of a plan by their letters without markup: ``b3``, ``n_CB`` as ``nCB``."""
+    plan = solution.construction.plan(kind)
+    found: dict[str, PointName] = {}
+    for point, letters in plan.letters.items():
+        for letter in letters.split(", "):
+            found.setdefault(_bare(letter), point)
+    assert plan.pole is not None
+    found[FACTS[kind].pole] = found[str(plan.pole)[:1]] = plan.pole
+    return found
+
+
+def _bare(letter: str) -> str:
+    return letter.replace("_{", "").replace("_", "").rstrip("}")
+
+
+def _overlay(
+    solution: Solution, checked: Checked, kind: PlanKind, index: int, words: Language
+) -> Overlay | None:
+    drawing, pole = true_plan(solution, kind, index)
+    at = plan_places(solution, kind, index)
+    if max(abs(p - q) for p in at.values() for q in at.values()) < 1.0:
+        return None  # nothing moves there
+    mistaken = next((d for d in checked.diagnosis if d.sure and d.codes and d.places), None)
+    scale = solution.own_scale(kind, index)
+    wrong_at = _moved(solution, kind, at, scale.per_mm, mistaken)
+    room = LARGEST * max(drawing.width, drawing.height)
+    own: list[Own] = []
+    letters = ends_by_letters(solution, kind)
+    for number, judged in enumerate(checked.answers, 1):
+        if judged.key is None or judged.key.position != index:
+            continue
+        ends = _ends(judged, kind, letters, scale.per_mm)
+        if ends is None or judged.value is None:
+            continue
+        is_right = judged.verdict not in OFF
+        places = at if is_right or wrong_at is None else wrong_at
+        length = abs(judged.value) / (1.0 if judged.key.unit == "mm" else scale.per_mm)
+        if not 0.3 < length < room or ends[0] not in places or ends[1] not in places:
+            continue
+        along = places[ends[1]] - places[ends[0]]
+        if abs(along) < 0.05:
+            continue
+        turned = -1.0 if judged.sense_right is False else 1.0
+        tail = places[ends[0]] + pole
+        own.append(Own(tail, tail + turned * length * along / abs(along), is_right, number))
+    if wrong_at is not None:
+        own += _plan_of_mistake(solution, kind, at, wrong_at, pole)
+    sheet = Fill((0j, complex(drawing.width, drawing.height)))
+    bounds = ink_bounds([sheet, *(i for o in own for i in o.items())])
+    return Overlay(
+        kind,
+        index,
+        drawing,
+        tuple(own),
+        _widened(bounds, (0.0, 0.0, drawing.width, drawing.height)),
+        scale_inscription(scale, solution.problem.scales.convention, words.say),
+        "" if wrong_at is None or mistaken is None else mistaken.codes[0],
+    )
+
+
+def _widened(bounds: Bounds, sheet: Bounds) -> Bounds:
+    """Return bounds with room at the sides where something leaves the sheet."""
+    room = [MARGIN * (abs(b - s) > 1e-9) for b, s in zip(bounds, sheet, strict=True)]
+    return (
+        bounds[0] - room[0],
+        bounds[1] - room[1],
+        bounds[2] + room[2],
+        bounds[3] + room[3],
+    )
+
+
+def _ends(
+    judged: Judged, kind: PlanKind, letters: Mapping[str, PointName], per_mm: float
+) -> tuple[PointName, PointName] | None:
+    """Return the ends of the segment that an answer is itself; None where it is none of a plan.
+
+    A number that follows from a segment (ω from v) is not as long as the student's segment.
+    """
+    key = judged.key
+    if key is None or key.mm is None or key.scale != FACTS[kind].scale:
+        return None
+    shown = abs(key.exact) if key.unit == "mm" else abs(key.exact) / per_mm
+    if key.unit not in ("mm", FACTS[kind].unit) or abs(shown - key.mm) > 0.01 * key.mm + 1e-6:
+        return None
+    tail, _, head = key.segment.partition("-")
+    found = letters.get(_bare(tail)), letters.get(_bare(head))
+    return None if found[0] is None or found[1] is None else (found[0], found[1])
+
+
+def _moved(
+    solution: Solution,
+    kind: PlanKind,
+    at: Mapping[PointName, complex],
+    per_mm: float,
+    mistaken: Diagnosis | None,
+) -> dict[PointName, complex] | None:
+    """Return the places of a mistake's plan from its pole; None where it is the true one."""
+    pole = str(solution.construction.plan(kind).pole)
+    if mistaken is None or pole not in mistaken.places:
+        return None
+    start, found = mistaken.places[pole], mistaken.places
+    moved = {p: (found[str(p)] - start) / per_mm for p in at if str(p) in found}
+    size = max(abs(place) for place in at.values())
+    apart = [abs(place - at[point]) for point, place in moved.items()]
+    # Not a number, or nothing to be seen, or far beyond the paper: the true plan alone is shown.
+    return moved if all(0.0 <= gap < LARGEST * size for gap in apart) and max(apart) > 0.5 else None
+
+
+def _plan_of_mistake(
+    solution: Solution,
+    kind: PlanKind,
+    at: Mapping[PointName, complex],
+    moved: Mapping[PointName, complex],
+    pole: complex,
+) -> Iterator[Own]:
+    """Yield the vectors of a mistake's plan that do not lie on those of the true one."""
+    for vector in solution.construction.plan(kind).vectors:
+        ends = vector.tail, vector.head
+        if all(end in moved for end in ends) and max(abs(moved[e] - at[e]) for e in ends) > 0.3:
+            yield Own(moved[ends[0]] + pole, moved[ends[1]] + pole, is_right=False, number=None)

@@ -1,0 +1,153 @@
+"""``overrides.csv``: points and remarks set by hand, which survive grading again (правки вручную).
+
+A row names a student and an answer, or the whole work where the answer is left empty.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from planmethod.check.model import Checked, Judged
+from planmethod.errors import ExitCode, PlanMethodError
+
+COLUMNS = ("student", "id", "points", "remark")
+HEAD = (";".join(COLUMNS) + "\r\n").encode("utf-8-sig")
+MOST_BYTES = 1_000_000
+MOST_ROWS = 10_000
+
+
+class OverridesError(PlanMethodError):
+    """The file of overrides cannot be read (правки не читаются)."""
+
+    exit_code = ExitCode.USAGE
+
+
+@dataclass(frozen=True, slots=True)
+class Override:
+    """What was set by hand for one answer, or for a whole work (правка).
+
+    Attributes
+    ----------
+    student : str
+    id : str
+        Empty for the whole work.
+    points : float or None
+        None where only a remark is made.
+    remark : str
+    where : str
+        ``overrides.csv:4``.
+    """
+
+    student: str
+    id: str
+    points: float | None
+    remark: str
+    where: str
+
+
+def read_overrides(path: Path) -> tuple[Override, ...]:
+    """Read a file of overrides; nothing where there is none.
+
+    Raises
+    ------
+    OverridesError
+        Naming the file and the row, and what to do.
+    """
+    try:
+        with path.open("rb") as file:
+            data = file.read(MOST_BYTES + 1)
+    except FileNotFoundError:
+        return ()
+    except OSError as error:
+        raise OverridesError(f"Cannot read {path}: {error.strerror}.") from error
+    if len(data) > MOST_BYTES:
+        raise OverridesError(f"{path} is larger than {MOST_BYTES} bytes. Keep only the overrides.")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("cp1251", errors="replace")
+    head = text.partition("\n")[0]
+    mark = max(";,\t", key=head.count)
+    try:
+        rows = list(csv.reader(io.StringIO(text.replace("\0", ""), newline=""), delimiter=mark))
+    except csv.Error as error:
+        raise OverridesError(f"{path} is no table: {error}. Save it as CSV again.") from error
+    return tuple(_overrides(rows, path))
+
+
+def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
+    if not rows:
+        return
+    head = [cell.strip().lower() for cell in rows[0]]
+    if len(rows) > MOST_ROWS or not {"student", "points"} <= set(head):
+        raise OverridesError(
+            f"{path}: expected columns {', '.join(COLUMNS)} and at most {MOST_ROWS} rows. Delete "
+            "the file to have an empty one made."
+        )
+    for number, row in enumerate(rows[1:], 2):
+        told = dict(zip(head, (cell.strip() for cell in row), strict=False))
+        where = f"{path.name}:{number}"
+        student, remark = told.get("student", ""), told.get("remark", "")
+        points = _points(told.get("points", ""), where)
+        if not student and (points is not None or remark):
+            raise OverridesError(f"{where}: no student is named. Fill in the column student.")
+        if points is not None or remark:
+            yield Override(_bare(student), _bare(told.get("id", "")), points, remark, where)
+
+
+def _points(text: str, where: str) -> float | None:
+    if not text:
+        return None
+    try:
+        points = float(text.replace(",", "."))
+    except ValueError:
+        points = -1.0
+    if not 0.0 <= points <= 1e6:
+        raise OverridesError(f"{where}: points are a number from 0, got {text[:40]!r}.")
+    return points
+
+
+def _bare(text: str) -> str:
+    """Return a text without the sign that keeps table programs from taking it for a formula."""
+    return text[1:] if text[:1] == "'" and text[1:2] in ("=", "+", "-", "@") else text
+
+
+def overridden(
+    works: Sequence[Checked], overrides: Sequence[Override]
+) -> tuple[list[Checked], tuple[str, ...]]:
+    """Return the works with what was set by hand, and the rows that fit no work or answer."""
+    used: set[str] = set()
+    changed = []
+    for checked in works:
+        own = [o for o in overrides if o.student == checked.work.student]
+        answers = tuple(_answer(judged, own, used) for judged in checked.answers)
+        gained = sum(j.points for j in answers) - sum(j.points for j in checked.answers)
+        now = replace(checked, answers=answers, points=checked.points + gained)
+        for override in own:
+            if not override.id:
+                used.add(override.where)
+                now = replace(
+                    now,
+                    points=now.points if override.points is None else override.points,
+                    by_hand=now.by_hand or override.points is not None,
+                    remark=override.remark or now.remark,
+                )
+        changed.append(now)
+    return changed, tuple(o.where for o in overrides if o.where not in used)
+
+
+def _answer(judged: Judged, own: Sequence[Override], used: set[str]) -> Judged:
+    for override in own:
+        if override.id == judged.id and override.id:
+            used.add(override.where)
+            judged = replace(
+                judged,
+                points=judged.points if override.points is None else override.points,
+                by_hand=judged.by_hand or override.points is not None,
+                remark=override.remark or judged.remark,
+            )
+    return judged

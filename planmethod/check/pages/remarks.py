@@ -1,0 +1,280 @@
+"""What a student is told, sentence by sentence, the beginning of the trouble first (замечания)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict
+from planmethod.check.pages.speech import Speech, quoted
+from planmethod.note.wording.check_model import StudentWording
+
+SCALES_OF_PLANS: Mapping[str, str] = {"mu_v": "velocity", "mu_a": "acceleration"}
+OFF = (Verdict.WRONG, Verdict.NEAR)
+
+
+@dataclass(frozen=True, slots=True)
+class Remarks:
+    """Remarks on one work, rich text.
+
+    Attributes
+    ----------
+    speech : Speech
+    checked : Checked
+    scales : mapping of str to float
+        Those of the key, where the student names none of his own.
+    """
+
+    speech: Speech
+    checked: Checked
+    scales: Mapping[str, float]
+
+    @property
+    def say(self) -> StudentWording:
+        """Words of a student's page."""
+        return self.speech.say.student
+
+    def sentences(self) -> list[str]:
+        """Return all remarks; one that all is right where it is."""
+        told = [*self._by_hand(), *self._causes(), *self._unexplained(), *self._inherited()]
+        told += [*self._singly(), *self._missing()]
+        return told or [self.say.all_right]
+
+    def redraw(self) -> list[str]:
+        """Return the segments to be drawn anew: those that mistakes begin at, else wrong ones."""
+        roots = [judged for d in self.checked.diagnosis for judged in self._known(d.roots)]
+        off = [judged for judged in self.checked.answers if judged.verdict in OFF]
+        lines: dict[tuple[str, str], str] = {}
+        for judged in roots or off:
+            key = judged.key
+            if key is None or key.mm is None or not key.segment or judged.verdict not in OFF:
+                continue
+            plan = SCALES_OF_PLANS.get(key.scale)
+            if plan is None:
+                continue
+            lines.setdefault(
+                (key.segment, key.scale),
+                self.say.redraw_line.format(
+                    segment=segment_letters(key.segment),
+                    plan=self.say.plan_names[plan],
+                    right=self.speech.mm(key.mm),
+                ),
+            )
+        return list(lines.values())
+
+    # Beginnings --------------------------------------------------------------------------------
+
+    def _causes(self) -> Iterator[str]:
+        """Yield a remark on each mistake that has a name, or on where the trouble begins."""
+        for diagnosis in self.checked.diagnosis:
+            roots = self._known(diagnosis.roots)
+            if not roots:
+                continue
+            first, others = roots[0], roots[1:]
+            parts = [self._compared(first), self._why(diagnosis, first)]
+            if others:
+                parts.append(self.say.also.format(answers=self._listed(others)))
+            yield " ".join(parts)
+
+    def _why(self, diagnosis: Diagnosis, root: Judged) -> str:
+        words = [self.speech.say.mistakes[c] for c in diagnosis.codes if c in self._codes]
+        if not words:
+            return self._not_known(root)
+        if not diagnosis.sure or len(words) > 1:
+            names = "; ".join(word.name for word in words)
+            end = self.say.one_of_end.format(answer=self.speech.symbol(root))
+            return f"{self.say.one_of.format(names=names)} {end}"
+        gives = diagnosis.values.get(root.id)
+        so_many = "" if gives is None else f" ({self.speech.close_to(gives, root)})"
+        return self.say.mistake.format(
+            value=so_many,
+            so=words[0].so,
+            where=self._where(diagnosis.where),
+            advice=words[0].advice,
+        )
+
+    def _where(self, where: str) -> str:
+        if not where:
+            return ""
+        kind = "pair" if "/" in where else "link" if where.isdigit() else ""
+        return self.say.mistake_here[kind].format(where=place_letters(where))
+
+    def _not_known(self, judged: Judged) -> str:
+        if judged.key is None or judged.key.mm is None or not judged.key.segment:
+            return self.say.unknown_computed
+        return self.say.unknown.format(segment=segment_letters(judged.key.segment))
+
+    def _unexplained(self) -> Iterator[str]:
+        """Yield a remark on each wrong answer that no diagnosis speaks of."""
+        spoken = {id for diagnosis in self.checked.diagnosis for id in diagnosis.roots}
+        follow: list[Judged] = []
+        for judged in self._of(Verdict.WRONG):
+            if judged.id in spoken:
+                continue
+            if self._is_consequence(judged):
+                follow.append(judged)
+            elif judged.sense_right is False and self._fits(judged):
+                continue  # said of its sense
+            elif not judged.slip:
+                yield f"{self._compared(judged)} {self._not_known(judged)}"
+        if follow:
+            yield self.say.follow.format(answers=self._listed(follow))
+
+    def _is_consequence(self, judged: Judged) -> bool:
+        """Tell whether a mistake that has a name gives this answer, too."""
+        if judged.value is None:
+            return False
+        return any(
+            abs(abs(judged.value) - abs(d.values[judged.id])) <= (judged.tolerance or 0.0)
+            for d in self.checked.diagnosis
+            if d.sure and judged.id in d.values
+        )
+
+    @staticmethod
+    def _fits(judged: Judged) -> bool:
+        key = judged.key
+        if key is None or judged.value is None:
+            return False
+        allowed = judged.tolerance or key.tolerance
+        return abs(abs(judged.value) - abs(key.exact)) <= allowed
+
+    # What follows ------------------------------------------------------------------------------
+
+    def _inherited(self) -> Iterator[str]:
+        groups: dict[str, list[Judged]] = {}
+        for judged in self._of(Verdict.INHERITED):
+            groups.setdefault(judged.follows, []).append(judged)
+        for source, judged_here in groups.items():
+            told = self._known((source,))
+            yield self.say.inherited.format(
+                answers=self._listed(judged_here),
+                source=self.speech.symbol(told[0]) if told else quoted(source),
+                points=self._points(judged_here),
+            )
+
+    def _points(self, judged: Iterable[Judged]) -> str:
+        listed = list(judged)
+        points, of = sum(j.points for j in listed), sum(j.of for j in listed)
+        if points >= of - 1e-9:
+            return self.say.kept
+        return self.say.reduced.format(points=self.speech.share(points), of=self.speech.share(of))
+
+    # One by one --------------------------------------------------------------------------------
+
+    def _singly(self) -> Iterator[str]:
+        say, speech = self.say, self.speech
+        for judged in self.checked.answers:
+            key, places = judged.key, {"answer": speech.symbol(judged)}
+            if key is None:
+                continue
+            places |= {"own": speech.own(judged), "right": speech.right(key, judged.tolerance)}
+            local = None if judged.local is None else speech.close_to(judged.local, judged)
+            if judged.verdict is Verdict.NEAR:
+                yield say.near.format(**places, points=self._lost(judged))
+            elif judged.verdict is Verdict.INCONSISTENT and local:
+                yield say.inconsistent.format(**places, local=local)
+            elif judged.verdict is Verdict.UNSEEN:
+                more = "" if local is None else say.unseen_local.format(**places, local=local)
+                yield say.unseen.format(**places, local=more)
+            if judged.sense_right is False and self._fits(judged) and not self._is_root(judged):
+                yield say.sense.format(**places | {"right": self._sense(key.sense)})
+            if judged.slip:
+                yield self._slipped(judged)
+            if judged.remark:
+                yield f"{places['answer']}: {quoted(judged.remark)}"
+
+    def _sense(self, sense: Sense | None) -> str:
+        return "" if sense is None else " ".join(self.speech.say.senses[sense.value])
+
+    def _lost(self, judged: Judged) -> str:
+        if judged.points >= judged.of:
+            return ""
+        share = self.speech.share
+        return self.say.near_points.format(points=share(judged.points), of=share(judged.of))
+
+    def _slipped(self, judged: Judged) -> str:
+        key, written = judged.key, judged.written
+        assert key is not None
+        per_mm = self.checked.work.scales.get(key.scale) or self.scales.get(key.scale)
+        if written is None or written.mm is None or not per_mm or judged.value is None:
+            return self.say.slip_bare.format(
+                answer=self.speech.symbol(judged), own=self.speech.own(judged)
+            )
+        return self.say.slip.format(
+            answer=self.speech.symbol(judged),
+            mm=self.speech.mm(written.mm, unit=False),
+            scale=self.speech.number(per_mm),
+            product=self.speech.with_unit(self.speech.number(written.mm * per_mm), key),
+            own=self.speech.own(judged),
+        )
+
+    def _missing(self) -> Iterator[str]:
+        blank = list(self._of(Verdict.BLANK))
+        if blank:
+            yield self.say.blank.format(answers=self._listed(blank))
+        for judged in self._of(Verdict.UNREADABLE):
+            written = judged.written
+            yield self.say.unreadable.format(
+                answer=self.speech.symbol(judged),
+                raw="" if written is None else quoted(written.raw or written.unreadable),
+                where=self._cell(judged.where),
+            )
+        for written in self.checked.work.remarks:
+            yield self.say.unreadable_other.format(
+                raw=quoted(written.raw or written.unreadable), where=self._cell(written.where)
+            )
+
+    def _cell(self, where: str) -> str:
+        return f" ({quoted(where)})" if where else ""
+
+    def _by_hand(self) -> Iterator[str]:
+        if self.checked.remark:
+            yield self.say.remark.format(remark=quoted(self.checked.remark))
+
+    # Pieces ------------------------------------------------------------------------------------
+
+    @property
+    def _codes(self) -> Mapping[str, object]:
+        return self.speech.say.mistakes
+
+    def _compared(self, judged: Judged) -> str:
+        if judged.key is None:
+            return self.speech.symbol(judged)
+        return self.say.compared.format(
+            answer=self.speech.symbol(judged),
+            own=self.speech.own(judged) or "—",
+            right=self.speech.right(judged.key, judged.tolerance),
+        )
+
+    def _known(self, ids: Iterable[str]) -> list[Judged]:
+        by_id = {judged.id: judged for judged in self.checked.answers}
+        return [by_id[id] for id in ids if id in by_id]
+
+    def _of(self, verdict: Verdict) -> Iterator[Judged]:
+        return (judged for judged in self.checked.answers if judged.verdict is verdict)
+
+    def _is_root(self, judged: Judged) -> bool:
+        return any(judged.id in diagnosis.roots for diagnosis in self.checked.diagnosis)
+
+    def _listed(self, answers: Iterable[Judged]) -> str:
+        return ", ".join(self.speech.symbol(judged) for judged in answers)
+
+
+def segment_letters(segment: str) -> str:
+    """Return the letters of a segment as rich text: ``p-b3`` gives ``pb_{3}``."""
+    return "".join(_letter(end) for end in segment.split("-"))
+
+
+def _letter(end: str) -> str:
+    head, tail = end[:1], end[1:].lstrip("_")
+    return f"{head}_{{{tail}}}" if tail else head
+
+
+def scale_letters(name: str) -> str:
+    """Return the letters of a scale: ``mu_v`` gives ``μ_{v}``."""
+    return f"μ_{{{name.removeprefix('mu_')}}}"
+
+
+def place_letters(where: str) -> str:
+    """Return where a mistake was made, as it is written: a scale with its letter."""
+    return scale_letters(where) if where.startswith("mu_") else quoted(where)

@@ -1,0 +1,127 @@
+"""Numbers of answers as a person reads them, rich text (запись ответов)."""
+
+from __future__ import annotations
+
+import html
+import re
+from dataclasses import dataclass
+
+from planmethod.check.model import Judged, KeyEntry, Sense
+from planmethod.note.numbers import trimmed
+from planmethod.note.plaintext import NO_BREAK
+from planmethod.note.rounding import rounded_to, sigma_text
+from planmethod.note.wording.check_model import CheckWording
+from planmethod.note.wording.language import Language
+
+LONGEST = 60
+"""Letters of what somebody else wrote that are repeated; the rest is cut."""
+
+_INDEX = re.compile(r"([_^])\{([^{}]*)\}")
+_TAGS = {"_": "sub", "^": "sup"}
+_CONTROL = re.compile("[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def tagged(rich: str) -> str:
+    """Return rich text with tags ``<sub>``, ``<sup>``; whatever else looks like one is escaped."""
+    text = html.escape(clean(rich))
+    return _INDEX.sub(lambda m: f"<{_TAGS[m[1]]}>{m[2]}</{_TAGS[m[1]]}>", text)
+
+
+def clean(text: str) -> str:
+    """Return a text without signs that no page can show."""
+    return _CONTROL.sub(" ", text)
+
+
+def quoted(text: str) -> str:
+    """Return what somebody else wrote, cut to a length that fits into a sentence."""
+    shown = clean(text).strip()
+    return shown if len(shown) <= LONGEST else f"{shown[: LONGEST - 1]}…"
+
+
+def told(value: float, key: KeyEntry) -> float:
+    """Return a value of an answer as it is told: of a size without its sign."""
+    return value if key.signed else abs(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Speech:
+    """How answers are told in a language."""
+
+    words: Language
+
+    @property
+    def say(self) -> CheckWording:
+        """Words of checking."""
+        return self.words.check
+
+    def symbol(self, judged: Judged) -> str:
+        """Return the letters of an answer."""
+        return quoted(judged.id) if judged.key is None else self.letters(judged.key)
+
+    def letters(self, key: KeyEntry) -> str:
+        """Return the letters of what is asked."""
+        return self.words.say.symbol(key.symbol)
+
+    def unit(self, key: KeyEntry) -> str:
+        """Return the unit of what is asked; empty where it has none."""
+        return "" if key.unit == "1" else self.words.say.units.get(key.unit, key.unit)
+
+    def number(self, value: float) -> str:
+        """Return a number as a student would write it."""
+        return self.words.say.number(trimmed(value, 4))
+
+    def sense(self, sense: Sense | None) -> str:
+        """Return the sign of a sense; empty where there is none."""
+        return "" if sense is None else self.say.senses[sense.value][0]
+
+    def with_unit(self, number: str, key: KeyEntry) -> str:
+        """Return a number with the unit of what is asked."""
+        unit = self.unit(key)
+        return number + unit if unit == "°" else f"{number}{NO_BREAK}{unit}" if unit else number
+
+    def right(self, key: KeyEntry, tolerance: float | None = None) -> str:
+        """Return the exact value with its tolerance, unit and sense: ``21,3 ± 0,7 м/с² ←``."""
+        allowed = key.tolerance if tolerance is None else tolerance
+        number = f"{self.value(key, allowed)}{NO_BREAK}±{NO_BREAK}{self.error(allowed)}"
+        return self._pointed(self.with_unit(number, key), key.sense if key.asks_sense else None)
+
+    def value(self, key: KeyEntry, tolerance: float) -> str:
+        """Return the exact value up to the last digit of its tolerance."""
+        return self.rounded(told(key.exact, key), tolerance)
+
+    def rounded(self, value: float, tolerance: float) -> str:
+        """Return a value up to the last digit of its tolerance."""
+        return self.words.say.number(rounded_to(value, tolerance))
+
+    def error(self, tolerance: float) -> str:
+        """Return a tolerance, one digit or two."""
+        return self.words.say.number(sigma_text(tolerance))
+
+    def own(self, judged: Judged) -> str:
+        """Return what a student found: value with unit and sense, else millimetres."""
+        written, key = judged.written, judged.key
+        if judged.value is None or key is None:
+            bare = "" if written is None or written.mm is None else self.mm(written.mm)
+            return self._pointed(bare, None if written is None else written.sense)
+        text = self.with_unit(self.number(told(judged.value, key)), key)
+        return self._pointed(text, None if written is None else written.sense)
+
+    def close_to(self, value: float, judged: Judged) -> str:
+        """Return another value of an answer, to the digits that can be told apart."""
+        key = judged.key
+        if key is None:
+            return self.number(value)
+        value = told(value, key)
+        return self.with_unit(self.rounded(value, judged.tolerance or key.tolerance), key)
+
+    def mm(self, length: float, *, unit: bool = True) -> str:
+        """Return a length on a plan, to a tenth of a millimetre."""
+        number = self.words.say.ruled(round(length, 1))
+        return f"{number}{NO_BREAK}{self.words.say.units['mm']}" if unit else number
+
+    def share(self, points: float) -> str:
+        """Return points."""
+        return self.words.say.number(trimmed(round(points, 2), 6))
+
+    def _pointed(self, text: str, sense: Sense | None) -> str:
+        return NO_BREAK.join(part for part in (text, self.sense(sense)) if part)

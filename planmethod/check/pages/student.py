@@ -1,0 +1,172 @@
+"""The page of one student: what stands on it, whatever it is written in (лист студента)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from planmethod.check.model import Checked, Judged, Verdict
+from planmethod.check.pages.overlay import Overlay, overlays
+from planmethod.check.pages.remarks import Remarks
+from planmethod.check.pages.speech import Speech, quoted
+from planmethod.note.wording.language import Language
+from planmethod.solved.solution import Solution
+
+PAPER = (178.0, 92.0)
+"""Room for the plans of a page, mm: the width of both side by side, the height of one."""
+
+SMALLEST = 0.42
+"""Plans that would be shrunk further stand one under the other."""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One answer in the table, rich text."""
+
+    cells: tuple[str, ...]
+    verdict: Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What a student gets, rich text.
+
+    Attributes
+    ----------
+    title, subtitle : str
+    facts : tuple of str
+        Student, variant, points, mark.
+    counted : str
+    remarks, redraw : tuple of str
+    lines : tuple of Line
+    plans : tuple of Overlay
+    captions : tuple of str
+        Of the plans, one each.
+    legend : str
+    lang : str
+    """
+
+    title: str
+    subtitle: str
+    facts: tuple[str, ...]
+    counted: str
+    remarks: tuple[str, ...]
+    redraw: tuple[str, ...]
+    lines: tuple[Line, ...]
+    plans: tuple[Overlay, ...]
+    captions: tuple[str, ...]
+    legend: str
+    lang: str
+
+    def factors(self) -> list[float]:
+        """Return by how much each plan is shrunk: one factor where they stand side by side."""
+        width, height = PAPER
+        sizes = [plan.size for plan in self.plans]
+        if not sizes:
+            return []
+        gaps = 4.0 * (len(sizes) - 1)
+        both = min(1.0, (width - gaps) / sum(w for w, _ in sizes))
+        both = min(both, *(height / h for _, h in sizes), 1.0)
+        if both >= SMALLEST:
+            return [both] * len(sizes)
+        return [min(1.0, width / w, height / h) for w, h in sizes]
+
+
+def student_page(
+    checked: Checked,
+    solution: Solution,
+    words: Language,
+    *,
+    scales: Mapping[str, float],
+    mark: str = "",
+) -> Page:
+    """Return the page of a work.
+
+    Parameters
+    ----------
+    scales : mapping of str to float
+        Those of the key, unit per mm.
+    mark : str
+        Empty where points are all there is.
+    """
+    speech = Speech(words)
+    say, problem = words.check.student, solution.problem
+    remarks = Remarks(speech, checked, scales)
+    facts = [f"{say.student}: {quoted(checked.work.student)}"]
+    if checked.variant:
+        facts.append(f"{say.variant}: {quoted(checked.variant)}")
+    facts.append(
+        say.points.format(points=speech.share(checked.points), of=speech.share(checked.of))
+    )
+    if mark:
+        facts.append(say.mark.format(mark=mark))
+    plans = overlays(solution, checked, words)
+    right = sum(judged.points > 0.0 for judged in checked.answers)
+    return Page(
+        title=say.title,
+        subtitle=problem.title or problem.name,
+        facts=tuple(facts),
+        counted=say.counted.format(right=right, count=len(checked.answers)),
+        remarks=tuple(remarks.sentences()),
+        redraw=tuple(remarks.redraw()),
+        lines=tuple(lines(checked.answers, speech)),
+        plans=tuple(plans),
+        captions=tuple(_caption(plan, len(solution.positions), words) for plan in plans),
+        legend=_legend(plans, words),
+        lang=words.lang,
+    )
+
+
+def lines(answers: Sequence[Judged], speech: Speech) -> list[Line]:
+    """Return the answers as lines of a table, see `StudentWording.columns`."""
+    symbols = {judged.id: speech.symbol(judged) for judged in answers}
+    return [
+        Line((str(number), *_cells(judged, speech, symbols)), judged.verdict)
+        for number, judged in enumerate(answers, 1)
+    ]
+
+
+def _cells(judged: Judged, speech: Speech, symbols: Mapping[str, str]) -> tuple[str, ...]:
+    key, written, say = judged.key, judged.written, speech.say
+    own = speech.own(judged)
+    if judged.verdict is Verdict.UNREADABLE and written is not None:
+        own = f"«{quoted(written.raw or written.unreadable)}»"
+    verdict = say.verdicts[judged.verdict.value]
+    if judged.follows in symbols:
+        verdict = say.student.source.format(source=symbols[judged.follows])
+    return (
+        speech.symbol(judged),
+        own or "—",
+        "—" if key is None else speech.right(key, judged.tolerance),
+        _lengths(judged, speech),
+        verdict,
+        say.student.share.format(points=speech.share(judged.points), of=speech.share(judged.of)),
+    )
+
+
+def _lengths(judged: Judged, speech: Speech) -> str:
+    """Return the student's millimetres beside the true ones."""
+    key, written = judged.key, judged.written
+    own = None if written is None else written.mm
+    true = None if key is None else key.mm
+    texts = ["—" if length is None else speech.mm(length, unit=False) for length in (own, true)]
+    return "" if own is None and true is None else " / ".join(texts)
+
+
+def _caption(plan: Overlay, positions: int, words: Language) -> str:
+    say = words.check.student
+    name = say.plan_names[plan.kind.value]
+    caption = say.plan_title.format(plan=name[:1].upper() + name[1:], scale=plan.scale)
+    if positions > 1:
+        caption += f", {say.position.format(position=plan.index + 1)}"
+    return caption
+
+
+def _legend(plans: Sequence[Overlay], words: Language) -> str:
+    say = words.check.student
+    if not any(plan.own for plan in plans):
+        return ""
+    code = next((plan.mistake for plan in plans if plan.mistake), "")
+    if code in words.check.mistakes:
+        return say.legend_mistake.format(name=words.check.mistakes[code].name)
+    return say.legend

@@ -1,0 +1,154 @@
+"""Workbooks with the same bytes for the same content (книги XLSX)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+if TYPE_CHECKING:
+    from openpyxl import Workbook
+
+EPOCH = (1980, 1, 1, 0, 0, 0)
+_CLOCK = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+LONGEST = 1000
+WIDEST = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """A cell with a ground: its value, and the colour as RRGGBB."""
+
+    value: Any
+    colour: str
+
+
+def new_workbook() -> Workbook:
+    """Return a workbook without sheets."""
+    from openpyxl import Workbook
+
+    book = Workbook()
+    book.remove(book.active)
+    return book
+
+
+def add_sheet(
+    book: Workbook,
+    title: str,
+    header: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+    *,
+    formats: Mapping[int, str] | None = None,
+    frozen: int = 1,
+    row: int = 1,
+) -> Any:
+    """Write a table into a sheet, which is made where there is none of its name.
+
+    Parameters
+    ----------
+    rows : sequence of sequences
+        Numbers, texts, None, or `Filled`. A text is never a formula.
+    formats : mapping of int to str
+        Number formats of columns, counted from 0.
+    frozen : int
+        Columns that stay in sight, with the head of a table in the first row.
+    row : int
+        Of the head.
+    """
+    sheet = book[title] if title in book.sheetnames else book.create_sheet(title)
+    looks = _Looks(sheet)
+    for column, text in enumerate(header, 1):
+        looks.put(row, column, text, colour="EEEEEE", bold=True)
+    for down, values in enumerate(rows, row + 1):
+        for column, value in enumerate(values, 1):
+            form = (formats or {}).get(column - 1, "General")
+            if isinstance(value, Filled):
+                looks.put(down, column, value.value, colour=value.colour, form=form)
+            elif value is not None and value != "":
+                looks.put(down, column, value, form=form)
+    _widen(sheet, header, rows)
+    if row == 1:
+        sheet.freeze_panes = sheet.cell(2, frozen + 1)
+        sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", 9
+        sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
+        sheet.sheet_properties.pageSetUpPr.fitToPage = True
+        sheet.print_title_rows = "1:1"
+    return sheet
+
+
+class _Looks:
+    """Puts values into the cells of a sheet; every look is made once, since that is slow."""
+
+    def __init__(self, sheet: Any) -> None:
+        self._sheet = sheet
+        self._made: dict[tuple[Any, ...], Any] = {}
+
+    def put(
+        self,
+        row: int,
+        column: int,
+        value: Any,
+        *,
+        colour: str = "",
+        form: str = "General",
+        bold: bool = False,
+    ) -> None:
+        """Put a value into a cell."""
+        cell = self._sheet.cell(row, column)
+        is_text = isinstance(value, str)
+        # Set as text whatever it looks like: a name that begins with "=" stays one, in Excel too.
+        is_quoted = is_text and value[:1] in ("=", "+", "-", "@", "'")
+        cell.value = _CONTROL.sub(" ", value)[:LONGEST] if is_text else value
+        if is_text:
+            cell.data_type = "s"
+        look = (is_text, is_quoted, colour, form, bold)
+        if look not in self._made:
+            self._dress(cell, *look)
+            self._made[look] = cell._style
+        cell._style = self._made[look]
+
+    @staticmethod
+    def _dress(
+        cell: Any, is_text: bool, is_quoted: bool, colour: str, form: str, bold: bool
+    ) -> None:
+        from openpyxl.styles import Alignment, Font, PatternFill
+
+        cell.alignment = Alignment(vertical="top", wrap_text=is_text)
+        cell.number_format = "General" if is_text else form
+        cell.quotePrefix = is_quoted
+        if bold:
+            cell.font = Font(bold=True)
+        if colour:
+            cell.fill = PatternFill("solid", fgColor=colour)
+
+
+def _widen(sheet: Any, header: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
+    from openpyxl.utils import get_column_letter
+
+    for column, head in enumerate(header):
+        longest = max(len(word) for word in [*head.split(), ""])
+        for values in rows:
+            value = values[column].value if isinstance(values[column], Filled) else values[column]
+            longest = max(longest, len(value) if isinstance(value, str) else 8)
+        dimension = sheet.column_dimensions[get_column_letter(column + 1)]
+        dimension.width = max(dimension.width or 0.0, min(WIDEST, longest * 1.1 + 2.0))
+
+
+def saved(book: Workbook) -> bytes:
+    """Return the file of a workbook, without the time at which it was made."""
+    file = BytesIO()
+    book.save(file)
+    fixed = BytesIO()
+    with ZipFile(file) as old, ZipFile(fixed, "w", ZIP_DEFLATED) as new:
+        for name in old.namelist():
+            data = old.read(name)
+            if name == "docProps/core.xml":
+                data = _CLOCK.sub(rb"\g<1>1980-01-01T00:00:00Z", data)
+            entry = ZipInfo(name, EPOCH)
+            entry.compress_type = ZIP_DEFLATED
+            new.writestr(entry, data)
+    return fixed.getvalue()

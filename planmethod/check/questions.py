@@ -1,0 +1,436 @@
+"""What can be asked of a problem, found in the program of its plans (вопросы и шаги построения)."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from planmethod.check.letters import known_forms, plain
+from planmethod.construct.arithmetic import Number
+from planmethod.construct.dual import angle
+from planmethod.construct.evaluate import Trace
+from planmethod.construct.steps import LineName, Name, NumberName, PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.legend import QuantityKind
+from planmethod.plans.model import FACTS, MOTION, PlanKind, VectorKind
+from planmethod.plans.segments import Ends, Segments
+from planmethod.problem.selector import FORCES, Selector, SelectorError, parse_selector
+from planmethod.solved.errors.drawing import RADIAN
+from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.selected.asking import COMPONENTS, Asking, NoAnswer, UnansweredError
+from planmethod.solved.selected.forces import ForceQuantities
+from planmethod.solved.solution import Solution
+
+RATES = ("omega", "epsilon")
+DRIVES = ("balance", "lever")
+
+
+class Sign(Enum):
+    """What the sign of an answer tells."""
+
+    SIZE = "size"  # nothing: it is a magnitude
+    TURN = "turn"  # the sense, which may be told beside it instead
+    STRICT = "strict"  # it belongs to the number
+    ANGLE = "angle"  # degrees, whole turns do not count
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """One quantity of a problem in one position, and the steps that give it (вопрос).
+
+    Attributes
+    ----------
+    selector : Selector
+    id : str
+        What it is called where nobody names it otherwise: ``v_B3``.
+    symbol : str
+        Rich text: ``v_{B3}``.
+    unit : str
+        SI; ``deg``, ``mm``.
+    sign : Sign
+    take : callable
+        The quantity from a trace, with its sign.
+    needs : tuple of Name
+    name : NumberName or None
+        Number of the program that it is; None of an angle, which nothing goes on from.
+    plan : PlanKind or None
+    length : NumberName or None
+        Length of its segment, mm.
+    ends : (PointName, PointName) or None
+        Ends of that segment.
+    way : float
+        -1 where the vector points from the second end to the first.
+    """
+
+    selector: Selector
+    id: str
+    symbol: str
+    unit: str
+    sign: Sign
+    take: Callable[[Trace], Number]
+    needs: tuple[Name, ...]
+    name: NumberName | None = None
+    plan: PlanKind | None = None
+    length: NumberName | None = None
+    ends: Ends | None = None
+    way: float = 1.0
+
+    @property
+    def is_mm(self) -> bool:
+        """Whether it is itself a length on a plan."""
+        return self.unit == "mm"
+
+    @property
+    def scale(self) -> str:
+        """Scale of its plan: ``mu_v``; empty where there is none."""
+        return "" if self.plan is None else FACTS[self.plan].scale
+
+
+class Questions:
+    """Finds quantities of a solution in one position, and grows the program by what they need.
+
+    Parameters
+    ----------
+    solution : Solution
+    position : int
+        From 0.
+    """
+
+    def __init__(self, solution: Solution, position: int = 0) -> None:
+        self.solution, self.position = solution, position
+        self.construction = solution.construction
+        self.statics: Statics | None = None
+        draft = self.construction.draft
+        if solution.problem.dynamics is not None:
+            self.statics = statics_of(solution)
+            draft = self.statics.board.draft
+        self._asking = Asking(solution, draft.copy())
+        self._found: dict[Selector, Question] = {}
+        self._forms: Mapping[str, Selector] | None = None
+
+    @property
+    def asking(self) -> Asking:
+        """The construction with the steps of all that was asked so far."""
+        return self._asking
+
+    def selector(self, text: str) -> Selector:
+        """Return the quantity that a text names: words of ``[published]``, ``v_B3``, ``VB₃``, ``ω3``.
+
+        Raises
+        ------
+        UnansweredError
+        """
+        try:
+            return parse_selector(text)
+        except SelectorError:
+            pass
+        if self._forms is None:
+            self._forms = known_forms(self)
+        found = self._forms.get(plain(text))
+        if found is None:
+            raise UnansweredError(NoAnswer.NO_WHAT)
+        return found
+
+    def question(self, selector: Selector) -> Question:
+        """Return a quantity with its steps.
+
+        Raises
+        ------
+        UnansweredError
+            When the problem has no such quantity.
+        """
+        if selector not in self._found:
+            self._found[selector] = self._ask(selector)
+        return self._found[selector]
+
+    def usual(self) -> Iterator[Selector]:
+        """Yield what a task asks that says nothing else: velocities, accelerations, ω, ε, forces."""
+        construction, kin = self.construction, self.construction.kinematics
+        told = {self._asking.zero, *self.construction.draft.numbers}  # nothing, and the given ones
+        kinds = (
+            (QuantityKind.VELOCITY, "v"),
+            (QuantityKind.SLIDING, "vs"),
+            (QuantityKind.OMEGA, "omega"),
+            (QuantityKind.ACCELERATION, "a"),
+            (QuantityKind.CORIOLIS, "ak"),
+            (QuantityKind.EPSILON, "epsilon"),
+        )
+        for kind, word in kinds:
+            for quantity in construction.legend:
+                if quantity.kind is not kind or quantity.size is None or quantity.size in told:
+                    continue
+                if word in RATES and (kind.plan, quantity.of) not in kin.turnings:
+                    continue  # given, or that of the link that it slides on
+                if word == "vs" and quantity.of.endswith(f"/{FRAME}"):
+                    continue  # the velocity itself
+                told.add(quantity.size)
+                yield Selector(word, self._names(word, quantity.of))
+        if self.statics is not None:
+            for reaction in self.statics.board.reactions:
+                size = self.statics.board.segments.known(reaction.force.ends)
+                if size not in told:
+                    told.add(size)
+                    yield Selector("F", (reaction.on, reaction.by))
+            yield Selector("balance", ())
+            if self.statics.lever_plan is not None:
+                yield Selector("lever", ())
+
+    def _names(self, word: str, of: str) -> tuple[str, ...]:
+        if word not in ("vs", "ak", "ar"):
+            return (of,)
+        return next(pair for name, pair in self.pairs() if name == of)
+
+    def pairs(self) -> Iterator[tuple[str, tuple[str, str]]]:
+        """Yield the sliding pairs by name, ``B3/2``, and their coincident points, ``B3``, ``B``."""
+        label = self.construction.kinematics.velocity.label
+        for relative in self.construction.kinematics.relatives.values():
+            place = relative.point
+            yield relative.name, (label(relative.of, place), label(relative.to, place))
+
+    def vectors(self) -> Iterator[tuple[Selector, PlanKind, Ends]]:
+        """Yield the vectors of the plans that are between two points of a link: v_ED, aⁿ_ED, aᵗ_ED."""
+        words = {
+            (PlanKind.VELOCITY, VectorKind.RELATIVE): "v",
+            (PlanKind.ACCELERATION, VectorKind.NORMAL): "an",
+            (PlanKind.ACCELERATION, VectorKind.TANGENTIAL): "at",
+        }
+        for plan in self.construction.plans:
+            for vector in plan.vectors:
+                word = words.get((plan.kind, vector.kind))
+                if word is None or vector.direction is None:
+                    continue
+                joint = vector.direction.points[1]
+                index = vector.symbol.rpartition("_{")[2].removesuffix("}").removesuffix(joint)
+                yield Selector(word, (index, joint)), plan.kind, (vector.tail, vector.head)
+
+    # Steps -----------------------------------------------------------------------------------
+
+    def _ask(self, selector: Selector) -> Question:
+        kind = selector.kind
+        if selector.over is not None:
+            return self._quotient(selector)
+        if kind == "phi" or kind.startswith("angle "):
+            return self._angle(selector)
+        if kind in FORCES:
+            return self._force(selector)
+        for known, plan, ends in self.vectors():
+            values = self._segments(plan).values
+            if known == selector and ends in values:  # as the plan has it, not computed anew
+                return self._number(selector, values[ends], Sign.SIZE, plan, ends)
+        if kind == "vs":
+            name = self._asking.relative("v", *selector.names)
+            between = self._ends(PlanKind.VELOCITY, name)
+            return self._number(selector, name, Sign.SIZE, PlanKind.VELOCITY, between)
+        answer = self._asking.answer(selector)
+        if answer.plan is not None:
+            tail, head = (self._asking.point(answer.plan, name) for name in selector.names)
+            between = None if answer.plan is PlanKind.POSITION else (tail, head)
+            return self._made(
+                selector, "mm", Sign.SIZE, answer.name, answer.plan, answer.name, between
+            )
+        if kind in COMPONENTS:
+            plan = COMPONENTS[kind]
+            return self._made(selector, FACTS[plan].unit, Sign.STRICT, answer.name, plan)
+        if kind in RATES:
+            return self._rate(selector, answer.name)
+        plan = PlanKind.ACCELERATION if kind.startswith("a") else PlanKind.VELOCITY
+        return self._number(selector, answer.name, Sign.SIZE, plan, self._ends(plan, answer.name))
+
+    def _segments(self, plan: PlanKind) -> Segments:
+        if plan is PlanKind.FORCE:
+            assert self.statics is not None
+            return self.statics.board.segments
+        return self._asking.segments(plan)
+
+    def _ends(self, plan: PlanKind, name: NumberName) -> Ends | None:
+        """Return the segment that a number is the value of."""
+        values = self._segments(plan).values
+        return next((ends for ends, value in values.items() if value == name), None)
+
+    def _rate(self, selector: Selector, name: NumberName) -> Question:
+        plan = PlanKind.VELOCITY if selector.kind == "omega" else PlanKind.ACCELERATION
+        kin = self.construction.kinematics
+        rates = kin.rates(plan)
+        ends = next(
+            (
+                (turning.start, turning.head)
+                for (of, link), turning in kin.turnings.items()
+                if of is plan and rates.get(link) == name
+            ),
+            None,
+        )
+        unit = "1/s" if plan is PlanKind.VELOCITY else "1/s²"
+        length = None if ends is None else self._segments(plan).drawn(ends)
+        return self._made(selector, unit, Sign.TURN, name, plan if ends else None, length)
+
+    def _number(
+        self, selector: Selector, name: NumberName, sign: Sign, plan: PlanKind, ends: Ends | None
+    ) -> Question:
+        length = None if ends is None else self._segments(plan).drawn(ends)
+        return self._made(selector, FACTS[plan].unit, sign, name, plan, length, ends)
+
+    def _made(
+        self,
+        selector: Selector,
+        unit: str,
+        sign: Sign,
+        name: NumberName,
+        plan: PlanKind | None = None,
+        length: NumberName | None = None,
+        ends: Ends | None = None,
+        way: float = 1.0,
+    ) -> Question:
+        def take(trace: Trace) -> Number:
+            return trace.value[name]
+
+        needs = tuple(n for n in (name, length, *(ends or ())) if n is not None)
+        own, symbol = called(selector)
+        return Question(
+            selector, own, symbol, unit, sign, take, needs, name, plan, length, ends, way
+        )
+
+    def _quotient(self, selector: Selector) -> Question:
+        assert selector.over is not None
+        above = self.question(Selector(selector.kind, selector.names))
+        below = self.question(selector.over)
+        if above.name is None or below.name is None:
+            raise UnansweredError(NoAnswer.NO_WHAT)
+        name = self._asking.compute((above.name, 1), (below.name, -1))
+        sign = Sign.SIZE if Sign.SIZE in (above.sign, below.sign) else Sign.STRICT
+        return self._made(selector, "", sign, name)
+
+    def _angle(self, selector: Selector) -> Question:
+        own, symbol = called(selector)
+        if selector.kind == "phi":
+            link = selector.names[0]
+            axes = self._asking.draft.axes
+            if link not in axes:
+                raise UnansweredError(NoAnswer.NO_LINK)
+            line: LineName = axes[link]
+
+            def take(trace: Trace) -> Number:
+                return angle(trace.value[line][1], 0.0) * RADIAN
+
+            return Question(selector, own, symbol, "deg", Sign.ANGLE, take, (line,))
+        tail, head = self._forces().directed(selector)
+
+        def directed(trace: Trace) -> Number:
+            return angle(trace.value[head] - trace.value[tail], 0.0) * RADIAN
+
+        return Question(selector, own, symbol, "deg", Sign.ANGLE, directed, (tail, head))
+
+    def _forces(self) -> ForceQuantities:
+        return ForceQuantities(self.solution, self.position)
+
+    def _force(self, selector: Selector) -> Question:
+        forces, kind = self._forces(), selector.kind
+        name = forces.answer(self._asking, selector)
+        first = kind.partition(" ")[0]
+        if first in ("arm", "shift"):
+            return self._made(selector, "mm", Sign.SIZE, name, PlanKind.POSITION, name)
+        if kind in DRIVES:
+            crank = self.solution.problem.drive.pivot is not None
+            unit = "N·m" if crank and not selector.names else "N"
+            sign = Sign.TURN if not selector.names else Sign.SIZE
+            ends = self._ends(PlanKind.FORCE, name)
+            plan = None if ends is None else PlanKind.FORCE
+            length = None if ends is None else self._segments(PlanKind.FORCE).drawn(ends)
+            return self._made(selector, unit, sign, name, plan, length, ends)
+        if kind in ("M", "inertia couple"):
+            return self._made(selector, "N·m", Sign.SIZE, name)
+        ends, way = self._ends(PlanKind.FORCE, name), 1.0
+        if ends is None:
+            unit = "N·m" if kind == "load" and name != self._asking.zero else "N"
+            plan = PlanKind.FORCE if unit == "N" else None
+            return self._made(selector, unit, Sign.SIZE, name, plan)
+        if kind == "F":
+            way = forces.sense(selector)
+        length = self._segments(PlanKind.FORCE).drawn(ends)
+        return self._made(selector, "N", Sign.SIZE, name, PlanKind.FORCE, length, ends, way)
+
+    def segment(self, plan: PlanKind, letters: str) -> tuple[Ends, NumberName]:
+        """Return the segment that two letters of a plan name, ``p b3``, and its length.
+
+        Raises
+        ------
+        UnansweredError
+        """
+        ends = letters_of(letters, self._lettered(plan))
+        if ends is None or plan not in MOTION[1:]:
+            raise UnansweredError(NoAnswer.NO_POINT)
+        return ends, self._asking.segments(plan).length(*ends)
+
+    def _lettered(self, plan: PlanKind) -> dict[str, PointName]:
+        if plan not in MOTION[1:]:
+            return {}
+        found: dict[str, PointName] = {}
+        drawn = self.construction.plan(plan)
+        for at, shown in drawn.letters.items():
+            for letter in shown.split(", "):
+                found.setdefault(plain(letter), at)
+        motion = self._asking.motion(plan)
+        for name, of in motion.named.items():
+            found.setdefault(plain(name.lower()), motion.point[of])
+        assert drawn.pole is not None
+        for letter in ("p", "π", "п", "р"):
+            found.setdefault(plain(letter), drawn.pole)
+        return found
+
+
+def called(selector: Selector) -> tuple[str, str]:
+    """Return what a quantity is called, ``v_B3``, and its symbol in rich text, ``v_{B3}``."""
+    kind, names = selector.kind, selector.names
+    own = f"{kind.replace(' ', '_')}_{'_'.join(names)}" if names else kind
+    letters = {
+        "omega": "ω",
+        "epsilon": "ε",
+        "phi": "φ",
+        "vs": "v",
+        "an": "a^{n}",
+        "at": "a^{τ}",
+        "ak": "a^{k}",
+        "ar": "a^{r}",
+        "Ft": "F^{τ}",
+        "Fn": "F^{n}",
+        "weight": "G",
+        "inertia": "Φ",
+        "inertia couple": "M_Φ",
+        "length": "l",
+        "balance": "M_{ур}",
+        "lever": "M_{ур}^{Ж}",
+        "load": "",
+    }
+    if selector.over is not None:
+        over_own, over_symbol = called(selector.over)
+        one_own, one_symbol = called(Selector(kind, names))
+        return f"{one_own}/{over_own}", f"{one_symbol}/{over_symbol}"
+    if kind.startswith("segment"):
+        return own, "".join(name.lower() for name in names)
+    if kind.startswith("arm"):
+        return own, "h_{" + ",".join(names) + "}"
+    if kind.startswith("angle"):
+        return own, "α_{" + ",".join(names) + "}"
+    letter = letters.get(kind, kind)
+    if kind == "load":
+        return own, names[0]
+    joined = "".join(names) if all(len(n) < 3 for n in names) else ",".join(names)
+    return own, f"{letter}_{{{joined}}}" if names else letter
+
+
+def letters_of(text: str, known: Mapping[str, PointName]) -> Ends | None:
+    """Return the two points that the letters of a segment name: ``p b3``, ``pb₃``, ``π-b3``."""
+    folded = unicodedata.normalize("NFKC", text).strip().lower()
+    for mark in "'′’`|":
+        folded = folded.replace(mark, "")
+    parts = [plain(part) for part in folded.replace("-", " ").replace("–", " ").split()]
+    if len(parts) == 2:
+        cuts = [(parts[0], parts[1])]
+    else:
+        whole = plain(folded)
+        cuts = [(whole[:at], whole[at:]) for at in range(1, len(whole))]
+    for one, two in cuts:
+        if one in known and two in known and known[one] != known[two]:
+            return known[one], known[two]
+    return None

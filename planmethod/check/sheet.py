@@ -1,0 +1,254 @@
+"""One sheet of plans with all that is asked of it: exact, with its errors, and replayed (лист).
+
+A sheet is one position of a problem at the scales of whoever draws it. A student's own numbers are
+put into its program (replay), so that what follows from them is found as the plans find it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from types import MappingProxyType
+from typing import TypeAlias
+
+import numpy as np
+
+from planmethod.check.questions import Question, Questions, Sign
+from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.drafting import Counted, Profile, Propagated
+from planmethod.construct.dual import Dual, angle, as_dual
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.program import Program
+from planmethod.construct.steps import Name, NumberName, Step
+from planmethod.plans.segments import Ends
+from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
+from planmethod.solved.errors.spread import Errors
+
+DRAWS = 1000
+"""Random sheets where first order does not hold."""
+
+NOTHING_MM = 1e-6
+"""A segment not longer than this has no direction."""
+
+KINDS = {Sign.SIZE: DrawnKind.LENGTH, Sign.ANGLE: DrawnKind.DIRECTION}
+
+
+def scalar(value: Number) -> float:
+    """Return the one number of an array."""
+    return float(np.asarray(value, dtype=float).reshape(-1)[0])
+
+
+Own: TypeAlias = Mapping[NumberName, tuple[float, bool]]
+"""A student's own numbers, by what they stand for; whether the sign of each is his own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Local:
+    """What a set of numbers leaves open of those that follow from it, to first order.
+
+    Attributes
+    ----------
+    sigma : mapping
+        Error of drawing and reading that is left when the earlier numbers are given.
+    slopes : mapping of (Name, Name) to float
+        How a number changes with an earlier one.
+    """
+
+    sigma: Mapping[Name, float]
+    slopes: Mapping[tuple[Name, Name], float]
+
+
+class Sheet:
+    """Plans of one position at given scales, and what is asked of them.
+
+    Parameters
+    ----------
+    questions : Questions
+        Of a solution and a position.
+    asked : sequence of Question
+    scales : mapping of str to float
+        Unit per mm of every plan.
+    profile : Profile
+        How well the sheet is drawn.
+    """
+
+    def __init__(
+        self,
+        questions: Questions,
+        asked: Sequence[Question],
+        scales: Mapping[str, float],
+        profile: Profile,
+    ) -> None:
+        self.questions, self.asked = questions, tuple(asked)
+        self.scales, self.profile = dict(scales), profile
+        needs = {name for question in asked for name in question.needs}
+        whole = questions.asking.b.program()
+        self.program = whole.needed_for(needs)
+        self.order = {step.out: number for number, step in enumerate(self.program.steps)}
+        self.made: dict[Name, Step] = {step.out: step for step in self.program.steps}
+        self._local: dict[frozenset[Name], Local] = {}
+
+    # Data ------------------------------------------------------------------------------------
+
+    @cached_property
+    def data(self) -> dict[str, Number]:
+        """Data of the program."""
+        solution, statics = self.questions.solution, self.questions.statics
+        chosen = np.array([self.questions.position])
+        data: dict[str, Number] = {**self.questions.asking.draft.numbers}
+        if statics is None:
+            return {**data, **solution.data(self.scales, chosen)}
+        return {**data, **statics.data(self.scales, chosen)}
+
+    @cached_property
+    def free(self) -> frozenset[str]:
+        """Poles and first points of the plans, which may stand anywhere."""
+        questions = self.questions
+        free = {str(plan.pole) for plan in questions.construction.plans}
+        if questions.statics is not None:
+            free |= {str(start) for start in questions.statics.board.starts}
+        return frozenset(free)
+
+    # Exact -----------------------------------------------------------------------------------
+
+    @cached_property
+    def trace(self) -> Trace:
+        """Exact reading, mm."""
+        return evaluate(self.program, self.data, Float64())
+
+    @cached_property
+    def exact(self) -> dict[str, float]:
+        """Exact answers with their signs, by the id of the question."""
+        return self.taken(self.trace)
+
+    def taken(self, trace: Trace) -> dict[str, float]:
+        """Return the answers that a reading gives."""
+        return {question.id: scalar(question.take(trace)) for question in self.asked}
+
+    def length(self, question: Question) -> float | None:
+        """Return the length of the segment of a question, mm."""
+        return None if question.length is None else abs(scalar(self.trace.value[question.length]))
+
+    def vector(self, question: Question, trace: Trace | None = None) -> complex | None:
+        """Return the segment of a question as it lies on the plan, mm."""
+        if question.ends is None:
+            return None
+        value = (trace or self.trace).value
+        tail, head = (np.asarray(value[end], dtype=complex).reshape(-1)[0] for end in question.ends)
+        return complex(head - tail) * question.way
+
+    # Errors ----------------------------------------------------------------------------------
+
+    @cached_property
+    def errors(self) -> Errors:
+        """Drafting errors of the answers, by id; of their segments by ``|id|``."""
+        return self.errors_of(self.program, self.data)
+
+    def errors_of(self, program: Program, data: Mapping[str, Number]) -> Errors:
+        """Return the drafting errors of the answers that another program gives."""
+        items: list[DrawnQuantity] = []
+        for q in self.asked:
+            kind = KINDS.get(q.sign, DrawnKind.NUMBER)
+            needs = q.needs[: 1 if q.name is not None else None]
+            take = partial(_sized, q) if q.sign is Sign.SIZE else q.take
+            way = f"angle of {q.id}" if q.sign is Sign.SIZE and q.ends is not None else ""
+            items.append(DrawnQuantity(q.id, needs, take, kind, direction=way))
+            if q.length is not None and q.length != q.name:
+                size = partial(_size_of, q.length)
+                items.append(DrawnQuantity(f"|{q.id}|", (q.length,), size, DrawnKind.LENGTH))
+            if way and q.ends is not None:
+                turn = partial(_angle_of, q.ends)
+                items.append(DrawnQuantity(way, q.ends, turn, DrawnKind.DIRECTION))
+        drawn = Drafted(program, lambda _: dict(data), 1, self.profile, self.free, tuple(items))
+        return Errors(drawn, draws=DRAWS)
+
+    def sigma(self, question: Question, *, length: bool = False) -> float:
+        """Return one standard deviation of an answer, or of its segment; infinite where it has none."""
+        label = f"|{question.id}|" if length else question.id
+        if label not in self.errors.items:
+            label = question.id
+        sigma = float(self.errors.spreads[label].sigma[0])
+        return sigma if math.isfinite(sigma) else math.inf
+
+    # Replay ----------------------------------------------------------------------------------
+
+    def replayed(
+        self,
+        own: Own,
+        program: Program | None = None,
+        data: Mapping[str, float] = MappingProxyType({}),
+    ) -> tuple[dict[Name, float], Trace]:
+        """Put a student's own numbers in; return what comes out in their places, and everything.
+
+        Parameters
+        ----------
+        own : mapping
+            Number and whether its sign is his own; else it has that of what comes out.
+        program, data : Program, mapping
+            With a mistake; data in place of the right ones.
+        """
+        local: dict[Name, float] = {}
+
+        def put(name: Name, value: Number) -> Number:
+            if name not in own:
+                return value
+            local[name] = scalar(value)
+            number, signed = own[NumberName(name)]
+            if not signed and local[name] < 0:
+                number = -abs(number)
+            return np.array([number])
+
+        whole = {**self.data, **data} if data else self.data
+        trace = evaluate(program or self.program, whole, Float64(), put)
+        return local, trace
+
+    def local(self, names: Iterable[NumberName]) -> Local:
+        """Return what is left open when some numbers are given: sigmas and slopes between them."""
+        given = frozenset[Name](names)
+        if given not in self._local:
+            self._local[given] = self.localised(given, self.program, self.data)
+        return self._local[given]
+
+    def localised(
+        self, given: Iterable[Name], program: Program, data: Mapping[str, Number]
+    ) -> Local:
+        """Return the same of another program."""
+        names = sorted(given, key=self.order.__getitem__)
+        counted = Counted(self.profile, self.free)
+        evaluate(program, data, counted)
+        causes, count = counted.causes, len(names)
+        pencil = Propagated(self.profile, self.free, causes + count)
+        row = {name: causes + number for number, name in enumerate(names)}
+        sigma: dict[Name, float] = {}
+        slopes: dict[tuple[Name, Name], float] = {}
+
+        def put(name: Name, value: Number) -> Number:
+            if name not in row:
+                return value
+            made = as_dual(value)
+            slope = np.zeros(causes + count) if made.slope is None else made.slope[:, 0]
+            sigma[name] = float(np.sqrt((slope[:causes] ** 2).sum()))
+            for other in names:
+                if slope[row[other]]:
+                    slopes[name, other] = float(slope[row[other]])
+            own = np.zeros((causes + count, 1))
+            own[row[name]] = 1.0
+            return Dual(made.value, own)
+
+        evaluate(program, data, pencil, put)
+        return Local(sigma, slopes)
+
+
+def _sized(question: Question, trace: Trace) -> Number:
+    return abs(question.take(trace))
+
+
+def _angle_of(ends: Ends, trace: Trace) -> Number:
+    tail, head = ends
+    return angle(trace.value[head] - trace.value[tail], NOTHING_MM) * RADIAN
+
+
+def _size_of(name: NumberName, trace: Trace) -> Number:
+    return abs(trace.value[name])

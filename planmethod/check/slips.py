@@ -1,0 +1,139 @@
+"""Slips with one number: units, decimal places, scales, the wrong segment (описки и просчёты)."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from planmethod.check.explain import Explanation
+from planmethod.check.judge import Examined
+from planmethod.check.questions import Sign
+from planmethod.check.sheet import Sheet
+from planmethod.construct.steps import NumberName
+from planmethod.plans.model import FACTS, MOTION, PlanKind
+
+UNITS = (
+    1e3,
+    1e-3,
+    30.0 / math.pi,
+    math.pi / 30.0,
+    180.0 / math.pi,
+    math.pi / 180.0,
+    1.0 / math.pi,
+    math.pi,
+)
+"""Factors between units that are mixed up: mm and m, rev/min and 1/s, degrees and radians."""
+
+PLACES = (10.0, 0.1, 100.0, 0.01, 1e4, 1e-4)
+
+SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
+
+CLOSE = 0.03
+
+
+def slips(sheet: Sheet, one: Examined) -> Iterator[tuple[str, str, float, float]]:
+    """Yield what may have been done with one number: code, where, its value then, prior."""
+    base = one.limit.exact if one.local is None else one.local
+    if not base or not one.value:
+        return
+    ratio = abs(one.value / base)
+    slack = max(CLOSE, 1.5 * one.limit.tolerance() / abs(one.limit.exact or base))
+
+    def near(factor: float) -> bool:
+        return abs(ratio / factor - 1.0) <= min(slack, 0.3)
+
+    for factor in UNITS:
+        if near(factor):
+            yield "S2", "", base * factor, 1.0
+    for factor in PLACES:
+        if near(factor):
+            yield "S4", "", base * factor, 1.0
+    for swapped in _swaps(one):
+        if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
+            yield "S4", "", one.value, 0.2
+    yield from _scales(sheet, one, base)
+    yield from _segments(sheet, one, base, slack)
+    question = one.item.question
+    if question.is_mm and question.plan is PlanKind.POSITION:
+        true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
+        if near(true):
+            yield "true_mm", "", base * true, 1.0
+
+
+def _swaps(one: Examined) -> Iterator[float]:
+    """Yield his number with two neighbouring digits swapped back, SI."""
+    written, value = one.written.raw, one.written.value
+    digits = [m.start() for m in re.finditer(r"\d", written)]
+    if not value or not written or len(digits) > 8:
+        return
+    try:
+        shown = float(written.replace(",", "."))
+    except ValueError:
+        return
+    if not shown:
+        return
+    for first, second in pairwise(digits):
+        letters = list(written)
+        letters[first], letters[second] = letters[second], letters[first]
+        if letters != list(written):
+            yield float("".join(letters).replace(",", ".")) * value / shown
+
+
+def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[tuple[str, str, float, float]]:
+    """Yield a value that his own millimetres make at another scale."""
+    question, mm = one.item.question, one.mm
+    if not mm or question.is_mm or question.plan not in MOTION or one.told is None:
+        return
+    own = sheet.scales[question.scale]
+    sign = math.copysign(1.0, base)
+    if abs(abs(one.value) * own / mm - 1.0) <= 0.01 and own != 1.0:
+        yield "S1", question.scale, sign * mm / own, 2.0
+    for plan in MOTION:
+        other = sheet.scales[FACTS[plan].scale]
+        share = abs(one.told) / own * other
+        if other != own and abs(abs(one.value) / share - 1.0) <= 0.01:
+            yield "S3", question.scale, sign * share, 2.0
+
+
+def _segments(
+    sheet: Sheet, one: Examined, base: float, slack: float
+) -> Iterator[tuple[str, str, float, float]]:
+    """Yield the values of the other segments of the plan, read in place of the right one."""
+    question = one.item.question
+    length = sheet.length(question)
+    if not length or question.plan not in SEGMENT_CODES or question.sign is Sign.STRICT:
+        return
+    for segment in sheet.questions.construction.segments:
+        if segment.kind is not question.plan or segment.length not in sheet.trace.value:
+            continue
+        share = abs(float(sheet.trace.value[NumberName(segment.length)].reshape(-1)[0])) / length
+        if abs(share - 1.0) > slack and abs(abs(one.value / base) / share - 1.0) <= slack:
+            yield SEGMENT_CODES[question.plan], segment.name, base * share, 0.5
+
+
+def put_explanation(
+    sheet: Sheet, one: Examined, code: str, where: str, value: float, prior: float, *, free: bool
+) -> Explanation | None:
+    """Return what follows on the right plans from one number that is otherwise."""
+    question = one.item.question
+    if one.slot is None:
+        return None
+    own = {one.slot: (abs(value) / one.per_slot, False)}
+    _, trace = sheet.replayed(own)
+    values = sheet.taken(trace)
+    values[question.id] = value
+    if not all(math.isfinite(number) for number in values.values()):
+        return None
+    return Explanation(
+        code,
+        where,
+        values,
+        trace,
+        sheet,
+        begins=(one.item.id,),
+        free=question.id if free else "",
+        fixed="" if free else question.id,
+        prior=prior,
+    )

@@ -1,0 +1,203 @@
+"""A problem with all that is asked of it, solved once for everybody who answers (задание)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from planmethod.check.explain import Explanations
+from planmethod.check.letters import plain
+from planmethod.check.marks import DEFAULT, Settings
+from planmethod.check.model import Written
+from planmethod.check.questions import Question, Questions, Sign
+from planmethod.check.sheet import Sheet
+from planmethod.construct.drafting import PROFILES
+from planmethod.plans.forces.board import SCALE
+from planmethod.problem.model import AskedAnswer
+from planmethod.problem.selector import is_force, parse_selector
+from planmethod.solved.selected.asking import NoAnswer, UnansweredError
+from planmethod.solved.solution import Solution
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """One thing that is asked, or that somebody answers without being asked (пункт задания).
+
+    Attributes
+    ----------
+    id : str
+    question : Question
+    position : int
+    points : float
+    asks_sense : bool
+    fixed : float or None
+        Tolerance that the task itself allows, a share.
+    label : str
+        How the department writes it.
+    """
+
+    id: str
+    question: Question
+    position: int = 0
+    points: float = 1.0
+    asks_sense: bool = False
+    fixed: float | None = None
+    label: str = ""
+
+
+class Task:
+    """One variant of a problem.
+
+    Parameters
+    ----------
+    solution : Solution
+    settings : Settings
+    others : callable, optional
+        Returns the other variants: whose numbers somebody may have answered with.
+
+    Attributes
+    ----------
+    declared : tuple of Item
+        What ``[[answers]]`` asks; empty where the file asks nothing.
+    """
+
+    def __init__(
+        self,
+        solution: Solution,
+        settings: Settings = DEFAULT,
+        others: Callable[[], Iterable[Task]] | None = None,
+    ) -> None:
+        self.solution, self.settings = solution, settings
+        self.variant = solution.problem.variant
+        self._others = others
+        self._questions: dict[int, Questions] = {}
+        self._asked: dict[int, dict[str, Question]] = {}
+        self._sheets: dict[tuple[object, ...], Sheet] = {}
+        self._explained: dict[int, Explanations] = {}
+        self._forms: dict[str, Item] = {}
+        self.declared = tuple(map(self._declare, solution.problem.answers))
+
+    def _declare(self, asked: AskedAnswer) -> Item:
+        selector = parse_selector(asked.what)
+        item = Item(
+            asked.id,
+            self.ask(self.questions(asked.position or 0).question(selector), asked.position or 0),
+            asked.position or 0,
+            asked.points,
+            asked.sense is not None,
+            asked.tolerance,
+            asked.letters[0] if asked.letters else "",
+        )
+        for form in (asked.id, *asked.letters):
+            self._forms.setdefault(plain(form), item)
+        self._forms.setdefault(asked.what, item)
+        return item
+
+    def others(self) -> Iterator[Task]:
+        """Yield the other variants."""
+        for task in self._others() if self._others else ():
+            if task is not self:
+                yield task
+
+    # Questions -------------------------------------------------------------------------------
+
+    def questions(self, position: int) -> Questions:
+        """Return what can be asked of a position.
+
+        Raises
+        ------
+        UnansweredError
+            When the driver is never there.
+        """
+        if not 0 <= position < len(self.solution.positions):
+            raise UnansweredError(NoAnswer.NO_POSITION)
+        if position not in self._questions:
+            self._questions[position] = Questions(self.solution, position)
+        return self._questions[position]
+
+    def ask(self, question: Question, position: int) -> Question:
+        """Have a question on the sheets of a position."""
+        return self._asked.setdefault(position, {}).setdefault(question.id, question)
+
+    def usual(self, position: int = 0) -> tuple[Item, ...]:
+        """Return what is asked: what the file asks, else the usual quantities of a position."""
+        if self.declared:
+            return self.declared
+        questions = self.questions(position)
+        found = [self.ask(questions.question(sel), position) for sel in questions.usual()]
+        return tuple(
+            Item(q.id, q, position, asks_sense=q.sign is Sign.TURN, label=q.id) for q in found
+        )
+
+    def find(self, written: Written) -> Item:
+        """Return what an answer is of.
+
+        Raises
+        ------
+        UnansweredError
+            When nobody knows such a quantity.
+        """
+        for text in (written.id, written.what):
+            item = self._forms.get(text) or self._forms.get(plain(text)) if text else None
+            if item is not None and written.position in (None, item.position):
+                return item
+        position = written.position or 0
+        questions, why = self.questions(position), NoAnswer.NO_WHAT
+        for text in (written.what, written.id):
+            if not text:
+                continue
+            try:
+                question = questions.question(questions.selector(text))
+            except UnansweredError as error:
+                why = error.why
+                continue
+            return Item(
+                written.id or question.id, self.ask(question, position), position, label=question.id
+            )
+        raise UnansweredError(why)
+
+    # Sheets ----------------------------------------------------------------------------------
+
+    def scales(self, own: Mapping[str, float], position: int) -> dict[str, float]:
+        """Return the scales of a sheet: a student's own, and those of the problem for the rest."""
+        asked = self._asked.get(position, {}).values()
+        scales = dict(self.solution.per_mm)
+        statics = self.questions(position).statics
+        if statics is not None:
+            needed = SCALE not in own and any(is_force(question.selector) for question in asked)
+            scales[SCALE] = statics.scale.per_mm if needed else own.get(SCALE, 1.0)
+        return {**scales, **{name: own[name] for name in scales if name in own}}
+
+    def sheet(
+        self, position: int, own: Mapping[str, float] | None = None, ruler: float | None = None
+    ) -> Sheet:
+        """Return the sheet of a position at somebody's scales, with all that was asked so far."""
+        scales = self.scales(own or {}, position)
+        asked = self._asked.get(position, {})
+        profile = PROFILES[self.settings.profile]
+        step = ruler or self.settings.ruler_mm
+        if step is not None:
+            profile = replace(profile, ruler=step)
+        key = (position, tuple(sorted(scales.items())), profile, tuple(asked))
+        if key not in self._sheets:
+            self._sheets[key] = Sheet(
+                self.questions(position), tuple(asked.values()), scales, profile
+            )
+        return self._sheets[key]
+
+    def asked_of(self, other: Task, position: int) -> Sheet | None:
+        """Return the sheet of another variant with what is asked here; None if it has not all."""
+        try:
+            questions = other.questions(position)
+            for question in self._asked.get(position, {}).values():
+                other.ask(questions.question(question.selector), position)
+        except UnansweredError:
+            return None
+        sheet = other.sheet(position)
+        return sheet if set(self._asked.get(position, {})) <= set(sheet.exact) else None
+
+    def explanations(self, sheet: Sheet) -> Explanations:
+        """Return the mistakes that can be made on a sheet."""
+        if id(sheet) not in self._explained:
+            self._explained[id(sheet)] = Explanations(sheet)
+        return self._explained[id(sheet)]

@@ -1,0 +1,100 @@
+"""How far an answer may be off: from the construction, with a floor and a cap (допуск ответа)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from planmethod.check.marks import Settings
+from planmethod.check.questions import RATES, Question, Sign
+from planmethod.check.sheet import Sheet
+
+LONG_MM = 100.0
+"""Length on the drawing of a link that turns too little to be measured."""
+
+SHORT = 3.0
+"""Sigmas below which a quantity is too short to be measured."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """How far an answer may be off (допуск).
+
+    Attributes
+    ----------
+    exact : float
+    sigma : float
+    spread : float
+        k times sigma.
+    least : float
+        The tolerance is not below it.
+    most : float
+        The tolerance is not above it.
+    seen : bool
+        Whether the drawing can show the answer.
+    zero : bool
+        Too short to be measured.
+    per_mm : float
+        What a millimetre of the plan is worth; 0 where that is not known.
+    """
+
+    exact: float
+    sigma: float
+    spread: float
+    least: float
+    most: float
+    seen: bool
+    zero: bool
+    per_mm: float
+
+    def tolerance(self, step: float = 0.0) -> float:
+        """Return how far an answer may be off that is written to a step of its last digit."""
+        own = max(math.hypot(self.spread, step / 2), self.least)
+        return own if self.zero else min(own, self.most)
+
+    def allows(self, off: float, size: float, step: float = 0.0, times: float = 1.0) -> bool:
+        """Tell whether an answer of a size is near enough; of nothing, whatever is as short."""
+        tolerance = self.tolerance(step) * times
+        return off <= tolerance * (1 + 1e-9) or (self.zero and size <= tolerance)
+
+
+def limit_of(sheet: Sheet, question: Question, settings: Settings, fixed: float | None) -> Limit:
+    """Return how far an answer may be off.
+
+    Parameters
+    ----------
+    fixed : float or None
+        Share of the answer that the task itself allows; then nothing else counts.
+    """
+    exact, sigma = sheet.exact[question.id], sheet.sigma(question)
+    length, size = sheet.length(question), abs(exact)
+    per_mm = 1.0 if question.is_mm else sheet.scales.get(question.scale, 0.0)
+    if question.selector.kind in RATES:  # of one that is nothing, as if of a long link
+        per_mm = size / length if length else _rate_per_mm(sheet, question)
+    spread = settings.k * sigma
+    turned = question.sign is Sign.ANGLE
+    whole = math.degrees(1.0) if turned else size  # of an angle, a share of a radian
+    most = settings.cap * whole
+    least = min(max(settings.floor_mm * per_mm, settings.floor_share * whole), most)
+    zero = not turned and (size < SHORT * sigma or not size)
+    if zero:
+        least = max(settings.floor_mm * per_mm, 1e-9)
+    own = Limit(exact, sigma, spread, least, most, zero or spread <= most, zero, per_mm)
+    if zero:
+        return own
+    if fixed is not None:
+        return _flat(own, fixed * whole)
+    flat, tolerance = settings.department * whole, own.tolerance()
+    wider = settings.policy == "wider" and flat > tolerance
+    stricter = settings.policy == "stricter" and flat < tolerance
+    return _flat(own, flat) if wider or stricter or settings.policy == "department" else own
+
+
+def _rate_per_mm(sheet: Sheet, question: Question) -> float:
+    plan = "mu_v" if question.selector.kind == "omega" else "mu_a"
+    return sheet.scales[plan] / (LONG_MM * sheet.scales["mu_l"])
+
+
+def _flat(own: Limit, tolerance: float) -> Limit:
+    """Return a limit with the department's own tolerance, whatever the drawing can show."""
+    return replace(own, spread=tolerance, least=tolerance, most=math.inf, seen=True)

@@ -1,0 +1,49 @@
+"""Works of students as departments have them: JSON, TOML, CSV, XLSX (работы студентов)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from planmethod.check.model import Work
+from planmethod.check.works.csv_file import read_csv
+from planmethod.check.works.faults import WorksError, read_bytes
+from planmethod.check.works.student import read_json, read_toml
+from planmethod.check.works.units import ratio
+from planmethod.check.works.xlsx_file import read_xlsx
+
+_READERS = {
+    ".json": read_json,
+    ".toml": read_toml,
+    ".csv": read_csv,
+    ".tsv": read_csv,
+    ".txt": read_csv,
+    ".xlsx": read_xlsx,
+    ".xlsm": read_xlsx,
+}
+
+_ZIP = b"PK\x03\x04"
+_OLD_EXCEL = b"\xd0\xcf\x11\xe0"
+
+
+def read_works(path: Path) -> list[Work]:
+    """Read the works of a file: one student or a group; docs/works.md says which forms there are.
+
+    Nothing in a file is executed, and sizes are bounded. What cannot be read in an answer stands in
+    the answer, with its cell.
+
+    Raises
+    ------
+    WorksError
+        The file as a whole cannot be read.
+    """
+    data = read_bytes(path)
+    if data.startswith(_OLD_EXCEL):
+        raise WorksError(f"{path}: this is an old or encrypted workbook. Save it as XLSX.")
+    reader = read_xlsx if data.startswith(_ZIP) else _READERS.get(path.suffix.lower())
+    if reader is None:
+        known = ", ".join(_READERS)
+        raise WorksError(f"{path}: not one of {known}. Save the works as one of these.")
+    return reader(data, path)
+
+
+__all__ = ["WorksError", "ratio", "read_works"]

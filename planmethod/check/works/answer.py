@@ -1,0 +1,131 @@
+"""One answer: from the texts of its cells to what they say (один ответ)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+
+from planmethod.check.model import Sense, Unread, Written
+from planmethod.check.works.cells import Cell, found, read_name, refused
+from planmethod.check.works.numbers import read_number
+from planmethod.check.works.units import read_unit
+from planmethod.check.works.vocabulary import read_sense
+
+POSITION_LIMIT = 100_000
+
+_MM = read_unit("mm")
+_BREAK = re.compile(r"[\s(,;]+")
+
+Scaled = tuple[float, float, str, Sense | None]
+"""Value and step, SI; unit as written; sense."""
+
+
+class NotReadError(Exception):
+    """A cell cannot be read."""
+
+    def __init__(self, why: Unread, text: str, cell: Cell) -> None:
+        super().__init__(text)
+        self.why, self.text, self.cell = why, text, cell
+
+
+def read_answer(cells: Mapping[str, Cell], *, where: str = "", first: int = 0) -> Written:
+    """Return an answer; what cannot be read is told by the first cell at fault.
+
+    Parameters
+    ----------
+    cells : mapping of str to Cell
+        By the names of fields: what, id, value, unit, mm, segment, sense, position.
+    where : str
+        Where it stands, if its cells do not tell.
+    first : int
+        Number of the first position.
+    """
+    what, name = "", found(cells, "id").text
+    if named := found(cells, "what").text:
+        what, other = read_name(named)
+        name = name or other
+    shown = found(cells, "value", "mm", "sense")
+    # The unit as written stays also where nothing is written beside it: the answer is blank.
+    answer = Written(
+        what=what,
+        id=name,
+        unit=found(cells, "unit").text,
+        segment=found(cells, "segment").text,
+        where=where or shown.where or found(cells, "what", "id").where,
+        raw=found(cells, "value").text,
+    )
+    try:
+        # What counts first is read first: a fault leaves what stands before it.
+        answer = replace(answer, position=_position(found(cells, "position"), first))
+        value, mm = found(cells, "value"), found(cells, "mm")
+        said = None
+        if not value.is_blank:
+            number, step, unit, said = read_scaled(value, found(cells, "unit"))
+            answer = replace(answer, value=number, step=step, unit=unit)
+        if not mm.is_blank:
+            number, step, unit, other_said = read_scaled(mm, Cell())
+            if unit:
+                if read_unit(unit) != _MM:
+                    raise NotReadError(Unread.UNIT, unit, mm)
+                number, step = number * 1e3, step * 1e3
+            answer = replace(answer, mm=number, mm_step=step)
+            said = said or other_said
+        answer = replace(answer, sense=_sense(found(cells, "sense")) or said)
+    except NotReadError as fault:
+        return refused(fault.why, fault.text, fault.cell.where or answer.where, base=answer)
+    if not what and not name and (not answer.is_blank or answer.sense):
+        return refused(Unread.QUANTITY, shown.text, answer.where, base=answer)
+    return answer
+
+
+def read_scaled(cell: Cell, unit: Cell) -> Scaled:
+    """Return a number with its unit, which stands behind it or in a cell of its own.
+
+    Raises
+    ------
+    NotReadError
+    """
+    if cell.why:
+        raise NotReadError(cell.why, cell.text, cell)
+    if unit.why:
+        raise NotReadError(unit.why, unit.text, unit)
+    number = read_number(cell.text)
+    if number is None:
+        raise NotReadError(Unread.NUMBER, cell.text, cell)
+    for split in (len(number.rest), *(m.start() for m in _BREAK.finditer(number.rest))):
+        own, tail = number.rest[:split].strip(), number.rest[split:].strip()
+        sense = read_sense(tail or own)
+        if tail and not sense:
+            continue
+        if not tail and sense:
+            own = ""
+        scale = read_unit(own or unit.text)
+        if scale is not None:
+            return number.value * scale.factor, number.step * scale.factor, own or unit.text, sense
+        if not own and not unit.text:
+            return number.value, number.step, "", sense
+    if number.rest and not number.rest[0].isalpha():
+        raise NotReadError(Unread.NUMBER, cell.text, cell)
+    raise NotReadError(Unread.UNIT, number.rest or unit.text, cell if number.rest else unit)
+
+
+def _sense(cell: Cell) -> Sense | None:
+    if cell.is_blank:
+        return None
+    sense = None if cell.why else read_sense(cell.text)
+    if sense is None:
+        raise NotReadError(cell.why or Unread.SENSE, cell.text, cell)
+    return sense
+
+
+def _position(cell: Cell, first: int) -> int | None:
+    if cell.is_blank:
+        return None
+    number = None if cell.why else read_number(cell.text)
+    if number is None or number.rest or number.value % 1:
+        raise NotReadError(cell.why or Unread.POSITION, cell.text, cell)
+    position = int(number.value) - first
+    if not 0 <= position < POSITION_LIMIT:
+        raise NotReadError(Unread.POSITION, cell.text, cell)
+    return position

@@ -1,0 +1,90 @@
+"""Works as CSV: what encoding, what separator, and the rows (файл CSV)."""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+
+from planmethod.check.model import Work
+from planmethod.check.works.cells import Cell, cut
+from planmethod.check.works.faults import WorksError
+from planmethod.check.works.gather import Gathering
+from planmethod.check.works.table import HEAD_ROWS, Row, head_row, read_table
+
+ROW_LIMIT = 20_000
+COLUMN_LIMIT = 400
+
+_SEPARATORS = (";", "\t", ",")
+
+
+def read_csv(data: bytes, path: Path) -> list[Work]:
+    """Return the works of a CSV file: ``;``, ``,`` or tab; UTF-8, UTF-16 with its mark, cp1251.
+
+    Raises
+    ------
+    WorksError
+        It is no text, has no head, or is too long.
+    """
+    text = decoded(data, path)
+    first, _, rest = text.partition("\n")
+    separator = ""
+    if first.lower().startswith("sep=") and len(first.strip()) == 5:  # a line of Excel's own
+        separator, text = first.strip()[4], "\n" + rest
+    try:
+        rows = list(_rows(text, separator or _separator(text, path), path))
+    except csv.Error as error:
+        raise WorksError(f"{path}: this is not CSV: {error}. Is a quote left open?") from None
+    gathering = Gathering(str(path))
+    if not read_table(rows, gathering, path.stem, closed=True):
+        raise WorksError(
+            f"{path}: none of the first {HEAD_ROWS} rows is a head. Name the columns: student, "
+            "what, value, unit, mm, sense; or student and the quantities."
+        )
+    return gathering.works()
+
+
+def decoded(data: bytes, path: Path) -> str:
+    """Return the text of a file in UTF-8, UTF-16 with its mark, or cp1251.
+
+    Raises
+    ------
+    WorksError
+    """
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        text = data.decode("utf-16", "replace")
+    else:
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("cp1251", "replace")
+    if "\0" in text:
+        raise WorksError(f"{path}: this is not a text. Save the table as CSV in UTF-8, or as XLSX.")
+    return text
+
+
+def _separator(text: str, path: Path) -> str:
+    """Return the separator with which a head is found, and the most columns of it."""
+    counts = {}
+    for separator in _SEPARATORS:
+        try:
+            rows = list(islice(_rows(text, separator, path), HEAD_ROWS))
+        except csv.Error:
+            continue
+        at = head_row(rows)
+        counts[separator] = 0 if at is None else len(rows[at])
+    return max(counts, key=lambda one: counts[one], default=";")
+
+
+def _rows(text: str, separator: str, path: Path) -> Iterator[Row]:
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+    for count, row in enumerate(reader, 1):
+        if count > ROW_LIMIT or len(row) > COLUMN_LIMIT:
+            raise WorksError(
+                f"{path}: over {ROW_LIMIT} rows, or over {COLUMN_LIMIT} columns in row {count}."
+            )
+        where = f"{path.name}:{reader.line_num}"
+        yield [Cell(cut(field), where) for field in row]

@@ -1,0 +1,40 @@
+"""What is wrong with a file of works as a whole, and its bytes within bounds."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+from planmethod.errors import ExitCode, PlanMethodError
+
+SIZE_LIMIT = 4 * 1024 * 1024
+
+
+class WorksError(PlanMethodError):
+    """A file of works cannot be read (файл работ)."""
+
+    exit_code = ExitCode.USAGE
+
+
+def read_bytes(path: Path) -> bytes:
+    """Return what is in a file.
+
+    Raises
+    ------
+    WorksError
+        It is none, cannot be read, or is too large.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise WorksError(f"{path}: this is not a file. Name one: JSON, TOML, CSV or XLSX.")
+        with path.open("rb") as stream:
+            data = stream.read(SIZE_LIMIT + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise WorksError(f"{path}: cannot be read: {reason}. Check the path.") from None
+    if len(data) > SIZE_LIMIT:
+        raise WorksError(
+            f"{path}: larger than {SIZE_LIMIT // 2**20} MiB. Works of a group are a few hundred "
+            "kilobytes; is this the right file?"
+        )
+    return data

@@ -1,0 +1,236 @@
+"""Answers put together by student: scales, what is written twice, remarks (сборка работ)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from types import MappingProxyType
+
+from planmethod.check.model import Unread, Work, Written
+from planmethod.check.works.answer import NotReadError, read_scaled
+from planmethod.check.works.cells import Cell, refused
+from planmethod.check.works.faults import WorksError
+from planmethod.check.works.numbers import read_number
+from planmethod.check.works.units import Dimension, read_unit
+from planmethod.check.works.vocabulary import key
+from planmethod.problem.names import fold
+
+STUDENT_LIMIT = 2000
+ANSWER_LIMIT = 2000
+
+_SCALE = re.compile(r"(?:mu|μ|µ|мю)[\s_{]*([lvafs])[\s}]*\Z")
+_RATIO = re.compile(r"(?:[MМ]\s*)?1\s*:\s*(\S+)\Z")
+_WORD = re.compile(r"([\s_\-{}(),]+)")
+_POINT = re.compile(r"([^\W\d_])([0-9]*'*)")
+_MM = 1e-3
+_OF_SCALES: dict[str, Dimension] = {
+    "mu_l": (1, 0, 0, 0),
+    "mu_v": (1, -1, 0, 0),
+    "mu_a": (1, -2, 0, 0),
+    "mu_F": (0, 0, 1, 0),
+}
+_OF_LETTERS = {"v": "mu_v", "a": "mu_a", "F": "mu_F", "R": "mu_F", "l": "mu_l"}
+_KEPT = ("what", "id", "position", "where")
+
+
+def is_of(unit: str, scale: str) -> bool:
+    """Whether what is measured on a plan of this scale has this unit."""
+    found = read_unit(unit)
+    return found is not None and found.dimension == _OF_SCALES.get(scale)
+
+
+def scale_name(text: str) -> str:
+    """Return the scale that a text names, ``mu_v``, or nothing: ``μᵥ``, ``mu v``, ``μ_v``."""
+    match = _SCALE.match(fold(text.strip().casefold().replace("ᵥ", "v").replace("ₐ", "a")))
+    return "" if match is None else f"mu_{'l' if match[1] == 's' else match[1]}".replace("f", "F")
+
+
+@dataclass(slots=True)
+class Draft:
+    """Work of a student while it is read."""
+
+    student: str
+    where: str
+    variant: str | None = None
+    problem: str = ""
+    ruler: float | None = None
+    fingerprint: str = ""
+    scales: dict[str, float] = field(default_factory=dict)
+    answers: dict[tuple[str, str, int | None], Written] = field(default_factory=dict)
+    twice: list[Written] = field(default_factory=list)
+    remarks: list[Written] = field(default_factory=list)
+    points: dict[str, str] = field(default_factory=dict)
+    """Points of the problem by the names that they have in this work."""
+
+    def remark(self, why: Unread, text: str, where: str) -> None:
+        """Note what cannot be read."""
+        self.remarks.append(refused(why, text, where))
+
+    def put(self, answer: Written) -> None:
+        """Take an answer; what is written before, and otherwise, is not read again."""
+        name = (answer.what, key(answer.id), answer.position)
+        if not answer.what and not answer.id:
+            if answer.unreadable:
+                self.remarks.append(answer)
+            return
+        if name not in self.answers:
+            if len(self.answers) >= ANSWER_LIMIT:
+                raise WorksError(f"{self.where}: over {ANSWER_LIMIT} answers of one student.")
+            self.answers[name] = answer
+            return
+        joined = _joined(self.answers[name], answer)
+        if joined is not None:
+            self.answers[name] = joined
+        elif len(self.twice) < ANSWER_LIMIT:
+            text = answer.raw or answer.id or answer.what
+            self.twice.append(refused(Unread.TWICE, text, answer.where, base=answer))
+
+    def put_scale(self, name: str, cell: Cell, unit: str) -> None:
+        """Take one of his scales, in SI per millimetre; also ``1:2`` of lengths."""
+        if cell.is_blank:
+            return
+        ratio = _RATIO.match(cell.text) if name == "mu_l" and cell.why is None else None
+        value = 0.0
+        if ratio is not None:
+            number = read_number(ratio[1])
+            value = number.value * _MM if number and not number.rest else 0.0
+        else:
+            try:
+                value, _, own, _ = read_scaled(cell, Cell(unit, cell.where))
+                value *= _per_mm(name, own)
+            except NotReadError as fault:
+                if fault.why is not Unread.NUMBER:
+                    self.remark(fault.why, fault.text, cell.where)
+                    return
+        if not 0.0 < value < 1e12:
+            self.remark(Unread.SCALE, cell.text, cell.where)
+        elif self.scales.setdefault(name, value) != value:
+            self.remark(Unread.TWICE, f"{name} = {cell.text}", cell.where)
+
+    def put_row_scale(self, quantity: str, cell: Cell) -> None:
+        """Take the scale that stands beside an answer: that of the plan of the quantity."""
+        name = _OF_LETTERS.get(fold(quantity)[:1], "")
+        if cell.why is Unread.FORMULA:
+            return  # that of the form repeats what stands above the head
+        if name:
+            self.put_scale(name, cell, "")
+        else:
+            self.remark(Unread.SCALE, cell.text, cell.where)
+
+    def put_field(self, name: str, cell: Cell) -> None:
+        """Take his variant, the problem, or the step of his ruler."""
+        if cell.is_blank:
+            return
+        if cell.why:
+            self.remark(cell.why, cell.text, cell.where)
+        elif name == "ruler_mm":
+            try:
+                value, _, unit, _ = read_scaled(cell, Cell())
+            except NotReadError as fault:
+                self.remark(fault.why, fault.text, cell.where)
+                return
+            value *= 1e3 if unit else 1.0
+            if 0.0 < value <= 50.0:
+                self.ruler = value
+            else:
+                self.remark(Unread.NUMBER, cell.text, cell.where)
+        elif (getattr(self, name) or cell.text) == cell.text:
+            setattr(self, name, cell.text)
+        else:
+            self.remark(Unread.TWICE, cell.text, cell.where)
+
+    def _renamed(self, answer: Written) -> Written:
+        """Return an answer with the points called as the problem calls them."""
+        if not self.points:
+            return answer
+        small = {his.lower(): ours.lower() for his, ours in self.points.items()}
+        what, own = (_called(name, self.points, skip=1) for name in (answer.what, answer.id))
+        return replace(answer, what=what, id=own, segment=_called(answer.segment, small))
+
+    def work(self) -> Work:
+        """Return what has been put together."""
+        return Work(
+            student=self.student,
+            answers=tuple(map(self._renamed, (*self.answers.values(), *self.twice))),
+            variant=self.variant,
+            scales=MappingProxyType(dict(self.scales)),
+            ruler_mm=self.ruler,
+            problem=self.problem,
+            where=self.where,
+            remarks=tuple(self.remarks),
+            fingerprint=self.fingerprint,
+        )
+
+
+class Gathering:
+    """Works of a file by student, in the order in which they stand there (работы группы)."""
+
+    def __init__(self, where: str) -> None:
+        self.where = where
+        self.drafts: dict[str, Draft] = {}
+        self.remarks: list[Written] = []
+
+    def note(self, why: Unread, text: str, where: str) -> None:
+        """Note what cannot be read and belongs to no student."""
+        if len(self.remarks) < ANSWER_LIMIT:
+            self.remarks.append(refused(why, text, where))
+
+    def of(self, student: str) -> Draft:
+        """Return the draft of a student."""
+        if student not in self.drafts:
+            if len(self.drafts) >= STUDENT_LIMIT:
+                raise WorksError(
+                    f"{self.where}: over {STUDENT_LIMIT} students. Is the column of the students "
+                    "the right one?"
+                )
+            self.drafts[student] = Draft(student, self.where)
+        return self.drafts[student]
+
+    def works(self) -> list[Work]:
+        """Return the works; what belongs to no student goes to the remarks of the first."""
+        works = [draft.work() for draft in self.drafts.values()]
+        if self.remarks:
+            first, *others = works or [Work("", (), where=self.where)]
+            works = [replace(first, remarks=(*self.remarks, *first.remarks)), *others]
+        return works
+
+
+def _per_mm(scale: str, unit: str) -> float:
+    """Return what makes a scale in its unit one per millimetre; 0 for a unit of something else.
+
+    Written are (м/с)/мм, м/с alone, and м/с·мм, which means the first.
+    """
+    found = read_unit(unit) if unit else None
+    if found is None:
+        return 1.0
+    length, *others = found.dimension
+    base, *wanted = _OF_SCALES[scale]
+    return _MM ** (base - length) if others == wanted and abs(length - base) < 2 else 0.0
+
+
+def _called(text: str, names: Mapping[str, str], *, skip: int = 0) -> str:
+    """Return a text with other names of points, from behind so many of its words."""
+    words = _WORD.split(text)
+    for number in range(2 * skip, len(words), 2):
+        if match := _POINT.fullmatch(words[number]):
+            name = names.get(match[0]) or names.get(match[1], match[1]) + match[2]
+            words[number] = name
+    return "".join(words)
+
+
+def _joined(one: Written, other: Written) -> Written | None:
+    """Return two notes of the same answer as one; None if they do not say the same."""
+    if one.unreadable or other.unreadable:
+        return None
+    blank = Written()
+    said: dict[str, object] = {}
+    for each in fields(Written):
+        mine, theirs = getattr(one, each.name), getattr(other, each.name)
+        nothing = getattr(blank, each.name)
+        if each.name in _KEPT or theirs == nothing:
+            continue
+        if mine not in (nothing, theirs) and each.name not in ("raw", "unit", "step", "mm_step"):
+            return None
+        said[each.name] = theirs if mine == nothing else mine
+    return replace(one, **said)  # type: ignore[arg-type]

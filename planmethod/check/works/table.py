@@ -1,0 +1,216 @@
+"""Works as a table: a row for each answer (long) or for each student (wide) (таблица ответов)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from planmethod.check.model import Unread
+from planmethod.check.works.answer import read_answer
+from planmethod.check.works.cells import BLANK, Cell, cut, found
+from planmethod.check.works.gather import Draft, Gathering, scale_name
+from planmethod.check.works.heads import ASPECTS, Head, read_aspect, read_head, read_quantity
+from planmethod.check.works.units import read_unit
+from planmethod.check.works.vocabulary import HEADS, POINT, key
+
+HEAD_ROWS = 20
+"""Rows from the top among which the head is looked for."""
+
+Row = Sequence[Cell]
+
+_WHO = ("student", "number", "variant")
+"""Heads of who it is, in the order in which they count."""
+
+_ABOVE = ("student", "variant", "problem", "ruler_mm")
+_MERGED = (*_WHO, "problem", "position", "what", "id")
+"""Fields of which one cell counts for all the rows that it is merged over."""
+
+
+def read_table(rows: Sequence[Row], gathering: Gathering, title: str, *, closed: bool) -> bool:
+    """Read the works of a table.
+
+    Parameters
+    ----------
+    title : str
+        Who the student is if the table does not say.
+    closed : bool
+        No row may be longer than the head.
+
+    Returns
+    -------
+    bool
+        False if no row among the first is a head.
+    """
+    at = head_row(rows)
+    if at is None:
+        return False
+    head, below = rows[at], rows[at + 1 :]
+    heads = [read_head(cell.text or cell.merged) for cell in head]
+    who = next((name for name in _WHO if any(one.field == name for one in heads)), "")
+    shared = _above(rows[:at])
+    if not _is_long(head):
+        heads, below = _wide_heads(head, heads, below)
+    elif who != "student" and "student" in shared:
+        who = ""  # № counts the answers of the one student
+    heads = [_known_once(gathering, heads[:n], heads[n], cell) for n, cell in enumerate(head)]
+    only = shared.get("student", (BLANK, ""))[0].text or title
+    for row in below:
+        if all(not cell.text and cell.why is None for cell in row):
+            continue
+        line = cut(" ".join(cell.text for cell in row))
+        cells = _placed(row, head, heads, line) if closed else list(zip(heads, row, strict=False))
+        student = only
+        if who:
+            names = (cell.text or cell.merged for one, cell in cells if one.field == who)
+            student = " ".join(name for name in names if name)
+        if not student:
+            place = next(cell.where for cell in row if cell.text or cell.why)
+            gathering.note(Unread.STUDENT, line, place)
+            continue
+        draft = gathering.of(student)
+        if not draft.answers and not draft.remarks:
+            _share(draft, shared)
+        _read_row(draft, cells)
+    if shared and not gathering.drafts:
+        _share(gathering.of(only), shared)
+    return True
+
+
+def _known_once(gathering: Gathering, before: Sequence[Head], head: Head, cell: Cell) -> Head:
+    """Return the head of a column; what nobody knows, or stands there twice, is told."""
+    twice = head.field not in (*_WHO, "note") and not head.name and head in before
+    if cell.text and (twice or not head.field):
+        gathering.note(Unread.COLUMN, cell.text, cell.where)
+    return Head() if twice else head
+
+
+def _placed(row: Row, top: Row, heads: Sequence[Head], line: str) -> list[tuple[Head, Cell]]:
+    """Return the cells of a row of text: a place is a line and a column, and no line is longer."""
+    width = max(number for number, cell in enumerate(top, 1) if cell.text)
+    longer = any(cell.text for cell in row[width:])
+    cells = []
+    for head, above, cell in zip(heads, top, row, strict=False):
+        if above.text:
+            cell = replace(cell, where=f"{cell.where}, {above.text}")
+        if longer and head.field not in _MERGED:
+            cell = replace(cell, text=line, why=Unread.FIELDS)
+        cells.append((head, cell))
+    return cells
+
+
+def head_row(rows: Sequence[Row]) -> int | None:
+    """Return the number of the row that is the head; a long one before a wide one."""
+    for is_head in (_is_long, _is_wide):
+        for number, row in enumerate(rows[:HEAD_ROWS]):
+            if is_head(row):
+                return number
+    return None
+
+
+def _fields(row: Row) -> set[str]:
+    return {read_head(cell.text or cell.merged).field for cell in row}
+
+
+def _is_long(row: Row) -> bool:
+    fields = _fields(row)
+    return not fields.isdisjoint({"what", "id"}) and not fields.isdisjoint({"value", "mm"})
+
+
+def _is_wide(row: Row) -> bool:
+    said = [cell for cell in row if cell.text]
+    return len(said) > 1 and not _fields(row).isdisjoint(_WHO)
+
+
+def _above(rows: Sequence[Row]) -> dict[str, tuple[Cell, str]]:
+    """Return what stands above the head and holds for all: by field or scale, with its unit."""
+    told: dict[str, tuple[Cell, str]] = {}
+    for row in rows:
+        name, unit = "", ""
+        for cell in row:
+            label, colon, value = cell.text.partition(":")
+            head = read_head(label if colon else cell.text)
+            if head.field in _ABOVE or (head.field == "scale" and head.name):
+                name, unit = head.name or head.field, head.unit
+                told.setdefault(name, (BLANK, unit))
+                cell = replace(cell, text=value.strip())
+            if name and told[name][0].is_blank:
+                told[name] = (cell, unit)
+    return told
+
+
+def _share(draft: Draft, shared: Mapping[str, tuple[Cell, str]]) -> None:
+    for name, (cell, unit) in shared.items():
+        if name.startswith("mu_"):
+            draft.put_scale(name, cell, unit)
+        elif name != "student":
+            draft.put_field(name, cell)
+
+
+def _wide_heads(
+    row: Row, heads: Sequence[Head], below: Sequence[Row]
+) -> tuple[list[Head], Sequence[Row]]:
+    """Return what stands in the columns of a wide table, whose head may have a second row."""
+    under: Sequence[Cell] = below[0] if below else ()
+    said = [cell.text for cell in under if cell.text]
+    two = bool(said) and all(read_aspect(text) or read_unit(text) for text in said)
+    # A student may be called as a unit is, but not above his name.
+    who = [cell.text for head, cell in zip(heads, under, strict=False) if head.field in _WHO]
+    two = two and not any(who)
+    found_heads: list[Head] = []
+    for number, (cell, head) in enumerate(zip(row, heads, strict=True)):
+        text = cell.text or cell.merged
+        if two and number < len(under) and under[number].text:
+            text = f"{text}, {under[number].text}"
+        known = head.field and head.field not in ASPECTS
+        found_heads.append(head if known or not text else read_quantity(text))
+    return found_heads, below[1:] if two else below
+
+
+def _read_row(draft: Draft, cells: Sequence[tuple[Head, Cell]]) -> None:
+    """Take what a row says: of the student, and an answer or those of all columns."""
+    own: dict[str, Cell] = {}
+    asked: list[dict[str, Cell]] = []
+    first = 0
+    for head, cell in cells:
+        if cell.merged and head.field in _MERGED:
+            cell = replace(cell, text=cell.merged)
+        if head.field == "scale" and head.name:
+            draft.put_scale(head.name, cell, head.unit)
+        elif head.field in ("variant", "problem", "ruler_mm"):
+            draft.put_field(head.field, cell)
+        elif head.name:
+            answer = next(
+                (a for a in asked if a["what"].text == head.name and head.field not in a), None
+            )
+            if answer is None:
+                answer = {"what": Cell(head.name)}
+                asked.append(answer)
+            answer[head.field] = cell
+            if head.unit:
+                answer["unit"] = Cell(head.unit, cell.where)
+        elif head.field:
+            if own.setdefault(head.field, cell).is_blank or head.field == "unit":
+                own[head.field] = cell
+            if head.unit and head.field == "value":
+                own.setdefault("unit", Cell(head.unit, cell.where))
+            if head.field == "position":
+                first = head.first
+    for answer in asked:
+        draft.put(read_answer({**own, **answer}, first=first))
+    if not asked:
+        _read_long_row(draft, own, first)
+
+
+def _read_long_row(draft: Draft, cells: Mapping[str, Cell], first: int) -> None:
+    named, value = found(cells, "what", "id").text, found(cells, "value", "mm")
+    word, _, point = named.partition(" ")
+    if scale := scale_name(named):
+        draft.put_scale(scale, value, found(cells, "unit").text)
+    elif HEADS.get(key(named)) in _ABOVE[1:]:
+        draft.put_field(HEADS[key(named)], value)
+    elif key(word) in POINT and point:
+        draft.points[point.strip()] = value.text
+    else:
+        draft.put(read_answer(cells, first=first))
+        if not found(cells, "scale").is_blank:
+            draft.put_row_scale(named, cells["scale"])

@@ -1,0 +1,90 @@
+"""Command ``form``: the workbook that students fill in (бланк ответов)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.options import lang_option, out_option, problem_options
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+
+MOST_STUDENTS = 500
+
+
+@click.command()
+@problem_options
+@out_option
+@click.option(
+    "--students",
+    type=click.IntRange(1, MOST_STUDENTS),
+    help="So many forms, numbered; one without a number when absent.",
+)
+@click.option(
+    "--names",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="A form for each student: a text with a name in each line.",
+)
+@lang_option
+@guarded
+def form(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    out: Path,
+    students: int | None,
+    names: Path | None,
+    lang: str,
+) -> None:
+    """Make the XLSX that students fill in: what is asked, and none of the answers.
+
+    The cells of the answers alone can be written in; senses and units are chosen from lists, and
+    mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
+    """
+    from planmethod.check.form import fingerprint_of, form_of
+    from planmethod.check.key import key_of
+    from planmethod.render.backends.output import write
+    from planmethod.solved.solution import Solution
+
+    if students is not None and names is not None:
+        raise click.UsageError("give --students or --names, not both")
+    who = [str(number) for number in range(1, (students or 0) + 1)]
+    if names is not None:
+        who = _read_names(names)
+
+    def make(problem: Problem) -> None:
+        key = key_of(Solution(problem))
+        fingerprint = fingerprint_of(problem)
+        for number, student in enumerate(who or [""], 1):
+            tail = f"-{number:0{len(str(len(who)))}}" if who else ""
+            path = out / f"{stem(problem)}-form{tail}.xlsx"
+            data = form_of(
+                key.entries,
+                problem=problem.name,
+                variant=problem.variant,
+                fingerprint=fingerprint,
+                student=student,
+                title=problem.title,
+                lang=lang,
+            )
+            write(path, data)
+            click.echo(str(path))
+
+    finish(each(problems, variant, all_variants, make))
+
+
+def _read_names(path: Path) -> list[str]:
+    """Return the names of the students, one in each line of a text."""
+    from planmethod.check.works.csv_file import decoded
+    from planmethod.check.works.faults import read_bytes
+
+    lines = decoded(read_bytes(path), path).splitlines()
+    found = [" ".join(line.split()) for line in lines if line.strip()]
+    if not 0 < len(found) <= MOST_STUDENTS:
+        raise click.UsageError(f"{path}: {len(found)} names; 1 to {MOST_STUDENTS} are expected")
+    return found

@@ -1,0 +1,139 @@
+"""What a language must be able to say of the checking of works (слова проверки работ)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class MistakeWords:
+    """What is said of one mistake.
+
+    Attributes
+    ----------
+    name : str
+        What was done, without a full stop: for tables.
+    so : str
+        Goes on from "this comes out if".
+    advice : str
+        Whole sentences: how it is right, and what to do now.
+    """
+
+    name: str
+    so: str
+    advice: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeyWording:
+    """What stands on the key; see `planmethod.check.pages.keypage`.
+
+    ``columns`` are those of its table, ``rows`` the heads of the leading columns where several
+    variants or positions stand in one table; ``unseen`` and ``zero`` are notes on an answer.
+    """
+
+    title: str
+    variant: str
+    position: str
+    scales: str
+    columns: tuple[str, ...]
+    rows: tuple[str, str]
+    unseen: str
+    zero: str
+    note: str
+    hidden: str
+    sheet: str
+    sheet_hidden: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ResultWording:
+    """What stands in the tables of results: names of the sheets, heads of their columns.
+
+    ``by_code`` and ``by_answer`` are the two tables on the sheet of the group's mistakes.
+    """
+
+    sheets: tuple[str, str, str, str]
+    summary: tuple[str, ...]
+    answers: tuple[str, ...]
+    by_code: tuple[str, ...]
+    by_answer: tuple[str, ...]
+    settings: tuple[str, str]
+    perhaps: str
+    unknown: str
+    suspicious: str
+    by_hand: str
+    files: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StudentWording:
+    """What stands on the page of a student; see `planmethod.check.pages.remarks`.
+
+    ``columns`` are those of the table of answers. Places are ``answer`` (symbols of quantities),
+    ``own`` and ``right`` (numbers with units), ``tol``, ``segment``, ``so``, ``advice``, ``where``.
+    """
+
+    title: str
+    student: str
+    variant: str
+    points: str
+    mark: str
+    counted: str
+    remarks: str
+    all_right: str
+    answers: str
+    columns: tuple[str, ...]
+    tolerance: str
+    plans: str
+    plan_names: Mapping[str, str]
+    plan_title: str
+    position: str
+    legend: str
+    legend_mistake: str
+    redraw: str
+    redraw_line: str
+    compared: str
+    mistake: str
+    mistake_here: Mapping[str, str]
+    also: str
+    follow: str
+    one_of: str
+    one_of_end: str
+    unknown: str
+    unknown_computed: str
+    kept: str
+    reduced: str
+    inherited: str
+    near: str
+    near_points: str
+    inconsistent: str
+    sense: str
+    unseen: str
+    unseen_local: str
+    slip: str
+    slip_bare: str
+    blank: str
+    unreadable: str
+    unreadable_other: str
+    remark: str
+    page: str
+    source: str
+    share: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckWording:
+    """What checking says in one language.
+
+    ``verdicts`` are by the values of `planmethod.check.model.Verdict`, ``senses`` by those of
+    `planmethod.check.model.Sense` (a sign and its word), ``mistakes`` by their codes.
+    """
+
+    verdicts: Mapping[str, str]
+    senses: Mapping[str, tuple[str, str]]
+    mistakes: Mapping[str, MistakeWords]
+    key: KeyWording
+    results: ResultWording
+    student: StudentWording

@@ -1,0 +1,339 @@
+"""``[[answers]]`` of a problem file: what students are asked for (вопросы)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from planmethod.mechanism.model import FRAME, Revolute
+from planmethod.problem import keys
+from planmethod.problem.extras import check_what, read_position
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    read_keys,
+    read_member,
+    read_number,
+    read_text,
+    read_whole,
+    show,
+    unmask,
+)
+from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense, Drive, Slide
+from planmethod.problem.names import short, split_pair
+from planmethod.problem.selector import Selector
+
+if TYPE_CHECKING:
+    from planmethod.problem.load_records import Dynamics
+
+WHAT_LIMIT = 200
+ID_LIMIT = 40
+LETTERS_LIMIT = 40
+SPELLING_LIMIT = 10
+UNIT_LIMIT = 20
+SEGMENT_LIMIT = 40
+DIGIT_LIMIT = 8
+POINTS_LIMIT = 1000.0
+
+# No sign that would begin a formula in a spreadsheet, no space that a form could lose.
+_ID_RE = re.compile(r"[^\W\d_][\w./@'{}^-]*\Z")
+_REACTION_RE = re.compile(r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z")
+_BALANCING = {"dr": "balance", "lever": "lever"}
+_TAKEN = (*keys.SCALES[1:], "ruler_mm")
+"""What a row of a group's table is called that is no answer."""
+
+_TURNS = frozenset({"omega", "epsilon", "M", "inertia couple"})
+_VECTORS = frozenset(
+    {
+        "v",
+        "a",
+        "vs",
+        "ar",
+        "ak",
+        "an",
+        "at",
+        "F",
+        "Ft",
+        "Fn",
+        "weight",
+        "inertia",
+        *_BALANCING.values(),
+    }
+)
+_NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load"})
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What answers may name.
+
+    Attributes
+    ----------
+    points, links : collection of str
+        Both empty when they are not known because of other faults: then no name is checked.
+    revolutes : collection of Revolute
+    slides : mapping of str to Slide
+    dynamics : Dynamics or None
+    drive : Drive or None
+    """
+
+    points: Collection[str]
+    links: Collection[str]
+    revolutes: Collection[Revolute]
+    slides: Mapping[str, Slide]
+    dynamics: Dynamics | None
+    drive: Drive | None
+
+
+def words_of(name: str, slides: Iterable[Slide]) -> str:
+    """Return the words of ``[published]`` for a name of ``--ask``; other texts as they are.
+
+    ``v_B3`` is ``v B3``, ``v_B3/2`` is ``vs B3 B``, ``F_B_2/1`` is ``F 2 1``, ``M_dr`` is
+    ``balance``. Along a guide of the frame a slider moves as its point does: ``v_E5/0`` is ``v E``.
+    """
+    name = " ".join(name.split())
+    if " " in name or "_" not in name:
+        return name
+    head, _, rest = name.partition("_")
+    reaction = _REACTION_RE.match(name)
+    if reaction:
+        return f"{head} {reaction['on']} {reaction['by']}"
+    if head in ("M", "F") and rest in _BALANCING:
+        return _BALANCING[rest]
+    if head == "load":
+        return f"load {rest}"  # its letter may have an index
+    pair = _sliding(slides).get(rest, ())
+    if head in ("v", "ak", "ar") and len(pair) == 2:
+        return f"{'vs' if head == 'v' else head} {pair[0]} {pair[1]}"
+    if head in ("v", "ar") and len(pair) == 1:
+        return f"{head[0]} {pair[0]}"
+    return name.replace("_", " ")
+
+
+def _sliding(slides: Iterable[Slide]) -> dict[str, tuple[str, ...]]:
+    """Return the points that slide on each other, by what their quantities are of: ``B3/2``.
+
+    On the frame it is one point.
+    """
+    found: dict[str, tuple[str, ...]] = {}
+    for slide in slides:
+        fixed = slide.host == FRAME
+        pairs = [(slide.pin,) if fixed else (f"{slide.pin}{slide.host}", slide.pin)]
+        if slide.through is not None and not fixed:
+            pairs.append((slide.through, f"{slide.through}{slide.slider}"))
+        for pair, place in zip(pairs, (slide.pin, slide.through), strict=False):
+            for of, to in ((slide.slider, slide.host), (slide.host, slide.slider)):
+                found[f"{place}{of}/{to}"] = pair
+    return found
+
+
+def read_answers(faults: Faults, value: object, scene: Scene) -> tuple[AskedAnswer, ...]:
+    """Read ``[[answers]]``, in file order."""
+    if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
+        faults.add("answers", f"expected tables [[answers]], got {show(value)}")
+        return ()
+    if len(value) > keys.ANSWER_LIMIT:
+        faults.add("answers", f"{len(value)} answers, the limit is {keys.ANSWER_LIMIT}")
+        return ()
+    found: list[AskedAnswer] = []
+    ids: dict[str, int] = {}
+    letters: dict[tuple[str, int | None], int] = {}
+    for index, body in enumerate(value):
+        path = f"answers[{index}]"
+        answer = _read_answer(faults, path, body, scene)
+        if answer is None:
+            continue
+        found.append(answer)
+        if ids.setdefault(answer.id, index) != index:
+            faults.add(
+                path,
+                f"answers[{ids[answer.id]}] is called '{short(answer.id)}' too",
+                "Give one of them an id of its own.",
+            )
+        for spelling in answer.letters:
+            twin = letters.setdefault((spelling, answer.position), index)
+            if twin != index:
+                faults.add(
+                    f"{path}.letters",
+                    f"'{short(spelling)}' stands for answers[{twin}] too",
+                    "Give each of them letters of its own.",
+                )
+    return tuple(found)
+
+
+def _read_answer(faults: Faults, path: str, body: Table, scene: Scene) -> AskedAnswer | None:
+    before = len(faults)
+    given = read_keys(faults, path, body, keys.ANSWER)
+    if "what" not in given:
+        if len(faults) == before:
+            faults.add(f"{path}.what", "missing", 'Say which quantity: what = "v B".')
+        return None
+    name = read_text(faults, f"{path}.what", given["what"], limit=WHAT_LIMIT)
+    if name is None:
+        return None
+    name = " ".join(unmask(faults, f"{path}.what", name).split())
+    words = words_of(name, scene.slides.values())
+    selector = _read_what(faults, f"{path}.what", name, words, scene)
+    positions = len(scene.drive.positions) if scene.drive else 0
+    position = read_position(faults, f"{path}.position", given.get("position"), positions)
+    own = name.replace(" / ", "/").replace(" ", "_")
+    if position is not None:
+        own += f"@{position}"
+    points = read_number(
+        faults,
+        f"{path}.points",
+        given.get("points", 1.0),
+        "points",
+        low=0.0,
+        high=POINTS_LIMIT,
+        hint="Points are those of a right answer.",
+    )
+    form = read_member(faults, f"{path}.form", given.get("form", "both"), AnswerForm)
+    if form is AnswerForm.MM and selector is not None and _has_no_segment(selector):
+        faults.add(
+            f"{path}.form",
+            f"'{short(name)}' is no segment of a plan",
+            'Leave it, or form = "value".',
+        )
+    asked = AskedAnswer(
+        id=_read_id(faults, f"{path}.id", given["id"]) if "id" in given else own,
+        what=words,
+        letters=_read_letters(faults, f"{path}.letters", given.get("letters", [])),
+        unit=read_text(faults, f"{path}.unit", given.get("unit", ""), limit=UNIT_LIMIT) or "",
+        points=points or 0.0,
+        form=form or AnswerForm.BOTH,
+        sense=_read_sense(faults, f"{path}.sense", given.get("sense", False), selector, scene),
+        position=position,
+        digits=_read_digits(faults, f"{path}.digits", given.get("digits")),
+        segment=_read_segment(faults, f"{path}.segment", given.get("segment", "")),
+        tolerance=_read_tolerance(faults, f"{path}.tolerance", given.get("tolerance")),
+    )
+    return asked if len(faults) == before else None
+
+
+def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -> Selector | None:
+    """Check a quantity, and the joint of a reaction, which its words do not name."""
+    if name in scene.points:
+        faults.add(
+            path, f"'{name}' is a place, which is two numbers", f"Ask for x {name}, y {name}."
+        )
+        return None
+    before = len(faults)
+    selector = check_what(faults, path, words, scene.points, scene.links, scene.dynamics)
+    reaction = _REACTION_RE.match(name)
+    if reaction and scene.points and len(faults) == before:
+        joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}
+        if not _joined(joint, pair, scene):
+            faults.add(
+                path,
+                f"links {reaction['on']} and {reaction['by']} have no joint {joint}",
+                f"Without it: '{words}'.",
+            )
+    return selector
+
+
+def _joined(joint: str, pair: set[str], scene: Scene) -> bool:
+    return any(joint == r.point and pair <= set(r.links) for r in scene.revolutes) or any(
+        pair == {slide.slider, slide.host} and joint in (slide.pin, slide.through)
+        for slide in scene.slides.values()
+    )
+
+
+def _has_no_segment(selector: Selector) -> bool:
+    return selector.kind in _NO_SEGMENT or selector.over is not None
+
+
+def _read_id(faults: Faults, path: str, value: object) -> str:
+    text = read_text(faults, path, value, limit=ID_LIMIT)
+    if text is None:
+        return ""
+    text = unmask(faults, path, text)
+    if text in _TAKEN:
+        faults.add(path, f"'{text}' is a row of its own in tables of answers", "Take another id.")
+    elif not _ID_RE.match(text):
+        hint = "A letter first, then letters, digits and _ . / @ ' - without spaces: v_B3."
+        faults.add(path, f"expected the id of an answer, got {show(text)}", hint)
+    return text
+
+
+def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
+    entries = [value] if isinstance(value, str) else value
+    if not isinstance(entries, list) or len(entries) > SPELLING_LIMIT:
+        faults.add(path, f"expected a string or up to {SPELLING_LIMIT} of them, got {show(value)}")
+        return ()
+    found: list[str] = []
+    for index, entry in enumerate(entries):
+        where = path if isinstance(value, str) else f"{path}[{index}]"
+        text = read_text(faults, where, entry, limit=LETTERS_LIMIT)
+        if text is not None and not text.strip():
+            faults.add(where, "the text is empty", "Leave it out.")
+        elif text is not None:
+            found.append(text.strip())
+    return tuple(dict.fromkeys(found))
+
+
+def _read_sense(
+    faults: Faults, path: str, value: object, selector: Selector | None, scene: Scene
+) -> AskedSense | None:
+    """Read as what a sense is asked; ``true`` is as what the quantity has it."""
+    if value is False:
+        return None
+    asked = None
+    if value is not True:
+        if not isinstance(value, str):
+            words = ", ".join(f"'{kind.value}'" for kind in AskedSense)
+            faults.add(path, f"expected true, false or one of {words}, got {show(value)}")
+            return None
+        asked = read_member(faults, path, value, AskedSense)
+        if asked is None:
+            return None
+    if selector is None:
+        return asked
+    own = _own_sense(selector, scene.drive)
+    if own is None:
+        hint = "Leave sense out: the sign of a number, or the size of a load, says all."
+        faults.add(path, f"'{selector.kind}' has no sense to be asked for", hint)
+    elif asked is not None and (asked is AskedSense.TURN) != (own is AskedSense.TURN):
+        what = "turns" if own is AskedSense.TURN else "is a vector"
+        faults.add(path, f"'{selector.kind}' {what}", f'Write sense = "{own.value}".')
+    return asked or own
+
+
+def _own_sense(selector: Selector, drive: Drive | None) -> AskedSense | None:
+    if selector.over is not None:
+        return None
+    if selector.kind in ("balance", "lever") and not selector.names:
+        turns = drive is None or drive.is_crank
+        return AskedSense.TURN if turns else AskedSense.DIRECTION
+    if selector.kind in _TURNS:
+        return AskedSense.TURN
+    return AskedSense.DIRECTION if selector.kind in _VECTORS else None
+
+
+def _read_digits(faults: Faults, path: str, value: object) -> int | None:
+    return None if value is None else read_whole(faults, path, value, 1, DIGIT_LIMIT)
+
+
+def _read_segment(faults: Faults, path: str, value: object) -> str:
+    """Read the letters of a segment, together or apart: ``pb3``, ``p b3``, ``p-b3``."""
+    text = read_text(faults, path, value, limit=SEGMENT_LIMIT)
+    if not text:
+        return ""
+    ends = tuple(text.replace("-", " ").split())
+    ends = (split_pair(text) or ends) if len(ends) == 1 else ends
+    if len(ends) != 2 or ends[0] == ends[1]:
+        faults.add(
+            path, f"expected the two ends of a segment, got {show(value)}", 'For example: "p b3".'
+        )
+        return ""
+    return "-".join(ends)
+
+
+def _read_tolerance(faults: Faults, path: str, value: object) -> float | None:
+    if value is None:
+        return None
+    what, hint = "a tolerance in percent", "5 is 5 % of the value."
+    percent = read_number(faults, path, value, what, low=0.1, high=100.0, hint=hint)
+    return None if percent is None else percent / 100.0
