@@ -32,6 +32,7 @@ LATE_OF = {
     "difflib": "hints",
     "importlib.resources": "templates",
     "mpmath": "the referee",
+    "openpyxl": "workbooks",
     "shapely": "areas",
     "tomllib": "descriptions of compositions",
 }

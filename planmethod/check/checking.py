@@ -82,6 +82,15 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
     )
 
 
+def unknown_variant(work: Work) -> Checked:
+    """Return a work of a variant that the problem has not: nothing of it can be judged."""
+    answers = tuple(
+        Judged(written.id or written.what, Verdict.UNREADABLE, written=written)
+        for written in work.answers
+    )
+    return Checked(work, work.variant, answers)
+
+
 def _scales(
     task: Task, work: Work, here: Sequence[tuple[Written, Item]], position: int
 ) -> dict[str, float]:
@@ -141,7 +150,7 @@ def share_of(one: Examined, settings: Settings) -> float:
         # The sense is an answer of its own: wrong, it leaves the number its points.
         if one.sense_right is False and (one.right or one.follows):
             return 1.0 - settings.sense_share
-        return settings.sense_share if asked and one.sense_right else 0.0
+        return 0.0
     share = shares[one.verdict]
     if asked and one.sense_right is None and one.written.sense is None and not one.signed:
         share -= settings.sense_share * share

@@ -12,7 +12,7 @@ from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.check.slips import put_explanation, slips
+from planmethod.check.slips import completed, put_explanation, slips
 from planmethod.check.task import Task
 from planmethod.construct.steps import Name, PointName, makes, operands
 from planmethod.plans.model import MOTION
@@ -20,7 +20,7 @@ from planmethod.plans.model import MOTION
 CLEARLY = 6.0
 """How much better the best explanation must be than the next one to be named."""
 
-TRIED, CLOSELY = 8, 3
+TRIED, CLOSELY = 6, 3
 """Named explanations that are compared, and those with the errors of their own plans."""
 
 MANY = 2
@@ -72,15 +72,16 @@ def _fits(
     fits = sorted((explained.fit(e, facts, own) for e in tried), key=lambda fit: fit.score)
     close = [explained.fit(fit.explanation, facts, own, closely=True) for fit in fits[:CLOSELY]]
     fits = [*close, *fits[CLOSELY:]]
+    told = {fact.id for fact in facts}
     for one in wrong:
+        if one.item.question.id not in told:
+            continue
         for code, where, value, prior in slips(sheet, one):
             made = put_explanation(sheet, one, code, where, value, prior, free=False)
-            if made is not None:
-                fits.append(explained.fit(made, facts, own))
+            fits.append(explained.fit(made, facts, own))
         code = "slip" if one.slip or (one.computed and one.contradicts) else ""
         made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
-        if made is not None:
-            fits.append(explained.fit(made, facts, own))
+        fits.append(explained.fit(made, facts, own))
     return _different(sorted(fits, key=lambda fit: fit.score), facts)
 
 
@@ -92,7 +93,7 @@ def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
         if fit.explanation.free or not any(
             _same(given, other.explanation.values, facts)
             for other in kept
-            if not other.explanation.free
+            if other.explanation.prior > fit.explanation.prior and not other.explanation.free
         ):
             kept.append(fit)
     return sorted(kept, key=lambda fit: fit.score)
@@ -149,6 +150,8 @@ def _passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[F
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     begins = [one for one in wrong if one.item.id in best.begins]
     root = begins[0] if begins else min(wrong, key=lambda one: _rank(sheet, one))
+    if begins:
+        best = completed(best, root)
     for one in found:
         if one is root or one.verdict is not Verdict.WRONG:
             continue

@@ -18,8 +18,8 @@ import numpy.typing as npt
 from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.model import Change, Scene
 from planmethod.check.sheet import Local, Own, Sheet
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import Trace
+from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName
 
 WIDE = math.log(1e4)
@@ -27,6 +27,9 @@ WIDE = math.log(1e4)
 
 LEAST_SHARE = 0.3
 """An answer that a mistake makes small is drawn no better than a third of the right one."""
+
+SHARED = 2.0
+"""How many answers feel one stroke, on the average: its error is counted in each of them."""
 
 FAR = 30.0
 """Sigmas squared beyond which it does not matter how far off an answer is."""
@@ -105,8 +108,8 @@ class Explanation:
     fixed : str
         Question whose answer it tells whatever goes before it.
     prior : float
-    change : Change or None
-        Of the steps.
+    change, program : Change, Program or None
+        The mistake, and the program with it.
     """
 
     code: str
@@ -119,6 +122,7 @@ class Explanation:
     fixed: str = ""
     prior: float = 1.0
     change: Change | None = None
+    program: Program | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +146,7 @@ class Fit:
     @property
     def likely(self) -> bool:
         """Whether so bad a fit comes by chance more than once in a hundred times."""
-        return exceeds(self.chi2, self.count) > 0.01
+        return exceeds(self.chi2 / SHARED, self.count) > 0.01
 
 
 def exceeds(chi2: float, count: int) -> float:
@@ -161,7 +165,8 @@ class Explanations:
         self.sheet = sheet
         self.scene = Scene(sheet)
         self._named: list[Explanation] | None = None
-        self._last: tuple[Own, dict[Name, float]] | None = None
+        self._last: Own | None = None
+        self._came: dict[int, dict[Name, float]] = {}
         self._locals: dict[tuple[int, frozenset[Name]], Local] = {}
 
     @property
@@ -180,7 +185,8 @@ class Explanations:
     def of_change(self, change: Change) -> Explanation | None:
         """Return what a mistake gives; None where nothing can be drawn with it."""
         sheet = self.sheet
-        trace = evaluate(change.program(sheet.program), {**sheet.data, **change.data}, Float64())
+        program = change.program(sheet.program)
+        trace = sheet.read(program, change.data)
         values = sheet.taken(trace)
         if not all(math.isfinite(value) for value in values.values()):
             return None
@@ -192,6 +198,7 @@ class Explanations:
             sheet,
             prior=change.prior,
             change=change,
+            program=program,
         )
 
     @cached_property
@@ -287,13 +294,13 @@ class Explanations:
 
     def _replayed(self, explanation: Explanation, own: Own) -> dict[Name, float]:
         change, sheet = explanation.change, explanation.sheet
-        if change is None and sheet is self.sheet:  # of every slip of one student the same
-            if self._last is None or self._last[0] is not own:
-                self._last = own, sheet.replayed(own)[0]
-            return self._last[1]
-        if change is None:
-            return sheet.replayed(own)[0]
-        return sheet.replayed(own, change.program(sheet.program), change.data)[0]
+        if self._last is not own:
+            self._last, self._came = own, {}
+        key = id(sheet) if change is None else id(explanation)  # of every slip the same
+        if key not in self._came:
+            data = {} if change is None else change.data
+            self._came[key] = sheet.replayed(own, explanation.program, data)[0]
+        return self._came[key]
 
     def _left(self, explanation: Explanation, own: Own) -> Local:
         """Return what is left open when his numbers are given, on the plans with the mistake."""
@@ -302,6 +309,6 @@ class Explanations:
             return sheet.local(own)
         key = (id(explanation), frozenset[Name](own))
         if key not in self._locals:
-            program = change.program(sheet.program)
+            program = explanation.program or sheet.program
             self._locals[key] = sheet.localised(own, program, {**sheet.data, **change.data})
         return self._locals[key]

@@ -25,7 +25,7 @@ SCHEMA = 1
 
 _MADE = datetime.datetime(2000, 1, 1)
 _MODIFIED = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
-_WIDTHS = (5, 14, 24, 13, 13, 14, 11, 28, 22)
+_WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _SHOWN = ("name", "title", "sheet", "stamp", "published", "source", "variants", "variant")
 """What of a problem does not change what the answers are."""
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
+from planmethod.check.questions import Sign
 from planmethod.check.sense import sense_of
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
@@ -97,7 +98,7 @@ def entry_of(task: Task, item: Item, limit: Limit, *, hidden: tuple[str, ...] = 
         item.label or question.id,
         question.symbol,
         question.unit,
-        limit.exact,
+        abs(limit.exact) if question.sign is Sign.SIZE else limit.exact,
         limit.sigma,
         limit.tolerance(),
         limit.seen,

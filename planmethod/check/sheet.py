@@ -16,10 +16,10 @@ from typing import TypeAlias
 import numpy as np
 
 from planmethod.check.questions import Question, Questions, Sign
-from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.arithmetic import Float64, Number, Single
 from planmethod.construct.drafting import Counted, Profile, Propagated
 from planmethod.construct.dual import Dual, angle, as_dual
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import Put, Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
 from planmethod.plans.segments import Ends
@@ -37,7 +37,7 @@ KINDS = {Sign.SIZE: DrawnKind.LENGTH, Sign.ANGLE: DrawnKind.DIRECTION}
 
 def scalar(value: Number) -> float:
     """Return the one number of an array."""
-    return float(np.asarray(value, dtype=float).reshape(-1)[0])
+    return value if type(value) is float else float(np.reshape(value, -1)[0].real)
 
 
 Own: TypeAlias = Mapping[NumberName, tuple[float, bool]]
@@ -116,7 +116,7 @@ class Sheet:
     @cached_property
     def trace(self) -> Trace:
         """Exact reading, mm."""
-        return evaluate(self.program, self.data, Float64())
+        return self.read(self.program)
 
     @cached_property
     def exact(self) -> dict[str, float]:
@@ -198,11 +198,26 @@ class Sheet:
             number, signed = own[NumberName(name)]
             if not signed and local[name] < 0:
                 number = -abs(number)
-            return np.array([number])
+            return number
 
-        whole = {**self.data, **data} if data else self.data
-        trace = evaluate(program or self.program, whole, Float64(), put)
-        return local, trace
+        return local, self.read(program or self.program, data, put)
+
+    def read(
+        self,
+        program: Program,
+        data: Mapping[str, float] = MappingProxyType({}),
+        put: Put | None = None,
+    ) -> Trace:
+        """Read a program with this sheet's data, or others in their place."""
+        whole = {**self._single, **data} if data else self._single
+        try:
+            return evaluate(program, whole, Single(), put)
+        except (ZeroDivisionError, OverflowError):  # arrays make it infinite, or NaN
+            return evaluate(program, {**self.data, **data}, Float64(), put)
+
+    @cached_property
+    def _single(self) -> dict[str, Number]:
+        return {name: Single().lift(value) for name, value in self.data.items()}
 
     def local(self, names: Iterable[NumberName]) -> Local:
         """Return what is left open when some numbers are given: sigmas and slopes between them."""

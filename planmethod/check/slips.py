@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 from planmethod.check.explain import Explanation
 from planmethod.check.judge import Examined
 from planmethod.check.questions import Sign
-from planmethod.check.sheet import Sheet
+from planmethod.check.sheet import Sheet, scalar
 from planmethod.construct.steps import NumberName
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 
@@ -108,32 +109,36 @@ def _segments(
     for segment in sheet.questions.construction.segments:
         if segment.kind is not question.plan or segment.length not in sheet.trace.value:
             continue
-        share = abs(float(sheet.trace.value[NumberName(segment.length)].reshape(-1)[0])) / length
+        share = abs(scalar(sheet.trace.value[NumberName(segment.length)])) / length
         if abs(share - 1.0) > slack and abs(abs(one.value / base) / share - 1.0) <= slack:
             yield SEGMENT_CODES[question.plan], segment.name, base * share, 0.5
 
 
 def put_explanation(
     sheet: Sheet, one: Examined, code: str, where: str, value: float, prior: float, *, free: bool
-) -> Explanation | None:
-    """Return what follows on the right plans from one number that is otherwise."""
+) -> Explanation:
+    """Return that one number is otherwise; what follows from it is found by `completed`."""
     question = one.item.question
-    if one.slot is None:
-        return None
-    own = {one.slot: (abs(value) / one.per_slot, False)}
-    _, trace = sheet.replayed(own)
-    values = sheet.taken(trace)
-    values[question.id] = value
-    if not all(math.isfinite(number) for number in values.values()):
-        return None
     return Explanation(
         code,
         where,
-        values,
-        trace,
+        {**sheet.exact, question.id: value},
+        sheet.trace,
         sheet,
         begins=(one.item.id,),
         free=question.id if free else "",
         fixed="" if free else question.id,
         prior=prior,
     )
+
+
+def completed(explanation: Explanation, one: Examined) -> Explanation:
+    """Return an explanation of one number with all that follows from it on the right plans."""
+    if one.slot is None:
+        return explanation
+    sheet, name = explanation.sheet, one.item.question.id
+    _, trace = sheet.replayed({one.slot: (abs(explanation.values[name]) / one.per_slot, False)})
+    values = {**sheet.taken(trace), name: explanation.values[name]}
+    if not all(math.isfinite(number) for number in values.values()):
+        return explanation
+    return replace(explanation, values=values, trace=trace)

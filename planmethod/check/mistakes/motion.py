@@ -182,6 +182,17 @@ def coriolis_forgotten(scene: Scene) -> Iterator[Change]:
     """A1: no Coriolis acceleration."""
     for relative, step in _turned(scene):
         yield Change("A1", relative.name, {step.out: times(step, 0.0)}, prior=3.0)
+        yield from _unlaid(scene, relative.a_turned, "A1", relative.name, 0.0)
+
+
+def _unlaid(
+    scene: Scene, end: Name | None, code: str, where: str, factor: float
+) -> Iterator[Change]:
+    """Yield a component that is computed and then laid off otherwise, or not at all."""
+    laid = None if end is None else scene.made.get(end)
+    length = scene.compute(laid.length) if isinstance(laid, LayOff) else None
+    if length is not None:
+        yield Change(code, where, {length.out: times(length, factor)})
 
 
 def coriolis_reversed(scene: Scene) -> Iterator[Change]:
@@ -257,12 +268,12 @@ def _meets(scene: Scene, line: Parallel, head: PointName | None) -> bool:
 # Normal and tangential components ------------------------------------------------------------
 
 
-def _normals(scene: Scene) -> Iterator[tuple[str, Compute, Powers]]:
-    """Yield the normal components ω²·l: letters, step, factors of the length."""
-    for name in scene.segments(A).values.values():
+def _normals(scene: Scene) -> Iterator[tuple[str, Compute, PointName]]:
+    """Yield the normal components ω²·l: letters, step, where each ends."""
+    for (_, end), name in scene.segments(A).values.items():
         step = scene.compute(name)
         if step is not None and step.powers[0][0] in scene.rates and step.powers[0][1] == 2:
-            yield str(name).removeprefix("an_"), step, step.powers[1:]
+            yield str(name).removeprefix("an_"), step, end
 
 
 def normal_outward(scene: Scene) -> Iterator[Change]:
@@ -273,14 +284,15 @@ def normal_outward(scene: Scene) -> Iterator[Change]:
 
 def normal_forgotten(scene: Scene) -> Iterator[Change]:
     """N2: no aⁿ."""
-    for where, step, _ in _normals(scene):
+    for where, step, end in _normals(scene):
         yield Change("N2", where, {step.out: times(step, 0.0)}, prior=1.5)
+        yield from _unlaid(scene, end, "N2", where, 0.0)
 
 
 def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
     """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link."""
-    for where, step, length in _normals(scene):
-        rate = step.powers[0][0]
+    for where, step, _ in _normals(scene):
+        rate, length = step.powers[0][0], step.powers[1:]
         inverse = tuple((name, -power) for name, power in length)
         wrong: list[Powers] = [
             ((rate, 2), *inverse),

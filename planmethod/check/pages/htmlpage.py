@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
 from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.check.pages.speech import tagged
@@ -76,7 +77,7 @@ def _parts(page: Page, solution: Solution, words: Language) -> Iterator[str]:
     yield f'</tbody></table><p class="note">{tagged(say.tolerance)}</p>'
     if page.plans:
         yield f'<section><h2>{say.plans}</h2><div class="plans">'
-        for plan, factor, caption in zip(page.plans, page.factors(), page.captions, strict=True):
+        for plan, factor, caption in chain.from_iterable(page.rows()):
             yield f"<figure>{_picture(plan, factor, solution)}"
             yield f"<figcaption>{tagged(caption)}</figcaption></figure>"
         yield f'</div><p class="note">{tagged(page.legend)}</p></section>'

@@ -20,6 +20,9 @@ from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
 
+SINGLE = (22.0, 36.0, 17.0, 21.0, 15.0, 14.0, 15.0, 46.0)
+"""Widths of the columns of one variant, mm."""
+
 WIDE = 273.0
 
 COLUMN = 34.0
@@ -215,24 +218,28 @@ def _has_unseen(page: KeyPage) -> bool:
 
 def key_pdf(keys: Sequence[Key], words: Language) -> bytes:
     """Return the key as PDF: a standing page for one variant, lying ones for several."""
-    from planmethod.check.pages import pdf
+    from planmethod.check.pages.pdf import NOTE, TEXT, Document
 
     page = KeyPage(tuple(keys), words)
-    story: list[Any] = [pdf.paragraph(page.title, 14.0), pdf.gap(2.0)]
-    story += [pdf.paragraph(page.scales(), 8.5), pdf.gap(4.0)]
+    pdf = Document(plain_text(page.title), wide=not page.is_single)
+    pdf.paragraph(page.title, 14.0)
+    pdf.paragraph(page.scales(), NOTE)
+    pdf.gap(4.0)
     if page.is_single:
-        widths = (22.0, 36.0, 17.0, 21.0, 15.0, 14.0, 15.0, 46.0)
         rows = [page.line(entry) for entry in page.keys[0].entries]
-        story.append(pdf.table(page.say.columns, rows, widths, right=(4,), size=9.5))
+        pdf.table(page.say.columns, rows, SINGLE, right=(4,), size=TEXT)
     else:
         for part in _parts(page):
-            story += [_matrix(page, part), pdf.gap(6.0)]
+            pdf.table(*_matrix(page, part), size=NOTE)
+            pdf.gap(5.0)
         if _has_unseen(page):
-            story.append(pdf.paragraph(f"{UNSEEN} — {page.say.unseen}.", 8.0))
-    story += [pdf.gap(4.0), pdf.paragraph(page.note(), 8.5)]
+            pdf.paragraph(f"{UNSEEN} — {page.say.unseen}.", NOTE)
+    pdf.gap(3.0)
+    pdf.paragraph(page.note(), NOTE)
     if hidden := page.hidden():
-        story += [pdf.heading(page.say.hidden), *pdf.listed(hidden, 8.5)]
-    return pdf.document(story, plain_text(page.title), wide=not page.is_single)
+        pdf.heading(page.say.hidden)
+        pdf.listed(hidden, NOTE)
+    return pdf.close()
 
 
 def _parts(page: KeyPage) -> Iterator[list[KeyEntry]]:
@@ -245,16 +252,17 @@ def _parts(page: KeyPage) -> Iterator[list[KeyEntry]]:
         yield columns[start : start + size]
 
 
-def _matrix(page: KeyPage, columns: Sequence[KeyEntry]) -> Any:
-    from planmethod.check.pages import pdf
-
+def _matrix(
+    page: KeyPage, columns: Sequence[KeyEntry]
+) -> tuple[list[str], list[list[str]], list[float]]:
+    """Return head, rows and widths of a table with a column for each answer."""
     rows = []
     for row in page.rows():
         cells = [page.cell(row.entries.get(entry.label)) for entry in columns]
         rows.append([page.lead(row), *("; ".join(filter(None, cell)) for cell in cells)])
     width = min(48.0, (WIDE - LEAD) / len(columns))
     header = [page.say.rows[0], *(page.head(entry) for entry in columns)]
-    return pdf.table(header, rows, [LEAD, *[width] * len(columns)], size=8.0)
+    return header, rows, [LEAD, *[width] * len(columns)]
 
 
 def key_xlsx(keys: Sequence[Key], words: Language) -> bytes:

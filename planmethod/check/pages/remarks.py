@@ -85,7 +85,8 @@ class Remarks:
             end = self.say.one_of_end.format(answer=self.speech.symbol(root))
             return f"{self.say.one_of.format(names=names)} {end}"
         gives = diagnosis.values.get(root.id)
-        so_many = "" if gives is None else f" ({self.speech.close_to(gives, root)})"
+        many = "" if gives is None else self.speech.close_to(gives, root)
+        so_many = f" ({many})" if many and many not in self.speech.own(root) else ""
         return self.say.mistake.format(
             value=so_many,
             so=words[0].so,
@@ -153,7 +154,7 @@ class Remarks:
             )
 
     def _points(self, judged: Iterable[Judged]) -> str:
-        listed = list(judged)
+        listed = [one for one in judged if not lacks_sense(one)]
         points, of = sum(j.points for j in listed), sum(j.of for j in listed)
         if points >= of - 1e-9:
             return self.say.kept
@@ -173,9 +174,6 @@ class Remarks:
                 yield say.near.format(**places, points=self._lost(judged))
             elif judged.verdict is Verdict.INCONSISTENT and local:
                 yield say.inconsistent.format(**places, local=local)
-            elif judged.verdict is Verdict.UNSEEN:
-                more = "" if local is None else say.unseen_local.format(**places, local=local)
-                yield say.unseen.format(**places, local=more)
             if judged.sense_right is False and self._fits(judged) and not self._is_root(judged):
                 yield say.sense.format(**places | {"right": self._sense(key.sense)})
             if judged.slip:
@@ -209,6 +207,12 @@ class Remarks:
         )
 
     def _missing(self) -> Iterator[str]:
+        unseen = list(self._of(Verdict.UNSEEN))
+        if unseen:
+            yield self.say.unseen.format(answers=self._listed(unseen))
+        senseless = [judged for judged in self.checked.answers if lacks_sense(judged)]
+        if senseless:
+            yield self.say.no_sense.format(answers=self._listed(senseless))
         blank = list(self._of(Verdict.BLANK))
         if blank:
             yield self.say.blank.format(answers=self._listed(blank))
@@ -258,6 +262,16 @@ class Remarks:
 
     def _listed(self, answers: Iterable[Judged]) -> str:
         return ", ".join(self.speech.symbol(judged) for judged in answers)
+
+
+def lacks_sense(judged: Judged) -> bool:
+    """Tell whether the sense that is asked of an answer is missing, and costs points."""
+    key, written = judged.key, judged.written
+    if key is None or written is None or not key.asks_sense or judged.by_hand:
+        return False
+    is_right = judged.verdict not in (Verdict.WRONG, Verdict.BLANK, Verdict.UNREADABLE)
+    missing = written.sense is None and judged.sense_right is None
+    return is_right and missing and judged.points < judged.of
 
 
 def segment_letters(segment: str) -> str:

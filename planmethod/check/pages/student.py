@@ -15,6 +15,9 @@ from planmethod.solved.solution import Solution
 PAPER = (178.0, 92.0)
 """Room for the plans of a page, mm: the width of both side by side, the height of one."""
 
+GAP = 4.0
+"""Between plans side by side, mm."""
+
 SMALLEST = 0.42
 """Plans that would be shrunk further stand one under the other."""
 
@@ -58,18 +61,22 @@ class Page:
     legend: str
     lang: str
 
-    def factors(self) -> list[float]:
-        """Return by how much each plan is shrunk: one factor where they stand side by side."""
+    def rows(self) -> list[list[tuple[Overlay, float, str]]]:
+        """Return the plans, by how much each is shrunk, and their captions, row by row.
+
+        They stand side by side, shrunk alike, or one under the other where that were too small.
+        """
         width, height = PAPER
         sizes = [plan.size for plan in self.plans]
         if not sizes:
             return []
-        gaps = 4.0 * (len(sizes) - 1)
-        both = min(1.0, (width - gaps) / sum(w for w, _ in sizes))
-        both = min(both, *(height / h for _, h in sizes), 1.0)
+        whole = sum(w for w, _ in sizes)
+        both = min(1.0, (width - GAP * (len(sizes) - 1)) / whole, *(height / h for _, h in sizes))
         if both >= SMALLEST:
-            return [both] * len(sizes)
-        return [min(1.0, width / w, height / h) for w, h in sizes]
+            shown = zip(self.plans, [both] * len(sizes), self.captions, strict=True)
+            return [list(shown)]
+        alone = [min(1.0, width / w, height / h) for w, h in sizes]
+        return [[one] for one in zip(self.plans, alone, self.captions, strict=True)]
 
 
 def student_page(
@@ -130,7 +137,7 @@ def _cells(judged: Judged, speech: Speech, symbols: Mapping[str, str]) -> tuple[
     key, written, say = judged.key, judged.written, speech.say
     own = speech.own(judged)
     if judged.verdict is Verdict.UNREADABLE and written is not None:
-        own = f"«{quoted(written.raw or written.unreadable)}»"
+        own = say.student.quoted.format(text=quoted(written.raw or written.unreadable))
     verdict = say.verdicts[judged.verdict.value]
     if judged.follows in symbols:
         verdict = say.student.source.format(source=symbols[judged.follows])

@@ -30,7 +30,7 @@ _OF_SCALES: dict[str, Dimension] = {
     "mu_a": (1, -2, 0, 0),
     "mu_F": (0, 0, 1, 0),
 }
-_OF_LETTERS = {"v": "mu_v", "a": "mu_a", "F": "mu_F", "R": "mu_F", "l": "mu_l"}
+_OF_LETTERS = {"v": "mu_v", "a": "mu_a", "f": "mu_F", "r": "mu_F", "l": "mu_l"}
 _KEPT = ("what", "id", "position", "where")
 
 
@@ -110,7 +110,7 @@ class Draft:
 
     def put_row_scale(self, quantity: str, cell: Cell) -> None:
         """Take the scale that stands beside an answer: that of the plan of the quantity."""
-        name = _OF_LETTERS.get(fold(quantity)[:1], "")
+        name = _OF_LETTERS.get(fold(quantity)[:1].casefold(), "")
         if cell.why is Unread.FORMULA:
             return  # that of the form repeats what stands above the head
         if name:

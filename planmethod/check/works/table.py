@@ -78,7 +78,8 @@ def read_table(rows: Sequence[Row], gathering: Gathering, title: str, *, closed:
 
 def _known_once(gathering: Gathering, before: Sequence[Head], head: Head, cell: Cell) -> Head:
     """Return the head of a column; what nobody knows, or stands there twice, is told."""
-    twice = head.field not in (*_WHO, "note") and not head.name and head in before
+    same = any(one.field == head.field and not one.name for one in before)
+    twice = same and not head.name and head.field not in (*_WHO, "note", "")
     if cell.text and (twice or not head.field):
         gathering.note(Unread.COLUMN, cell.text, cell.where)
     return Head() if twice else head
@@ -189,10 +190,10 @@ def _read_row(draft: Draft, cells: Sequence[tuple[Head, Cell]]) -> None:
             if head.unit:
                 answer["unit"] = Cell(head.unit, cell.where)
         elif head.field:
-            if own.setdefault(head.field, cell).is_blank or head.field == "unit":
+            if own.get(head.field, BLANK).is_blank or (head.field == "unit" and cell.text):
                 own[head.field] = cell
-            if head.unit and head.field == "value":
-                own.setdefault("unit", Cell(head.unit, cell.where))
+            if head.unit and head.field == "value" and own.get("unit", BLANK).is_blank:
+                own["unit"] = Cell(head.unit, cell.where)
             if head.field == "position":
                 first = head.first
     for answer in asked:

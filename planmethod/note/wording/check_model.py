@@ -111,7 +111,7 @@ class StudentWording:
     inconsistent: str
     sense: str
     unseen: str
-    unseen_local: str
+    no_sense: str
     slip: str
     slip_bare: str
     blank: str
@@ -119,6 +119,7 @@ class StudentWording:
     unreadable_other: str
     remark: str
     page: str
+    quoted: str
     source: str
     share: str
 

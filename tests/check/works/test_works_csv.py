@@ -132,6 +132,22 @@ def test_variants_and_scales_that_change_are_told(tmp_path: Path) -> None:
     assert [remark.why for remark in work.remarks] == [Unread.TWICE] * 2
 
 
+def test_a_name_may_stand_in_two_columns_and_a_value_in_one(tmp_path: Path) -> None:
+    (work,) = read(tmp_path, "Фамилия;Имя;что;значение;ответ\nИванов;Пётр;v B;2;3\n")
+    assert work.student == "Иванов Пётр"
+    assert [answer.value for answer in work.answers] == [2.0]
+    assert [(r.why, r.fault) for r in work.remarks] == [(Unread.COLUMN, "ответ")]
+
+
+@pytest.mark.parametrize("columns", ["значение, мм/с;единица", "единица;значение, мм/с"])
+def test_the_unit_of_a_row_counts_before_that_of_the_head(tmp_path: Path, columns: str) -> None:
+    rows = ("s;v B;2;м/с", "s;v C;2;", "s;v D;2 см/с;м/с")
+    if columns.startswith("единица"):
+        rows = ("s;v B;м/с;2", "s;v C;;2", "s;v D;м/с;2 см/с")
+    (work,) = read(tmp_path, "\n".join((f"student;what;{columns}", *rows)))
+    assert [answer.value for answer in work.answers] == [2.0, 0.002, 0.02]
+
+
 def test_points_are_named_in_a_row(tmp_path: Path) -> None:
     (work,) = read(tmp_path, "student;what;value\ns01;v K;2\ns01;точка K;B3\n")
     assert [answer.what for answer in work.answers] == ["v B3"]

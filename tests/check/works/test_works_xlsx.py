@@ -90,7 +90,7 @@ def test_merged_answers_are_not_copied(tmp_path: Path) -> None:
 
 
 def test_a_wide_table_may_have_a_head_of_two_rows(tmp_path: Path) -> None:
-    rows = [
+    rows: list[list[Any]] = [
         ["№", "ФИО", "v_B3", None, None, "ω3, 1/с"],
         [None, None, "мм", "значение", "направление", None],
         [1, "Иванов", 45.5, 2.275, "←", 15.2],
@@ -116,7 +116,8 @@ def test_digits_are_those_that_the_cell_shows(tmp_path: Path) -> None:
         for row, form in enumerate(("0.00", "General", "0", '0.000" м/с"'), 2):
             sheet.cell(row, 3, 2.5).number_format = form
 
-    rows = [["student", "what", "value"], *(["s", f"v {point}"] for point in "ABCD")]
+    rows: list[list[Any]] = [["student", "what", "value"]]
+    rows += (["s", f"v {point}"] for point in "ABCD")
     (work,) = read(tmp_path, saved(rows, write))
     assert [answer.step for answer in work.answers] == [0.01, 0.1, 0.1, 0.001]
     assert {answer.value for answer in work.answers} == {2.5}

@@ -132,10 +132,11 @@ CHECK = CheckWording(
         ),
         sense="{answer}: the magnitude is right, the sense is not: it is {right}.",
         unseen=(
-            "{answer}: the drawing does not show this quantity reliably (the error of drawing is "
-            "larger than what is allowed), so it was not compared with the exact value{local}."
+            "The drawing does not show reliably (the error of drawing is larger than what is "
+            "allowed): {answers}. They were not compared with the exact values, only with your "
+            "own earlier numbers."
         ),
-        unseen_local="; your numbers give {local}, you have {own}",
+        no_sense="The sense is missing: {answers}. It costs a part of their points.",
         slip="{answer}: {mm} mm · {scale} = {product}, but {own} is written. Check the "
         "calculation.",
         slip_bare="{answer}: {own} is not the segment times the scale. Check the calculation.",
@@ -145,6 +146,7 @@ CHECK = CheckWording(
         unreadable_other="“{raw}” cannot be read{where}.",
         remark="Remark of the instructor: {remark}",
         page="{student} · page {page}",
+        quoted="“{text}”",
         source="follows from your {source}",
         share="{points} of {of}",
     ),

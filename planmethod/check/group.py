@@ -1,0 +1,131 @@
+"""A group of works checked against the variants of one problem (проверка группы)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from planmethod.check.checking import check, unknown_variant
+from planmethod.check.key import Key, key_of_task
+from planmethod.check.letters import plain
+from planmethod.check.marks import DEFAULT, Settings
+from planmethod.check.model import Checked, Work
+from planmethod.check.task import Item, Task
+from planmethod.problem import load, variant_names
+from planmethod.solved.selected.asking import UnansweredError
+from planmethod.solved.solution import Solution
+
+
+class Variants:
+    """Variants of a problem file, each solved when it is first needed.
+
+    Parameters
+    ----------
+    path : Path
+    settings : Settings
+    default : str, optional
+        Variant of the works that name none.
+    """
+
+    def __init__(
+        self, path: Path, settings: Settings = DEFAULT, default: str | None = None
+    ) -> None:
+        self.path, self.settings, self.default = path, settings, default
+        self.names: tuple[str, ...] = tuple(variant_names(path))
+        self._tasks: dict[str | None, Task] = {}
+        self._forms = {plain(name): name for name in self.names}
+
+    def task(self, name: str | None) -> Task:
+        """Return the task of a variant; of the file itself when there is none.
+
+        Raises
+        ------
+        PlanMethodError
+            When the problem cannot be solved.
+        """
+        if name not in self._tasks:
+            solution = Solution(load(self.path, variant=name))
+            _ = solution.si
+            self._tasks[name] = Task(solution, self.settings, self._all)
+        return self._tasks[name]
+
+    def _all(self) -> Iterator[Task]:
+        for name in self.names or (None,):
+            yield self.task(name)
+
+    def name_of(self, work: Work) -> str | None:
+        """Return the variant of a work; None of the file itself.
+
+        Raises
+        ------
+        KeyError
+            When the file has no such variant.
+        """
+        if not work.variant:
+            return self.default
+        if work.variant in self.names:
+            return work.variant
+        if not self.names:
+            return None
+        return self._forms[plain(work.variant)]
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Checked works with the keys that they were checked by."""
+
+    checked: tuple[Checked, ...]
+    keys: dict[str | None, Key]
+
+
+def check_works(
+    variants: Variants, works: Sequence[Work], among: Sequence[Work] | None = None
+) -> Iterator[Checked]:
+    """Yield the works, each checked by its own variant.
+
+    Where the problem file asks nothing, everybody of one file was asked what any of them answered.
+
+    Parameters
+    ----------
+    among : sequence of Work, optional
+        All works of the group, where only some of them are checked here.
+    """
+    asked: dict[tuple[str, str | None], dict[str, Item]] = {}
+    for work in among or works:
+        try:
+            name = variants.name_of(work)
+        except KeyError:
+            continue
+        task = variants.task(name)
+        for written in work.answers:
+            try:
+                item = task.find(written)
+            except UnansweredError:
+                continue
+            if not task.declared:
+                asked.setdefault((work.where, name), {}).setdefault(item.id, item)
+    for work in works:
+        try:
+            name = variants.name_of(work)
+        except KeyError:
+            yield unknown_variant(work)
+            continue
+        also = asked.get((work.where, name), {})
+        yield check(variants.task(name), work, tuple(also.values()))
+
+
+def keys_of(variants: Variants, checked: Sequence[Checked]) -> dict[str | None, Key]:
+    """Return the keys of the variants that works have, of all that they answer."""
+    found: dict[str | None, Key] = {}
+    for name in dict.fromkeys(work.variant for work in checked):
+        task = variants.task(name)
+        items: dict[str, Item] = {item.id: item for item in task.declared}
+        for one in checked:
+            if one.variant != name:
+                continue
+            for judged in one.answers:
+                if judged.key is not None and judged.written is not None:
+                    items.setdefault(judged.id, replace(task.find(judged.written), id=judged.id))
+        found[name] = key_of_task(task, items.values())
+    return found

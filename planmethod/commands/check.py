@@ -1,0 +1,244 @@
+"""Command ``check``: answers of students against the plans."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from planmethod.commands.output import bar, is_narrow
+from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.errors import ExitCode
+from planmethod.options import lang_option, out_option
+
+if TYPE_CHECKING:
+    from planmethod.check.marks import Settings
+    from planmethod.check.model import Checked, Work
+    from planmethod.problem.model import Problem
+
+POLICIES = ("construction", "department", "wider", "stricter")
+MANY_WORKS = 10
+"""Works whose pages take about a second."""
+
+FORMATS = ("html", "pdf")
+
+
+@click.command()
+@click.argument(
+    "files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=click.Path(path_type=Path)
+)
+@click.option("--key", "key_only", is_flag=True, help="Print and write the key of every PROBLEM.")
+@click.option("--variant", metavar="NAME", help="Variant of the works that name none.")
+@click.option("--all-variants", is_flag=True, help="With --key: of every variant.")
+@click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON, and no files.")
+@out_option
+@click.option(
+    "--settings",
+    "settings_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="TOML of the department: tolerances, points, marks.",
+)
+@click.option("--policy", type=click.Choice(POLICIES), help="Whose tolerance counts.")
+@click.option(
+    "--profile", type=click.Choice(("board", "cad", "coarse")), help="How well the works are drawn."
+)
+@click.option(
+    "--overrides",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Points and remarks set by hand; overrides.csv of the output folder when absent.",
+)
+@click.option("--anonymize", is_flag=True, help="Stable numbers in place of the names.")
+@click.option(
+    "--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Processes at work."
+)
+@lang_option
+@guarded
+def check(
+    files: tuple[Path, ...],
+    key_only: bool,
+    variant: str | None,
+    all_variants: bool,
+    as_json: bool,
+    out: Path,
+    settings_file: Path | None,
+    policy: str | None,
+    profile: str | None,
+    overrides: Path | None,
+    anonymize: bool,
+    jobs: int,
+    lang: str,
+) -> None:
+    """Check answers: key first, then one student's work or a whole group's.
+
+    PROBLEM asks what its [[answers]] say, else whatever the works answer. WORK is one student's
+    JSON or TOML, a group's CSV or XLSX, or a form filled in. Writes results.xlsx, results.csv,
+    run.json and a page for each student.
+    """
+    settings = _settings(settings_file, policy, profile)
+    if key_only:
+        _write_keys(files, variant, all_variants, settings, out, lang)
+        return
+    if all_variants:
+        raise click.UsageError("--all-variants goes with --key: every work names its own variant")
+    problem, *paths = files
+    if not paths:
+        raise click.UsageError("name a WORK after the PROBLEM, or ask for its --key")
+    checked, works = _checked(problem, paths, variant, settings, jobs)
+    from planmethod.check.pages.overrides import overridden, read_overrides
+
+    by_hand = overrides or (None if as_json else out / "overrides.csv")
+    if by_hand is not None:
+        checked, unused = overridden(checked, read_overrides(by_hand))
+        for where in unused:
+            click.echo(f"Warning: {where}: no such work or answer.", err=True)
+    _warn_of_others(problem, works)
+    if as_json:
+        _print_json(checked, paths)
+    else:
+        _write_results(problem, paths, checked, settings, variant, out, anonymize, lang)
+    unreadable = [a for work in checked for a in work.answers if a.verdict.value == "unreadable"]
+    lost = [remark for work in checked for remark in work.work.remarks]
+    for judged in unreadable:
+        why = "" if judged.written is None else judged.written.unreadable
+        reason = why or f"no quantity {judged.id!r} that the problem has"
+        click.echo(f"Unreadable: {judged.where or judged.id}: {reason}", err=True)
+    for remark in lost:
+        click.echo(f"Unreadable: {remark.where}: {remark.unreadable}", err=True)
+    finish(ExitCode.FINDINGS if unreadable or lost else ExitCode.DONE)
+
+
+def _settings(file: Path | None, policy: str | None, profile: str | None) -> Settings:
+    from planmethod.check.marks import DEFAULT, load_settings
+
+    settings = DEFAULT if file is None else load_settings(file)
+    return replace(settings, policy=policy or settings.policy, profile=profile or settings.profile)
+
+
+def _checked(
+    problem: Path, paths: list[Path], variant: str | None, settings: Settings, jobs: int
+) -> tuple[list[Checked], list[Work]]:
+    from planmethod.check.group import Variants, check_works
+    from planmethod.check.works import read_works
+
+    works = [work for path in paths for work in read_works(path)]
+    if jobs > 1 and len(works) > jobs:
+        return _in_processes(problem, works, variant, settings, jobs), works
+    variants = Variants(problem, settings, variant)
+    with bar(len(works), long=len(works) >= MANY_WORKS) as done:
+        checked = []
+        for one in check_works(variants, works):
+            checked.append(one)
+            done(1)
+    return checked, works
+
+
+def _in_processes(
+    problem: Path, works: list[Work], variant: str | None, settings: Settings, jobs: int
+) -> list[Checked]:
+    """Check works in several processes; each file of works stays whole, as its works go together."""
+    from concurrent.futures import ProcessPoolExecutor
+    from functools import partial
+
+    share = -(-len(works) // jobs)
+    parts = [works[start : start + share] for start in range(0, len(works), share)]
+    with ProcessPoolExecutor(jobs) as pool:
+        done = pool.map(partial(_part, problem, variant, settings, works), parts)
+        return [one for part in done for one in part]
+
+
+def _part(
+    problem: Path, variant: str | None, settings: Settings, works: list[Work], part: list[Work]
+) -> list[Checked]:
+    from planmethod.check.group import Variants, check_works
+
+    return list(check_works(Variants(problem, settings, variant), part, among=works))
+
+
+def _warn_of_others(problem: Path, works: list[Work]) -> None:
+    """Warn of works that name another problem."""
+    for work in works:
+        named = Path(work.problem).stem if work.problem else problem.stem
+        if named != problem.stem:
+            click.echo(
+                f"Warning: {work.student or work.where}: the work is of {named}, it is checked as "
+                f"{problem.stem}.",
+                err=True,
+            )
+
+
+def _print_json(checked: list[Checked], paths: list[Path]) -> None:
+    import json
+
+    from planmethod.check.pages.listing import record
+
+    records = [record(one) for one in checked]
+    alone = len(records) == 1 and paths[0].suffix.lower() in (".json", ".toml")
+    whole: Any = records[0] if alone else records
+    click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
+
+
+def _write_results(
+    problem: Path,
+    paths: list[Path],
+    checked: list[Checked],
+    settings: Settings,
+    variant: str | None,
+    out: Path,
+    anonymize: bool,
+    lang: str,
+) -> None:
+    from planmethod.check.group import Variants, keys_of
+    from planmethod.check.pages.files import write_all
+
+    if anonymize:
+        from planmethod.check.pages.run import anonymous
+
+        checked = anonymous(checked, problem.stem)
+    keys = keys_of(Variants(problem, settings, variant), checked)
+    with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:
+        written = write_all(out, checked, keys, settings, [problem, *paths], lang, done=done)
+    for path in written:
+        click.echo(str(path))
+
+
+def _write_keys(
+    files: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    settings: Settings,
+    out: Path,
+    lang: str,
+) -> None:
+    from planmethod.check.key import Key, key_of
+    from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
+    from planmethod.note.wording import language
+    from planmethod.problem import variant_names
+    from planmethod.render.backends.output import write
+    from planmethod.solved.solution import Solution
+
+    words = language(lang)
+    code = ExitCode.DONE
+    for path in files:
+        keys: list[Key] = []
+
+        def solve(problem: Problem, into: list[Key] = keys) -> None:
+            into.append(key_of(Solution(problem), settings))
+
+        try:
+            every = all_variants or (variant is None and bool(variant_names(path)))
+        except OSError:
+            every = False
+        code = each((path,), variant, every, solve) or code
+        if not keys:
+            continue
+        click.echo(key_text(keys, words), nl=False)
+        name = stem(keys[0].problem) if len(keys) == 1 else path.stem
+        for ending, data in (("pdf", key_pdf(keys, words)), ("xlsx", key_xlsx(keys, words))):
+            target = out / f"{name}-key.{ending}"
+            write(target, data)
+            click.echo(str(target))
+    finish(code)

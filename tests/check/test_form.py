@@ -1,0 +1,288 @@
+"""The form: what is in it, what is not, and that it comes back from every program."""
+
+from __future__ import annotations
+
+import io
+import re
+import shutil
+import subprocess
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+from click.testing import CliRunner
+from worked import path_of
+
+from planmethod.check.form import fingerprint_of, form_of
+from planmethod.check.model import KeyEntry, Sense, Unread, Work
+from planmethod.check.works import read_works
+from planmethod.check.works.units import read_unit
+from planmethod.check.works.vocabulary import HEADS, key, read_sense
+from planmethod.cli import cli
+from planmethod.errors import ExitCode
+from planmethod.note.wording import LANGUAGES, language
+from planmethod.problem import load
+
+EX3 = path_of("linkages/ex3")
+EXACT, SIGMA, LENGTH = 2.2434567, 0.0123456, 44.869134
+
+ENTRIES = (
+    KeyEntry("v_B3", "VB₃", "v_{B3}", "m/s", EXACT, SIGMA, 2.5 * SIGMA, mm=LENGTH, scale="mu_v"),
+    KeyEntry(
+        *("omega_3", "ω3", "ω_{3}", "1/s", -EXACT, SIGMA, 2.5 * SIGMA),
+        mm=LENGTH,
+        scale="mu_v",
+        sense=Sense.CW,
+        asks_sense=True,
+    ),
+    KeyEntry("=cmd", "=1+1", "x", "N", EXACT, SIGMA, SIGMA, scale="mu_F", mm=LENGTH),
+    KeyEntry("phi_3", "φ3", "φ_{3}", "deg", EXACT, 0.0, 0.1),
+)
+
+
+def book_of(data: bytes) -> Any:
+    return openpyxl.load_workbook(io.BytesIO(data))
+
+
+def made(**more: Any) -> bytes:
+    return form_of(ENTRIES, problem="ex3", fingerprint="f" * 64, **more)
+
+
+def rows_of(sheet: Any) -> dict[str, int]:
+    """Return the rows of the form by what stands in their first three columns."""
+    return {
+        str(cell.value): cell.row
+        for row in sheet.iter_rows(max_col=3)
+        for cell in row
+        if cell.value is not None
+    }
+
+
+def filled(data: bytes, lang: str = "ru") -> bytes:
+    """Fill a form in as a student does."""
+    words = language(lang).form
+    book = book_of(data)
+    sheet = book.worksheets[0]
+    rows = rows_of(sheet)
+    cells = {
+        (words.student, "D"): "Иванов И. И.",
+        (words.variant, "D"): "Б",
+        (words.scales["mu_v"], "D"): 0.05,
+        (words.ruler, "D"): "0,5",
+        ("VB₃", "D"): 45.5,
+        ("VB₃", "F"): 2275,
+        ("VB₃", "G"): words.units[1],
+        ("ω3", "F"): "15,2",
+        ("ω3", "H"): words.senses["cw"],
+        ("φ3", "F"): 0,
+    }
+    for (name, column), value in cells.items():
+        cell = sheet[f"{column}{rows[name]}"]
+        assert not cell.protection.locked, name
+        cell.value = value
+    stream = io.BytesIO()
+    book.save(stream)
+    return stream.getvalue()
+
+
+def read(path: Path, data: bytes | None = None) -> Work:
+    if data is not None:
+        path.write_bytes(data)
+    (work,) = read_works(path)
+    return work
+
+
+def check_filled(work: Work) -> None:
+    """Compare with what `filled` wrote."""
+    assert (work.student, work.problem, work.ruler_mm) == ("Иванов И. И.", "ex3", 0.5)
+    assert (work.variant, work.scales) == ("Б", {"mu_v": 0.05})
+    assert not work.remarks
+    v, omega, force, phi = work.answers
+    assert [answer.id for answer in work.answers] == ["v_B3", "omega_3", "=cmd", "phi_3"]
+    assert (v.value, v.step, v.mm) == (2.275, 0.001, 45.5)
+    assert (omega.value, omega.sense) == (15.2, Sense.CW)
+    assert force.is_blank
+    assert (phi.value, phi.is_blank) == (0.0, False)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_form_that_is_filled_in_is_read_back(tmp_path: Path, lang: str) -> None:
+    work = read(tmp_path / "form.xlsx", filled(made(lang=lang), lang))
+    check_filled(work)
+    assert work.fingerprint == "f" * 64
+
+
+def test_an_empty_form_is_blank_and_called_as_its_file(tmp_path: Path) -> None:
+    work = read(tmp_path / "Петров.xlsx", made())
+    assert work.student == "Петров"
+    assert len(work.answers) == len(ENTRIES)
+    assert all(answer.is_blank for answer in work.answers)
+    assert not work.remarks
+    named = read(tmp_path / "x.xlsx", made(student="=Сидоров", variant="В"))
+    assert (named.student, named.variant) == ("=Сидоров", "В")
+
+
+def test_a_row_that_is_gone_is_told(tmp_path: Path) -> None:
+    book = book_of(made())
+    sheet = book.worksheets[0]
+    sheet.delete_rows(rows_of(sheet)["ω3"])
+    stream = io.BytesIO()
+    book.save(stream)
+    (remark,) = read(tmp_path / "form.xlsx", stream.getvalue()).remarks
+    assert (remark.why, remark.fault) == (Unread.ROW, "omega_3")
+
+
+def test_the_form_does_not_know_the_answers() -> None:
+    with zipfile.ZipFile(io.BytesIO(made())) as archive:
+        text = b"".join(map(archive.read, archive.namelist())).decode()
+    for number in (EXACT, SIGMA, 2.5 * SIGMA, LENGTH):
+        assert f"{number:.4g}"[:-1] not in text
+    other = tuple(
+        replace(one, exact=7.7, sigma=0.1, tolerance=0.2, sense=Sense.CCW, seen=False, zero=True)
+        for one in ENTRIES
+    )
+    assert form_of(other, problem="ex3", fingerprint="f" * 64) == made()
+
+
+def test_only_the_answers_can_be_written_in() -> None:
+    sheet = book_of(made()).worksheets[0]
+    assert sheet.protection.sheet
+    rows = rows_of(sheet)
+    open_cells = {cell.coordinate for row in sheet for cell in row if not cell.protection.locked}
+    head = {f"D{rows[name]}" for name in rows if f"D{rows[name]}" in open_cells}
+    assert len(head) == 6 + 3  # student, group, variant, two scales, ruler; segments of plans
+    assert not any(name[0] in "ABCEI" for name in open_cells)
+    given = book_of(made(variant="Б")).worksheets[0]
+    assert given[f"D{rows_of(given)['Вариант']}"].protection.locked
+
+
+def test_texts_are_no_formulas_and_every_formula_is_ours() -> None:
+    book = book_of(made(student="=1+1", title="=2+2"))
+    formulas = [
+        str(cell.value) for sheet in book for row in sheet for cell in row if cell.data_type == "f"
+    ]
+    assert len(formulas) == 4  # μ and the comparison of the two that are measured on a plan
+    assert all(formula.startswith("=IF(") for formula in formulas)
+
+
+def test_units_and_senses_are_chosen_from_lists_that_can_be_read() -> None:
+    sheet = book_of(made()).worksheets[0]
+    rows = rows_of(sheet)
+    lists = {
+        str(cells): rule.formula1.strip('"').split(",")
+        for rule in sheet.data_validations.dataValidation
+        for cells in rule.sqref.ranges
+    }
+    assert lists[f"G{rows['VB₃']}"] == ["м/с", "мм/с", "см/с"]
+    assert [read_sense(text) for text in lists[f"H{rows['ω3']}"]] == [Sense.CCW, Sense.CW]
+    assert f"H{rows['VB₃']}" not in lists
+    assert all(len(",".join(items)) < 255 for items in lists.values())
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_words_of_the_form_can_be_read_back(lang: str) -> None:
+    words = language(lang).form
+    for head in (*words.columns, words.position, words.student, words.variant, words.problem):
+        assert key(head) in HEADS or head in HEADS, head
+    assert all(map(read_unit, words.units))
+    assert {read_sense(text) for text in words.senses.values()} == set(Sense)
+    assert list(words.unread) == [why.value for why in Unread]
+
+
+def test_the_same_form_has_the_same_bytes() -> None:
+    assert made() == made()
+    with zipfile.ZipFile(io.BytesIO(made())) as archive:
+        assert {member.date_time[0] for member in archive.infolist()} == {2000}
+        assert not re.search(rb"202\d-", archive.read("docProps/core.xml"))
+
+
+def test_positions_are_told_where_there_are_several(tmp_path: Path) -> None:
+    entries = [replace(ENTRIES[0], id=f"v_B3@{n}", position=n) for n in range(3)]
+    work = read(tmp_path / "form.xlsx", form_of(entries, problem="ex3"))
+    assert [answer.position for answer in work.answers] == [0, 1, 2]
+
+
+def test_the_fingerprint_is_of_what_the_answers_depend_on(tmp_path: Path) -> None:
+    text = EX3.read_text("utf-8")
+
+    def changed(*pairs: tuple[str, str]) -> str:
+        new = text
+        for old, other in pairs:
+            assert old in new
+            new = new.replace(old, other, 1)
+        (tmp_path / "other.toml").write_text(new, "utf-8")
+        return fingerprint_of(load(tmp_path / "other.toml"))
+
+    own = fingerprint_of(load(EX3))
+    assert re.fullmatch("[0-9a-f]{64}", own)
+    assert changed(("стойка, м", "рама"), ("Рычажный механизм", "Механизм")) == own
+    assert changed(("AB = 0.064", "AB = 0.065")) != own
+
+
+# LibreOffice -------------------------------------------------------------------------------------
+
+SOFFICE = shutil.which("soffice")
+CSV = "csv:Text - txt - csv (StarCalc):59,34,76,1"
+"""Semicolons, quotes, UTF-8, from the first row."""
+
+
+@pytest.mark.skipif(SOFFICE is None, reason="soffice is not installed")
+def test_a_form_comes_back_from_libreoffice(tmp_path: Path) -> None:
+    source = tmp_path / "form.xlsx"
+    source.write_bytes(filled(made()))
+    home, out = f"-env:UserInstallation={(tmp_path / 'office').as_uri()}", str(tmp_path / "out")
+    for kind in ("xlsx", CSV):
+        subprocess.run(
+            [str(SOFFICE), home, "--headless", "--convert-to", kind, "--outdir", out, str(source)],
+            check=True,
+            capture_output=True,
+            timeout=120,
+        )
+    work = read(tmp_path / "out" / "form.xlsx")
+    check_filled(work)
+    assert work.fingerprint == "f" * 64
+    check_filled(read(tmp_path / "out" / "form.csv"))
+    # What the student sees while he types: 45.5 mm at 0.05 are 2275 mm/s.
+    computed = openpyxl.load_workbook(tmp_path / "out" / "form.xlsx", data_only=True).worksheets[0]
+    rows = rows_of(computed)
+    assert computed[f"I{rows['VB₃']}"].value == language("ru").form.agrees
+    assert not computed[f"I{rows['ω3']}"].value
+
+
+# Command -----------------------------------------------------------------------------------------
+
+
+def run(*args: str) -> Any:
+    return CliRunner().invoke(cli, ["form", *args])
+
+
+def test_the_command_writes_a_form_for_each_student(tmp_path: Path) -> None:
+    names = tmp_path / "names.txt"
+    names.write_bytes("Иванов И.\r\n\r\n  Петров   П.\r\n".encode("cp1251"))
+    result = run(str(EX3), "-o", str(tmp_path), "--names", str(names))
+    assert result.exit_code == ExitCode.DONE, result.output
+    made_files = [Path(line) for line in result.output.splitlines()]
+    assert [path.name for path in made_files] == ["ex3-form-1.xlsx", "ex3-form-2.xlsx"]
+    works = [read(path) for path in made_files]
+    assert [work.student for work in works] == ["Иванов И.", "Петров П."]
+    assert works[0].fingerprint == fingerprint_of(load(EX3))
+    assert works[0].problem == "ex3"
+    assert works[0].answers and all(answer.is_blank for answer in works[0].answers)
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (["--students", "2", "--names", "x"], "not both"),
+        (["--students", "0"], "range"),
+        (["--names", "nowhere.txt"], "nowhere.txt"),
+    ],
+)
+def test_the_command_refuses_what_it_cannot_do(args: list[str], said: str, tmp_path: Path) -> None:
+    result = run(str(EX3), "-o", str(tmp_path), *args)
+    assert result.exit_code == ExitCode.USAGE
+    assert said in result.output
+    assert not list(tmp_path.iterdir())
