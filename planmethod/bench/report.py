@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from planmethod.bench import forces, speed
+from planmethod.bench import checking, forces, speed
 from planmethod.bench.drawn import DRAWS, Compared, compare_all
+from planmethod.check.key import Key
 from planmethod.problem.model import Problem
 
 Table = list[str]
 
 COUNTS = (1, 12, 10_000)
 """Numbers of positions that are timed."""
+
+WORKS = 20
+"""Honest works of a problem that are checked."""
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
@@ -141,6 +146,154 @@ def drafting_section(rows: Sequence[Compared]) -> Table:
     ]
 
 
+def _percent(part: float, whole: float) -> str:
+    return f"{100 * part / whole:.1f} %" if whole else "—"
+
+
+def honest_table(found: Sequence[checking.Honest]) -> Table:
+    """Return whom the checking faults for nothing, beside flat tolerances on the same works."""
+    rows = [
+        (
+            f"{one.problem}, {one.profile}",
+            str(one.works),
+            _percent(one.unseen, one.answers),
+            _percent(one.faulted, one.answers),
+            _percent(one.hurt, one.works),
+            _percent(one.named, one.works),
+            *(_percent(one.flat[share], one.answers) for share in checking.FLAT),
+            *(_percent(one.flat_hurt[share], one.works) for share in checking.FLAT),
+        )
+        for one in found
+    ]
+    flat = [f"{share:.0%}".replace("%", " %") for share in checking.FLAT]
+    header = (
+        "problem, hand", "works", "not shown", "answers faulted", "works faulted", "named",
+        *(f"answers, flat {share}" for share in flat), *(f"works, flat {share}" for share in flat),
+    )  # fmt: skip
+    return table(header, rows)
+
+
+def _codes(found: Sequence[checking.Detected]) -> list[str]:
+    """Return the codes of mistakes: of plans, of scales and numbers, of forces."""
+    families = "VANESPFZ"
+    return sorted({o.code for o in found}, key=lambda c: (f"{families}{c[0]}".index(c[0]), c))
+
+
+def mistakes_table(found: Sequence[checking.Detected]) -> Table:
+    """Return what is said of planted mistakes, over all problems together."""
+    rows = []
+    for code in [*_codes(found), ""]:
+        of = [one for one in found if code in ("", one.code)]
+        works = sum(one.works for one in of)
+        shares = [
+            _percent(sum(counts), works)
+            for counts in zip(
+                *((o.seen, o.named, o.among, o.unknown, o.misnamed) for o in of), strict=True
+            )
+        ]
+        taken = sum((one.taken_for for one in of), Counter[str]())
+        names = ", ".join(f"{name} {n}" for name, n in taken.most_common(4)) if code else ""
+        rows.append((code or "all", str(works), *shares, names))
+    return table(
+        ("mistake", "works", "seen", "named", "among several", "not named", "wrongly", "as"), rows
+    )
+
+
+def power_table(found: Sequence[checking.Detected]) -> Table:
+    """Return how many of the planted mistakes are seen and named, by mistake and problem."""
+    problems = list(dict.fromkeys(one.problem for one in found))
+    rows = []
+    for code in _codes(found):
+        cells = {
+            one.problem: f"{100 * one.seen / one.works:.0f}/{100 * one.named / one.works:.0f}"
+            for one in found
+            if one.code == code and one.works
+        }
+        rows.append((code, *(cells.get(problem, "") for problem in problems)))
+    return table(("mistake", *problems), rows)
+
+
+def hidden_table(keys: Sequence[tuple[str, Key]]) -> Table:
+    """Return the mistakes that the answers of problems cannot show, with their places."""
+    codes = sorted({code for _, key in keys for code in key.hidden})
+    rows = [
+        (code, *(", ".join(filter(None, key.hidden.get(code, ()))) or
+                 ("all" if code in key.hidden else "") for _, key in keys))
+        for code in codes
+    ]  # fmt: skip
+    return table(("mistake", *(name for name, _ in keys)), rows)
+
+
+def checking_speed(found: Sequence[checking.Speed]) -> Table:
+    """Return how long the checking takes."""
+    rows = [
+        (
+            one.problem,
+            str(one.answers),
+            *map(span, (one.first, one.honest, one.mistaken, one.key, one.group)),
+        )
+        for one in found
+    ]
+    return table(
+        (
+            "problem", "answers", "first work", "further, honest", "further, with a mistake",
+            "key", f"group of {checking.GROUP} with pages",
+        ),
+        rows,
+    )  # fmt: skip
+
+
+def checking_section(problems: Sequence[Problem], works: int = WORKS) -> Table:
+    """Return how checking judges works that a pencil has drawn.
+
+    Parameters
+    ----------
+    works : int
+        Honest ones of each problem and profile; with each mistake at each place a tenth of them.
+    """
+    mistaken = max(1, works // 10)
+    found = checking.all_detected(problems, mistaken)
+    return [
+        "## Honest works",
+        "",
+        f"{works} works of every problem, drawn stroke by stroke with the errors of a profile, "
+        "judged by the tolerance of the same profile with the usual settings. *Not shown*: "
+        "answers that the drawing cannot show, judged by the student's own numbers; *faulted*: "
+        "what loses points; *named*: works in which a mistake is named, or several that it may "
+        "be. Flat tolerances reject answers of the same works, those that are nothing left out.",
+        "",
+        *honest_table(checking.all_honest(problems, works)),
+        "",
+        "## Works with a mistake",
+        "",
+        f"Works of the board's profile, {mistaken} with each mistake at each of at most "
+        f"{checking.PLACES} places, where it shows. *Seen*: an answer is faulted, or follows from "
+        'a faulted one; *named*: the mistake is named, and nothing else; *among several*: "one '
+        'of …"; *not named*: "not recognised"; *wrongly*: another one is named surely.',
+        "",
+        *mistakes_table(found),
+        "",
+        "Seen and named, percent, by problem; empty where the mistake cannot be made, or not "
+        "be seen.",
+        "",
+        *power_table(found),
+        "",
+        "## What the answers cannot show",
+        "",
+        "Places (link, point, pair) where a mistake can be made without any answer being off by "
+        "more than the pencil: the key says so beforehand.",
+        "",
+        *hidden_table(checking.hidden(problems)),
+        "",
+        "## Speed",
+        "",
+        "The first work solves the problem, finds the tolerances and explains a mistake; pages are "
+        "HTML and PDF, every other work of the group has the mistake.",
+        "",
+        *checking_speed([checking.speed(problem) for problem in problems]),
+    ]
+
+
 def _speed(problems: Sequence[Problem]) -> Table:
     found: list[speed.Reading] = []
     for problem in problems:
@@ -164,5 +317,6 @@ SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
     "speed": _speed,
     "forces": _forces,
     "drafting": _drafting,
+    "checking": checking_section,
 }
 """What is measured of problems, by the name of the section."""

@@ -20,8 +20,11 @@ from planmethod.plans.model import MOTION
 CLEARLY = 6.0
 """How much better the best explanation must be than the next one to be named."""
 
-TRIED, CLOSELY = 6, 3
-"""Named explanations that are compared, and those with the errors of their own plans."""
+TRIED = 6
+"""Named explanations that are compared."""
+
+CLOSE = 15.0
+"""How much worse one may be than the best, to be compared with the errors of its own plans."""
 
 MANY = 2
 """So many wrong numbers that some of them are like something by chance."""
@@ -70,8 +73,8 @@ def _fits(
     explained = task.explanations(sheet)
     tried = [*explained.nearest(facts, TRIED), *_scaled(task, sheet, wrong)]
     fits = sorted((explained.fit(e, facts, own) for e in tried), key=lambda fit: fit.score)
-    close = [explained.fit(fit.explanation, facts, own, closely=True) for fit in fits[:CLOSELY]]
-    fits = [*close, *fits[CLOSELY:]]
+    close = [fit for fit in fits if fit.score <= fits[0].score + CLOSE]
+    fits = [explained.fit(fit.explanation, facts, own, closely=True) for fit in close]
     told = {fact.id for fact in facts}
     for one in wrong:
         if one.item.question.id not in told:

@@ -60,6 +60,8 @@ class Fact:
         What it counts in the unit of the answer.
     name : NumberName or None
         Number that is the answer itself.
+    turn : float
+        1 counter-clockwise, -1 clockwise, where he tells a sense of turning; else 0.
     sense : callable or None
         Tells whether the sense that he wrote is right on a sheet; None where it cannot be said.
     """
@@ -72,6 +74,7 @@ class Fact:
     slot: NumberName | None = None
     per_slot: float = 1.0
     name: NumberName | None = None
+    turn: float = 0.0
     sense: Callable[[Trace], bool | None] | None = None
 
     def of(self, value: float) -> float:
@@ -227,11 +230,8 @@ class Explanations:
         variance = self._sigmas[chosen] ** 2 * np.maximum(share, LEAST_SHARE) ** 2
         off = values - np.where(signed, given, np.abs(given))
         bad = np.minimum(off**2 / (variance + own), FAR).sum(axis=1)
-        moved = np.abs(given - np.array([self.sheet.exact[fact.id] for fact in facts]))
-        idle = (moved <= 1e-9 * np.abs(given)).all(axis=1)  # it changes nothing that is answered
-        bad = bad + np.where(
-            idle & ~np.array([fact.sense is not None for fact in facts]).any(), FAR, 0
-        )
+        turns = np.array([fact.turn for fact in facts])
+        bad = bad + MISREAD_SENSE * ((turns != 0) & (np.sign(given) == -turns)).sum(axis=1)
         order = np.argsort(bad, kind="stable")[:count]
         return [self.named[number] for number in order]
 

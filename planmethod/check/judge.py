@@ -20,7 +20,7 @@ from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
-from planmethod.plans.model import FACTS
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.solved.selected.asking import UnansweredError
 
 USABLE = 3.0
@@ -49,6 +49,8 @@ class Examined:
         Unit of its last digit, SI.
     mm : float or None
         Length of its segment on his plan.
+    foreign : str
+        Letters of another segment of the plan than that of the answer, if his mm are of such a one.
     told : float or None
         What his millimetres make at his scale, where he gives both.
     slot : NumberName or None
@@ -64,6 +66,7 @@ class Examined:
     signed: bool
     step: float
     mm: float | None = None
+    foreign: str = ""
     told: float | None = None
     slot: NumberName | None = None
     per_slot: float = 1.0
@@ -114,11 +117,8 @@ def examine(task: Task, sheet: Sheet, item: Item, written: Written) -> Examined:
     limit = limit_of(sheet, question, task.settings, item.fixed)
     value, mm, step = written.value, written.mm, written.step
     if question.is_mm:
-        value, mm, step = _in_mm(sheet, item, written), None, written.step
-        if written.unit.strip().lower() in MILLIMETRES:
-            step *= 1000.0
-        if written.value is None:
-            step = written.mm_step
+        value, step = _in_mm(sheet, item, written)
+        mm = None
     told = None
     if mm is not None and not question.is_mm:
         told = _told(sheet, item, mm)
@@ -137,24 +137,36 @@ def examine(task: Task, sheet: Sheet, item: Item, written: Written) -> Examined:
             signed = True
     elif question.sign is Sign.SIZE:
         value = abs(value)
-    found = Examined(item, written, limit, value, signed, step, mm, told)
+    foreign = _foreign(sheet, item, written) if mm is not None else ""
+    found = Examined(item, written, limit, value, signed, step, mm, foreign, told)
     found.sense_right = _sense(sheet, found)
     found.right = limit.allows(found.off, abs(value), step)
     found.near = limit.allows(found.off, abs(value), step, task.settings.near)
     return found
 
 
-def _in_mm(sheet: Sheet, item: Item, written: Written) -> float:
-    """Return a length on a plan, mm: of a true length in metres too."""
+def _foreign(sheet: Sheet, item: Item, written: Written) -> str:
+    """Return the letters of the segment that he read, if it is not that of the answer."""
+    question = item.question
+    if not written.segment or question.plan is None or question.length is None:
+        return ""
+    try:
+        _, length = sheet.questions.segment(question.plan, written.segment)
+    except UnansweredError:
+        return ""
+    return "" if length == question.length else written.segment
+
+
+def _in_mm(sheet: Sheet, item: Item, written: Written) -> tuple[float, float]:
+    """Return a length on a plan and the unit of its last digit, mm: of a true length in m too."""
     if written.mm is not None:
-        return written.mm
+        return written.mm, written.mm_step
     assert written.value is not None
     unit = written.unit.strip().lower()
-    if not unit:
-        return written.value
-    if unit in MILLIMETRES:
-        return written.value * 1000.0
-    return written.value / sheet.scales[item.question.scale]
+    factor = 1.0 if not unit else 1000.0
+    if unit and unit not in MILLIMETRES and item.question.plan is PlanKind.POSITION:
+        factor = 1.0 / sheet.scales[item.question.scale]
+    return written.value * factor, written.step * factor
 
 
 def _told(sheet: Sheet, item: Item, mm: float) -> float | None:
@@ -204,11 +216,12 @@ def put_in(sheet: Sheet, found: list[Examined], *, values: bool = False) -> Own:
             continue
         one.slot, one.per_slot = slot_of(sheet, one)
         if one.slot != name and not values:
-            mm = one.mm if one.mm is not None else one.value / one.per_slot
+            read = one.mm is not None and not one.foreign
+            mm = one.mm if one.mm is not None and read else one.value / one.per_slot
             put(one.slot, mm, False)
         if one.slot == name or values or one.told is not None:
             put(name, one.value, one.signed)
-        if one.mm is not None:
+        if one.mm is not None and not one.foreign:
             put(length, one.mm, False)
     return own
 
@@ -348,6 +361,8 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
         least = max(0.4 * min(one.limit.least, 0.02 * abs(one.limit.exact)), 1e-9) / k
         least = max(least, 0.002 * abs(one.value))
         value = one.value if strict else abs(one.value)
+        turned = one.signed and question.sign is Sign.TURN
+        turn = math.copysign(1.0, one.value) if turned else 0.0
         facts.setdefault(
             question.id,
             Fact(
@@ -359,6 +374,7 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
                 one.slot,
                 one.per_slot,
                 question.name,
+                turn,
                 sense,
             ),
         )

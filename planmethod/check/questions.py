@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from planmethod.check.letters import known_forms, plain
+from planmethod.check.letters import plain
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
@@ -16,7 +16,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, VectorKind
 from planmethod.plans.segments import Ends, Segments
-from planmethod.problem.selector import FORCES, Selector, SelectorError, parse_selector
+from planmethod.problem.selector import FORCES, Selector
 from planmethod.solved.errors.drawing import RADIAN
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.selected.asking import COMPONENTS, Asking, NoAnswer, UnansweredError
@@ -108,30 +108,11 @@ class Questions:
             draft = self.statics.board.draft
         self._asking = Asking(solution, draft.copy())
         self._found: dict[Selector, Question] = {}
-        self._forms: Mapping[str, Selector] | None = None
 
     @property
     def asking(self) -> Asking:
         """The construction with the steps of all that was asked so far."""
         return self._asking
-
-    def selector(self, text: str) -> Selector:
-        """Return the quantity that a text names: words of ``[published]``, ``v_B3``, ``VB₃``, ``ω3``.
-
-        Raises
-        ------
-        UnansweredError
-        """
-        try:
-            return parse_selector(text)
-        except SelectorError:
-            pass
-        if self._forms is None:
-            self._forms = known_forms(self)
-        found = self._forms.get(plain(text))
-        if found is None:
-            raise UnansweredError(NoAnswer.NO_WHAT)
-        return found
 
     def question(self, selector: Selector) -> Question:
         """Return a quantity with its steps.
@@ -281,14 +262,15 @@ class Questions:
         length: NumberName | None = None,
         ends: Ends | None = None,
         way: float = 1.0,
+        symbol: str = "",
     ) -> Question:
         def take(trace: Trace) -> Number:
             return trace.value[name]
 
         needs = tuple(n for n in (name, length, *(ends or ())) if n is not None)
-        own, symbol = called(selector)
+        own, usual = called(selector)
         return Question(
-            selector, own, symbol, unit, sign, take, needs, name, plan, length, ends, way
+            selector, own, symbol or usual, unit, sign, take, needs, name, plan, length, ends, way
         )
 
     def _quotient(self, selector: Selector) -> Question:
@@ -337,7 +319,18 @@ class Questions:
             ends = self._ends(PlanKind.FORCE, name)
             plan = None if ends is None else PlanKind.FORCE
             length = None if ends is None else self._segments(PlanKind.FORCE).drawn(ends)
-            return self._made(selector, unit, sign, name, plan, length, ends)
+            balancing = self.solution.problem.drive.balancing
+            symbol = balancing.symbol if kind == "balance" else f"lever {balancing.quantity}"
+            return self._made(
+                selector,
+                unit,
+                sign,
+                name,
+                plan,
+                length,
+                ends,
+                symbol="" if selector.names else symbol,
+            )
         if kind in ("M", "inertia couple"):
             return self._made(selector, "N·m", Sign.SIZE, name)
         ends, way = self._ends(PlanKind.FORCE, name), 1.0
@@ -374,7 +367,7 @@ class Questions:
         for name, of in motion.named.items():
             found.setdefault(plain(name.lower()), motion.point[of])
         assert drawn.pole is not None
-        for letter in ("p", "π", "п", "р"):
+        for letter in ("p", "π"):
             found.setdefault(plain(letter), drawn.pole)
         return found
 
@@ -398,8 +391,6 @@ def called(selector: Selector) -> tuple[str, str]:
         "inertia": "Φ",
         "inertia couple": "M_Φ",
         "length": "l",
-        "balance": "M_{ур}",
-        "lever": "M_{ур}^{Ж}",
         "load": "",
     }
     if selector.over is not None:

@@ -106,6 +106,9 @@ def _segments(
     length = sheet.length(question)
     if not length or question.plan not in SEGMENT_CODES or question.sign is Sign.STRICT:
         return
+    if one.foreign and one.told is not None and not one.slip:
+        yield SEGMENT_CODES[question.plan], one.foreign, one.value, 3.0
+        return
     for segment in sheet.questions.construction.segments:
         if segment.kind is not question.plan or segment.length not in sheet.trace.value:
             continue

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from planmethod.check.explain import Explanations
+from planmethod.check.forms import Forms
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Written
@@ -75,6 +76,7 @@ class Task:
         self._sheets: dict[tuple[object, ...], Sheet] = {}
         self._explained: dict[int, Explanations] = {}
         self._forms: dict[str, Item] = {}
+        self._written: dict[int, Forms] = {}
         self.declared = tuple(map(self._declare, solution.problem.answers))
 
     def _declare(self, asked: AskedAnswer) -> Item:
@@ -115,6 +117,11 @@ class Task:
             self._questions[position] = Questions(self.solution, position)
         return self._questions[position]
 
+    def _forms_of(self, position: int) -> Forms:
+        if position not in self._written:
+            self._written[position] = Forms(self.questions(position))
+        return self._written[position]
+
     def ask(self, question: Question, position: int) -> Question:
         """Have a question on the sheets of a position."""
         return self._asked.setdefault(position, {}).setdefault(question.id, question)
@@ -147,7 +154,7 @@ class Task:
             if not text:
                 continue
             try:
-                question = questions.question(questions.selector(text))
+                question = questions.question(self._forms_of(position).find(text))
             except UnansweredError as error:
                 why = error.why
                 continue

@@ -15,6 +15,9 @@ LONG_MM = 100.0
 SHORT = 3.0
 """Sigmas below which a quantity is too short to be measured."""
 
+FOLDED = 1.7
+"""Lengths about nothing have no sign: the middle 68 % of them lie closer than their errors do."""
+
 
 @dataclass(frozen=True, slots=True)
 class Limit:
@@ -79,6 +82,7 @@ def limit_of(sheet: Sheet, question: Question, settings: Settings, fixed: float 
     zero = not turned and (size < SHORT * sigma or not size)
     if zero:
         least = max(settings.floor_mm * per_mm, 1e-9)
+        spread *= FOLDED if question.sign is Sign.SIZE else 1.0
     own = Limit(exact, sigma, spread, least, most, zero or spread <= most, zero, per_mm)
     if zero:
         return own

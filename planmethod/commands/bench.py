@@ -13,7 +13,7 @@ from planmethod.options import problem_options
 if TYPE_CHECKING:
     from planmethod.problem.model import Problem
 
-SECTIONS = ("speed", "forces", "drafting")
+SECTIONS = ("speed", "forces", "drafting", "checking")
 
 
 @click.command()
@@ -21,23 +21,35 @@ SECTIONS = ("speed", "forces", "drafting")
 @click.option(
     "--only", type=click.Choice(SECTIONS), multiple=True, help="Only these sections of the report."
 )
+@click.option(
+    "--works",
+    type=click.IntRange(1, 10_000),
+    default=20,
+    show_default=True,
+    help="Honest works of each PROBLEM to check; a tenth as many with each mistake.",
+)
 @guarded
 def bench(
-    problems: tuple[Path, ...], variant: str | None, all_variants: bool, only: tuple[str, ...]
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    only: tuple[str, ...],
+    works: int,
 ) -> None:
     """Measure speed beside error of problems, and print tables in Markdown.
 
     Motion, force plans and drafting errors: sweeps, single positions, the referee and the hand;
-    the errors that are expected of a sheet beside those of random sheets. Takes some seconds for
-    each PROBLEM.
+    the errors that are expected of a sheet beside those of random sheets; works drawn at random,
+    checked. Takes some seconds for each PROBLEM.
     """
     wanted = [name for name in SECTIONS if name in (only or SECTIONS)]
-    if wanted != ["drafting"]:
+    if not set(wanted) <= {"drafting", "checking"}:
         try:
             import mpmath  # noqa: F401  the judge
         except ImportError:
             raise click.UsageError(
-                "bench needs mpmath: pip install 'planmethod[referee]'; --only drafting does not"
+                "bench needs mpmath: pip install 'planmethod[referee]'; "
+                "--only drafting and --only checking do not"
             ) from None
     loaded: list[Problem] = []
     finish(each(problems, variant, all_variants, loaded.append))
@@ -45,6 +57,9 @@ def bench(
 
     for name in wanted:
         click.echo(f"measuring: {name}", err=True)
-        section = report.SECTIONS[name](loaded)
+        if name == "checking":
+            section = report.checking_section(loaded, works)
+        else:
+            section = report.SECTIONS[name](loaded)
         if section:
             click.echo("\n".join([*section, ""]))

@@ -10,12 +10,16 @@ from pathlib import Path
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import Checked
+from planmethod.check.pages.htmlpage import html_page
 from planmethod.check.pages.listing import csv_bytes
 from planmethod.check.pages.overrides import HEAD
+from planmethod.check.pages.pdfpage import pdf_page
 from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.run import run_json, run_record, settings_rows
+from planmethod.check.pages.student import student_page
 from planmethod.note.wording import language
 from planmethod.render.backends.output import write
+from planmethod.solved.solution import Solution
 
 LONGEST = 40
 """Letters of a file's name: with four bytes each and its ending it is short enough anywhere."""
@@ -100,11 +104,6 @@ def write_all(
 def _pages(
     checked: Sequence[Checked], keys: Mapping[str | None, Key], marks: Sequence[str], lang: str
 ) -> Iterator[dict[str, bytes]]:
-    from planmethod.check.pages.htmlpage import html_page
-    from planmethod.check.pages.pdfpage import pdf_page
-    from planmethod.check.pages.student import student_page
-    from planmethod.solved.solution import Solution
-
     words = language(lang)
     solutions: dict[str | None, Solution] = {}
     for work, mark in zip(checked, marks, strict=True):

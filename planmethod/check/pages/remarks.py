@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict
+from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict, Written
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.check_model import StudentWording
 
@@ -200,7 +200,7 @@ class Remarks:
             )
         return self.say.slip.format(
             answer=self.speech.symbol(judged),
-            mm=self.speech.mm(written.mm, unit=False),
+            mm=self.speech.number(written.mm),
             scale=self.speech.number(per_mm),
             product=self.speech.with_unit(self.speech.number(written.mm * per_mm), key),
             own=self.speech.own(judged),
@@ -217,15 +217,14 @@ class Remarks:
         if blank:
             yield self.say.blank.format(answers=self._listed(blank))
         for judged in self._of(Verdict.UNREADABLE):
-            written = judged.written
             yield self.say.unreadable.format(
                 answer=self.speech.symbol(judged),
-                raw="" if written is None else quoted(written.raw or written.unreadable),
+                reason="" if judged.written is None else self.speech.unread(judged.written),
                 where=self._cell(judged.where),
             )
         for written in self.checked.work.remarks:
             yield self.say.unreadable_other.format(
-                raw=quoted(written.raw or written.unreadable), where=self._cell(written.where)
+                reason=self.speech.unread(written), where=self._cell(written.where)
             )
 
     def _cell(self, where: str) -> str:
@@ -262,6 +261,11 @@ class Remarks:
 
     def _listed(self, answers: Iterable[Judged]) -> str:
         return ", ".join(self.speech.symbol(judged) for judged in answers)
+
+
+def what_stands(written: Written) -> str:
+    """Return what cannot be read, as it stands there."""
+    return quoted(written.raw or written.fault or written.unreadable)
 
 
 def lacks_sense(judged: Judged) -> bool:

@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planmethod.check.model import Checked, Diagnosis, KeyEntry, Sense, Verdict
+from planmethod.check.model import Checked, Diagnosis, Judged, KeyEntry, Sense, Verdict
 from planmethod.check.pages.listing import codes_of
-from planmethod.check.pages.speech import told
+from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import Filled, add_sheet, new_workbook, saved
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording.check_model import CheckWording
@@ -24,7 +24,6 @@ COLOURS: Mapping[Verdict, str] = {
     Verdict.BLANK: "E4E4E4",
     Verdict.UNREADABLE: "D9D2E9",
 }
-RIGHT = (Verdict.OK, Verdict.NEAR, Verdict.INHERITED, Verdict.INCONSISTENT)
 POINTS, SHARE, VALUE, LENGTH = "0.##", "0%", "0.0000", "0.0"
 
 
@@ -52,7 +51,7 @@ def results_xlsx(
         book,
         first,
         [*say.summary[:6], *verdicts, *say.summary[6:]],
-        list(_summary(works, marks, words.check)),
+        list(_summary(works, marks, words)),
         formats={2: POINTS, 3: POINTS, 4: SHARE},
     )
     add_sheet(
@@ -78,7 +77,7 @@ def results_xlsx(
 
 
 def _summary(
-    works: Sequence[Checked], marks: Sequence[str], say: CheckWording
+    works: Sequence[Checked], marks: Sequence[str], words: Language
 ) -> Iterator[list[Any]]:
     for number, checked in enumerate(works):
         counts = Counter(judged.verdict for judged in checked.answers)
@@ -90,24 +89,40 @@ def _summary(
             checked.points / checked.of if checked.of else None,
             marks[number] if marks else None,
             *(Filled(counts[v], COLOURS[v]) if counts[v] else None for v in Verdict),
-            "; ".join(told_mistake(d, say) for d in checked.diagnosis),
-            "; ".join(_notes(checked, say)),
+            told_mistakes(checked, words.check),
+            "; ".join(_notes(checked, words)),
         ]
 
 
-def told_mistake(diagnosis: Diagnosis, say: CheckWording) -> str:
-    """Return a mistake for a table: its code, its name, the answers where it begins."""
+def told_mistakes(checked: Checked, say: CheckWording) -> str:
+    """Return the mistakes of a work: codes and names, each with the answers where it begins."""
+    labels = _labels(checked)
+    begins: dict[str, list[str]] = {}
+    for diagnosis in checked.diagnosis:
+        roots = (labels.get(root, root) for root in diagnosis.roots)
+        begins.setdefault(_name(diagnosis, say), []).extend(roots)
+    return "; ".join(
+        f"{name} ({', '.join(dict.fromkeys(roots))})" if roots else name
+        for name, roots in begins.items()
+    )
+
+
+def _labels(checked: Checked) -> dict[str, str]:
+    return {judged.id: judged.key.label for judged in checked.answers if judged.key is not None}
+
+
+def _name(diagnosis: Diagnosis, say: CheckWording) -> str:
     names = [
         f"{code} {say.mistakes[code].name}" if code in say.mistakes else code
         for code in diagnosis.codes
     ]
-    said = " / ".join(names) if names else say.results.unknown
-    if names and not diagnosis.sure:
-        said = f"{say.results.perhaps}: {said}"
-    return f"{said} ({', '.join(diagnosis.roots)})" if diagnosis.roots else said
+    if not names:
+        return say.results.unknown
+    return " / ".join(names) if diagnosis.sure else f"{say.results.perhaps}: {' / '.join(names)}"
 
 
-def _notes(checked: Checked, say: CheckWording) -> Iterator[str]:
+def _notes(checked: Checked, words: Language) -> Iterator[str]:
+    say = words.check
     if checked.suspicious:
         yield say.results.suspicious
     if checked.by_hand or any(judged.by_hand for judged in checked.answers):
@@ -115,22 +130,23 @@ def _notes(checked: Checked, say: CheckWording) -> Iterator[str]:
     if checked.remark:
         yield checked.remark
     for written in checked.work.remarks:
-        yield f"{say.verdicts['unreadable']}: {written.where} {written.unreadable}"
+        yield f"{say.verdicts['unreadable']}: {written.where} {Speech(words).unread(written)}"
 
 
 def _answers(works: Sequence[Checked], words: Language) -> Iterator[list[Any]]:
     say = words.check
     for checked in works:
+        labels = _labels(checked)
         for judged in checked.answers:
             key, written = judged.key, judged.written
             codes = " ".join(codes_of(checked, judged))
-            wrong = "" if written is None else written.unreadable
+            wrong = "" if written is None else Speech(words).unread(written)
             yield [
                 checked.work.student,
                 checked.variant,
                 judged.id if key is None else key.label,
                 Filled(say.verdicts[judged.verdict.value], COLOURS[judged.verdict]),
-                judged.follows,
+                labels.get(judged.follows, judged.follows),
                 judged.value if key is None else _size(judged.value, key),
                 None if key is None else told(key.exact, key),
                 judged.tolerance,
@@ -180,17 +196,13 @@ def _by_code(works: Sequence[Checked], say: CheckWording) -> Iterator[list[Any]]
 
 
 def _by_answer(works: Sequence[Checked]) -> Iterator[list[Any]]:
-    """Yield the answers by the share of right ones among those that were given."""
-    labels: dict[str, str] = {}
-    given: Counter[str] = Counter()
-    right: Counter[str] = Counter()
+    """Yield the answers: how many gave them, how many got points, which share of the points."""
+    found: dict[str, list[Judged]] = {}
     for checked in works:
         for judged in checked.answers:
-            if judged.key is None:
-                continue
-            labels.setdefault(judged.id, judged.key.label)
-            given[judged.id] += judged.verdict is not Verdict.BLANK
-            right[judged.id] += judged.verdict in RIGHT
-    for id, label in labels.items():
-        share = right[id] / given[id] if given[id] else None
-        yield [label, given[id], right[id], share]
+            if judged.key is not None and judged.verdict is not Verdict.BLANK:
+                found.setdefault(judged.key.label, []).append(judged)
+    for label, given in found.items():
+        of = sum(judged.of for judged in given)
+        share = sum(judged.points for judged in given) / of if of else None
+        yield [label, len(given), sum(judged.points > 0 for judged in given), share]

@@ -98,6 +98,7 @@ def _anonymous(checked: Checked, salt: str) -> Checked:
             where=bare(written.where),
             unreadable=bare(written.unreadable),
             raw=bare(written.raw),
+            fault=bare(written.fault),
         )
 
     def judged_of(judged: Judged) -> Judged:

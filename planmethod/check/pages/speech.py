@@ -6,7 +6,7 @@ import html
 import re
 from dataclasses import dataclass
 
-from planmethod.check.model import Judged, KeyEntry, Sense
+from planmethod.check.model import Judged, KeyEntry, Sense, Written
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
@@ -65,6 +65,14 @@ class Speech:
     def unit(self, key: KeyEntry) -> str:
         """Return the unit of what is asked; empty where it has none."""
         return "" if key.unit == "1" else self.words.say.units.get(key.unit, key.unit)
+
+    def unread(self, written: Written) -> str:
+        """Return why something cannot be read, as plain text."""
+        if written.why is None:
+            return quoted(written.unreadable or written.raw)
+        form = self.words.form
+        said = form.unread[written.why.value]
+        return said.format(text=quoted(written.fault), known=", ".join(form.units))
 
     def number(self, value: float) -> str:
         """Return a number as a student would write it."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from planmethod.check.model import Checked, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
-from planmethod.check.pages.remarks import Remarks
+from planmethod.check.pages.remarks import Remarks, what_stands
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.language import Language
 from planmethod.solved.solution import Solution
@@ -137,7 +137,7 @@ def _cells(judged: Judged, speech: Speech, symbols: Mapping[str, str]) -> tuple[
     key, written, say = judged.key, judged.written, speech.say
     own = speech.own(judged)
     if judged.verdict is Verdict.UNREADABLE and written is not None:
-        own = say.student.quoted.format(text=quoted(written.raw or written.unreadable))
+        own = say.student.quoted.format(text=what_stands(written))
     verdict = say.verdicts[judged.verdict.value]
     if judged.follows in symbols:
         verdict = say.student.source.format(source=symbols[judged.follows])
@@ -156,8 +156,10 @@ def _lengths(judged: Judged, speech: Speech) -> str:
     key, written = judged.key, judged.written
     own = None if written is None else written.mm
     true = None if key is None else key.mm
-    texts = ["—" if length is None else speech.mm(length, unit=False) for length in (own, true)]
-    return "" if own is None and true is None else " / ".join(texts)
+    if own is None and true is None:
+        return ""
+    his = "—" if own is None else speech.number(own)
+    return f"{his} / {'—' if true is None else speech.mm(true, unit=False)}"
 
 
 def _caption(plan: Overlay, positions: int, words: Language) -> str:

@@ -16,7 +16,11 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 _CLOCK = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 LONGEST = 1000
-WIDEST = 60
+WIDEST, NUMBER = 60, 7
+"""Letters in the widest column, and in a number."""
+
+LINE = 15.0
+"""Height of a line, points."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +74,15 @@ def add_sheet(
                 looks.put(down, column, value.value, colour=value.colour, form=form)
             elif value is not None and value != "":
                 looks.put(down, column, value, form=form)
-    _widen(sheet, header, rows)
+    _widen(sheet, header, rows, row)
     if row == 1:
         sheet.freeze_panes = sheet.cell(2, frozen + 1)
         sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", 9
         sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
         sheet.sheet_properties.pageSetUpPr.fitToPage = True
         sheet.print_title_rows = "1:1"
+    else:
+        sheet.print_title_rows = None  # a page of one table would have the head of the other
     return sheet
 
 
@@ -117,7 +123,8 @@ class _Looks:
     ) -> None:
         from openpyxl.styles import Alignment, Font, PatternFill
 
-        cell.alignment = Alignment(vertical="top", wrap_text=is_text)
+        left = {"horizontal": "left", "indent": 1} if is_text else {}
+        cell.alignment = Alignment(vertical="top", wrap_text=is_text, **left)
         cell.number_format = "General" if is_text else form
         cell.quotePrefix = is_quoted
         if bold:
@@ -126,16 +133,25 @@ class _Looks:
             cell.fill = PatternFill("solid", fgColor=colour)
 
 
-def _widen(sheet: Any, header: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
+def _widen(sheet: Any, header: Sequence[str], rows: Sequence[Sequence[Any]], row: int) -> None:
+    """Give columns the width of what they hold, up to a limit, and rows the height of theirs."""
     from openpyxl.utils import get_column_letter
 
+    shown = [[v.value if isinstance(v, Filled) else v for v in values] for values in rows]
     for column, head in enumerate(header):
         longest = max(len(word) for word in [*head.split(), ""])
-        for values in rows:
-            value = values[column].value if isinstance(values[column], Filled) else values[column]
-            longest = max(longest, len(value) if isinstance(value, str) else 8)
+        for value in (values[column] for values in shown):
+            longest = max(longest, len(value) if isinstance(value, str) else NUMBER)
         dimension = sheet.column_dimensions[get_column_letter(column + 1)]
-        dimension.width = max(dimension.width or 0.0, min(WIDEST, longest * 1.1 + 2.0))
+        before = dimension.width if dimension.customWidth else 0.0
+        dimension.width = max(before, min(WIDEST, longest * 1.1 + 2.0))
+    widths = [sheet.column_dimensions[get_column_letter(c + 1)].width for c in range(len(header))]
+    # Not every program fits rows to wrapped texts by itself.
+    for number, cells in enumerate([header, *shown], row):
+        texts = [(v, width) for v, width in zip(cells, widths, strict=True) if isinstance(v, str)]
+        lines = max((-(-1.15 * len(text) // width) for text, width in texts), default=1)
+        if lines > 1:
+            sheet.row_dimensions[number].height = LINE * min(lines, 25)
 
 
 def saved(book: Workbook) -> bytes:

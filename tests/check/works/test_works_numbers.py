@@ -49,7 +49,22 @@ def test_a_number_is_read_as_it_is_written(text: str, value: float, step: float,
 
 @pytest.mark.parametrize(
     "text",
-    ["", "-", "abc", "3 4", "1 23", "1.2.3", "1,23,456", "1.234,5,6", "1e99", "9" * 60, "x3", "."],
+    [
+        "",
+        "-",
+        "abc",
+        "3 4",
+        "1 23",
+        "1.2.3",
+        "1,23,456",
+        "1.234,5,6",
+        "1.234,567.800",
+        "1234.567,8",
+        "1e99",
+        "9" * 60,
+        "x3",
+        ".",
+    ],
 )
 def test_what_is_surely_no_number_is_none(text: str) -> None:
     assert read_number(text) is None
@@ -103,6 +118,18 @@ def test_a_unit_is_read_in_any_letters(text: str, factor: float, unit: str) -> N
 )
 def test_what_is_no_unit_is_none(text: str) -> None:
     assert read_unit(text) is None
+
+
+def test_angles_are_in_degrees_and_turning_is_in_radians() -> None:
+    for text, factor in (("рад", 57.29577951308232), ("°", 1.0), ("рад/с", 1.0)):
+        unit = read_unit(text)
+        assert unit is not None
+        assert unit.factor == pytest.approx(factor, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["s^-2", "1/s^2", "rad/s2", "с-2", "1/с²", "s⁻²"])
+def test_a_negative_power_is_a_quotient(text: str) -> None:
+    assert read_unit(text) == read_unit("1/s²")
 
 
 def test_a_value_goes_into_the_unit_of_the_key_or_is_of_another_quantity() -> None:

@@ -157,6 +157,10 @@ def test_points_may_have_other_names(tmp_path: Path) -> None:
     work = read_one(tmp_path, answers=answers, names={"K": "B", "D": "E"})
     assert [answer.what for answer in work.answers] == ["v B", "", "v E B"]
     assert (work.answers[1].id, work.answers[1].segment) == ("a_B3", "p b3")
+    kinds = read_one(
+        tmp_path, answers=[{"what": "M 5 0"}, {"id": "v_M"}], names={"M": "B", "v": "C"}
+    )
+    assert [answer.what or answer.id for answer in kinds.answers] == ["M 5 0", "v_B"]
 
 
 def test_look_alike_letters_are_latin_in_what(tmp_path: Path) -> None:

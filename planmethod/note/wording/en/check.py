@@ -70,7 +70,7 @@ CHECK = CheckWording(
             "Remark",
         ),
         by_code=("Code", "Mistake", "Works", "Perhaps also", "Whose"),
-        by_answer=("Quantity", "Answers", "Right", "Share of right ones"),
+        by_answer=("Quantity", "Answers", "Accepted", "Share of points"),
         settings=("Setting", "Value"),
         perhaps="perhaps",
         unknown="not recognised",
@@ -141,9 +141,9 @@ CHECK = CheckWording(
         "calculation.",
         slip_bare="{answer}: {own} is not the segment times the scale. Check the calculation.",
         blank="No answer: {answers}.",
-        unreadable="{answer}: “{raw}” cannot be read{where}. Show it to the instructor: the answer "
+        unreadable="{answer}: not readable{where}: {reason}. Show it to the instructor: the answer "
         "has not been judged yet.",
-        unreadable_other="“{raw}” cannot be read{where}.",
+        unreadable_other="Not readable{where}: {reason}.",
         remark="Remark of the instructor: {remark}",
         page="{student} · page {page}",
         quoted="“{text}”",

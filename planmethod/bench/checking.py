@@ -1,0 +1,277 @@
+"""Checking of works, measured on works that a pencil has drawn: whom it faults, what it names."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from planmethod.bench.clock import clock
+from planmethod.check.checking import check
+from planmethod.check.drawn import drawn_works, planted
+from planmethod.check.key import Key, key_of_task
+from planmethod.check.marks import DEFAULT, PROFILES
+from planmethod.check.mistakes.model import Change
+from planmethod.check.model import Checked, Judged, KeyEntry, Verdict
+from planmethod.check.pages.files import write_all
+from planmethod.check.task import Item, Task
+from planmethod.problem.model import Problem
+from planmethod.solved.solution import Solution
+
+FLAT = (0.05, 0.10)
+"""Tolerances that departments have, shares of the value."""
+
+SEED = 12
+PLACES = 4
+"""Places at which a mistake is planted, evenly spread over those where it can be made."""
+
+GROUP = 30
+
+OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED, Verdict.INCONSISTENT)
+
+
+@dataclass(slots=True)
+class Honest:
+    """Works without a mistake, by problem and profile.
+
+    Attributes
+    ----------
+    answers, works : int
+    unseen : int
+        Answers that the drawing cannot show.
+    faulted, hurt : int
+        Answers, and works, that lose points.
+    named : int
+        Works in which a mistake is named.
+    flat, flat_hurt : dict of float to int
+        The same of a flat tolerance, of answers that are not nothing.
+    """
+
+    problem: str
+    profile: str
+    answers: int = 0
+    works: int = 0
+    unseen: int = 0
+    faulted: int = 0
+    hurt: int = 0
+    named: int = 0
+    flat: Counter[float] = field(default_factory=Counter)
+    flat_hurt: Counter[float] = field(default_factory=Counter)
+
+
+@dataclass(slots=True)
+class Detected:
+    """One mistake in one problem: how many works have it, and what is said of them.
+
+    Attributes
+    ----------
+    works : int
+        Not counting places where the key says that nothing shows it.
+    seen : int
+        Works in which an answer is faulted.
+    named, among, unknown, misnamed : int
+        Named surely; among several; not recognised; another one named surely.
+    """
+
+    problem: str
+    code: str
+    works: int = 0
+    seen: int = 0
+    named: int = 0
+    among: int = 0
+    unknown: int = 0
+    misnamed: int = 0
+    taken_for: Counter[str] = field(default_factory=Counter)
+
+
+def tasks_of(problems: Sequence[Problem], profile: str = DEFAULT.profile) -> list[Task]:
+    """Return the tasks of problems; variants of one file know each other."""
+    settings = replace(DEFAULT, profile=profile)
+    tasks: list[Task] = []
+    for problem in problems:
+
+        def others(name: str = problem.name) -> Iterator[Task]:
+            return (task for task in tasks if task.solution.problem.name == name)
+
+        tasks.append(Task(Solution(problem), settings, others))
+    return tasks
+
+
+def called(task: Task) -> str:
+    """Return the name of a task in the tables."""
+    return task.solution.problem.name + (f" ({task.variant})" if task.variant else "")
+
+
+def first_items(task: Task) -> list[Item]:
+    """Return what is asked of the first position that anything is asked of."""
+    items = task.usual()
+    return [item for item in items if item.position == items[0].position]
+
+
+# Honest works --------------------------------------------------------------------------------
+
+
+def honest(task: Task, count: int) -> Honest:
+    """Check works without a mistake."""
+    found = Honest(called(task), task.settings.profile)
+    for work in drawn_works(task, count=count, seed=SEED):
+        checked = check(task, work)
+        off = {share: sum(_is_beyond(a, share) for a in checked.answers) for share in FLAT}
+        faulted = sum(answer.points < answer.of for answer in checked.answers)
+        found.works += 1
+        found.answers += len(checked.answers)
+        found.unseen += sum(answer.verdict is Verdict.UNSEEN for answer in checked.answers)
+        found.faulted += faulted
+        found.hurt += faulted > 0
+        found.named += any(diagnosis.codes for diagnosis in checked.diagnosis)
+        found.flat.update(off)
+        found.flat_hurt.update({share: int(beyond > 0) for share, beyond in off.items()})
+    return found
+
+
+def _is_beyond(answer: Judged, share: float) -> bool:
+    """Tell whether a flat tolerance rejects an answer; of nothing it says nothing."""
+    key, value = answer.key, answer.value
+    if key is None or value is None or key.zero:
+        return False
+    return abs(abs(value) - abs(key.exact)) > share * abs(key.exact)
+
+
+def all_honest(problems: Sequence[Problem], count: int) -> list[Honest]:
+    """Check honest works of every problem, drawn and judged by every profile."""
+    return [honest(task, count) for name in PROFILES for task in tasks_of(problems, name)]
+
+
+# Planted mistakes ----------------------------------------------------------------------------
+
+
+def places_of(task: Task, key: Key) -> Iterator[Change]:
+    """Yield mistakes at a few places each, those that the answers cannot show left out."""
+    items = first_items(task)
+    sheet = task.sheet(items[0].position)
+    made: dict[str, list[Change]] = {}
+    for change in planted(sheet, items):
+        explanation = task.explanations(sheet).of_change(change)
+        if explanation is None:
+            continue
+        values = [explanation.values[item.question.id] for item in items]
+        if any(map(shows, key.entries, values)):
+            made.setdefault(change.code, []).append(change)
+    for changes in made.values():
+        yield from changes[:: -(-len(changes) // PLACES)]
+
+
+def shows(entry: KeyEntry, value: float) -> bool:
+    """Tell whether an answer with a mistake is beyond what a pencil does, as the key has it."""
+    off = abs(abs(value) - abs(entry.exact))
+    turned = entry.asks_sense and value * entry.exact < 0
+    return not entry.zero and (off > max(DEFAULT.k * entry.sigma, entry.tolerance) or turned)
+
+
+def detection(task: Task, count: int) -> list[Detected]:
+    """Plant every mistake in some works, and hear what is said of them."""
+    found: dict[str, Detected] = {}
+    key = key_of_task(task, first_items(task))
+    for number, change in enumerate(places_of(task, key)):
+        row = found.setdefault(change.code, Detected(called(task), change.code))
+        for work in drawn_works(task, change, count, SEED + number):
+            _count(row, check(task, work))
+    for other in task.others():
+        row = found.setdefault("P2", Detected(called(task), "P2"))
+        for work in drawn_works(other, None, count, SEED):
+            _count(row, check(task, replace(work, variant=task.variant)))
+    return list(found.values())
+
+
+def _count(row: Detected, checked: Checked) -> None:
+    sure = {diagnosis.codes[0] for diagnosis in checked.diagnosis if diagnosis.sure}
+    row.works += 1
+    row.seen += any(answer.verdict in OFF for answer in checked.answers)
+    if sure - {row.code}:
+        row.misnamed += 1
+        row.taken_for.update(sure - {row.code})
+    elif row.code in sure:
+        row.named += 1
+    elif any(row.code in diagnosis.codes for diagnosis in checked.diagnosis):
+        row.among += 1
+    else:
+        row.unknown += 1
+
+
+def all_detected(problems: Sequence[Problem], count: int) -> list[Detected]:
+    """Plant every mistake in works of every problem."""
+    return [row for task in tasks_of(problems) for row in detection(task, count)]
+
+
+def hidden(problems: Sequence[Problem]) -> list[tuple[str, Key]]:
+    """Return the keys of problems, which say what their answers cannot show."""
+    return [(called(task), key_of_task(task, first_items(task))) for task in tasks_of(problems)]
+
+
+# Speed ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Speed:
+    """Seconds that the checking of a problem takes.
+
+    Attributes
+    ----------
+    first : float
+        Problem solved, tolerances found, one work with a mistake judged and explained.
+    honest, mistaken : float
+        A further work without a mistake, and with one.
+    key : float
+        The key of a solved problem.
+    group : float
+        Works of a group, every other one with a mistake, judged, with their tables and pages.
+    """
+
+    problem: str
+    answers: int
+    first: float
+    honest: float
+    mistaken: float
+    key: float
+    group: float
+
+
+def speed(problem: Problem) -> Speed:
+    """Time the checking of one problem."""
+    (task,) = tasks_of([problem])
+    items = first_items(task)
+    change = _common(task, items)
+    works, wrong = drawn_works(task, count=GROUP, seed=SEED), drawn_works(task, change, GROUP, SEED)
+    first = _seconds(lambda: check(Task(Solution(problem)), wrong[0]))
+    honestly = clock(lambda: [check(task, work) for work in works]).median / len(works)
+    mistaken = clock(lambda: [check(task, work) for work in wrong]).median / len(wrong)
+    key = _seconds(lambda: key_of_task(Task(Solution(problem))))
+    group = [*works[::2], *wrong[1::2]]
+    for number, work in enumerate(group):
+        group[number] = replace(work, student=f"{number + 1:02d}")
+
+    def with_pages() -> None:
+        again = Task(Solution(problem))
+        checked = [check(again, work) for work in group]
+        keys = {again.variant: key_of_task(again, items)}
+        with tempfile.TemporaryDirectory() as folder:
+            write_all(Path(folder), checked, keys, DEFAULT, [], "ru")
+
+    return Speed(
+        called(task), len(items), first, honestly, mistaken, key, _seconds(with_pages)
+    )  # fmt: skip
+
+
+def _common(task: Task, items: Sequence[Item]) -> Change:
+    """Return the first mistake that shows: of the Coriolis acceleration, where there is one."""
+    made = list(places_of(task, key_of_task(task, items)))
+    return next((change for change in made if change.code == "A1"), made[0])
+
+
+def _seconds(act: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    act()
+    return time.perf_counter() - start

@@ -1,0 +1,285 @@
+"""What a student is told, and how the page looks."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import string
+import subprocess
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import ex3_work
+import pytest
+
+from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Unread, Verdict, Written
+from planmethod.check.pages.htmlpage import html_page
+from planmethod.check.pages.overlay import overlays
+from planmethod.check.pages.pdfpage import pdf_page
+from planmethod.check.pages.remarks import Remarks
+from planmethod.check.pages.speech import Speech, tagged
+from planmethod.check.pages.student import Page, student_page
+from planmethod.note.wording import LANGUAGES, language
+
+RU = language("ru")
+CODES = [
+    *(f"V{n}" for n in range(1, 7)),
+    *(f"A{n}" for n in range(1, 7)),
+    *(f"{letter}{n}" for letter in "NF" for n in range(1, 6)),
+    *(f"S{n}" for n in range(1, 5)),
+    *(f"{letter}{n}" for letter in "EZP" for n in (1, 2)),
+    *("sign", "slip", "true_mm", "scale"),
+]
+
+
+def remarks(checked: Checked, lang: str = "ru") -> list[str]:
+    return Remarks(Speech(language(lang)), checked, ex3_work.SCALES).sentences()
+
+
+def page_of(checked: Checked, lang: str = "ru") -> Page:
+    return student_page(
+        checked, ex3_work.solution(), language(lang), scales=ex3_work.SCALES, mark="4"
+    )
+
+
+def one(verdict: Verdict, number: int = 0, **told: object) -> Checked:
+    """Return a work with one answer, judged so."""
+    key = ex3_work.entries()[number]
+    written = told.pop("written", Written(id=key.id, value=key.exact, mm=key.mm))
+    judged = Judged(key.id, verdict, key, written, **{"of": 1.0, **told})  # type: ignore[arg-type]
+    return replace(ex3_work.work(), answers=(judged,), diagnosis=(), points=judged.points, of=1.0)
+
+
+def test_a_mistake_is_named_with_both_numbers_its_place_and_the_next_step() -> None:
+    first, inherited, unseen = remarks(ex3_work.work())
+    words = RU.check.mistakes["A1"]
+    assert words.so in first and words.advice in first and "B3/2" in first
+    assert "119,6" in first and "55,6\N{NO-BREAK SPACE}±" in first and "(119,3" in first
+    assert RU.check.student.kept in inherited and "ε_{3}, a_{D}, a_{E}" in inherited
+    assert "ε_{4}" in unseen
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("code", CODES)
+def test_every_mistake_has_its_sentence_in_every_language(code: str, lang: str) -> None:
+    work = ex3_work.work()
+    found = replace(work.diagnosis[0], codes=(code,))
+    words = language(lang).check.mistakes[code]
+    first = remarks(replace(work, diagnosis=(found,)), lang)[0]
+    assert words.so in first and words.advice in first
+    assert words.advice.endswith(".") and not words.name.endswith(".")
+
+
+def test_what_is_not_sure_is_said_to_be_a_guess() -> None:
+    work = ex3_work.work()
+    several = replace(work.diagnosis[0], codes=("A1", "A3"), sure=False)
+    first = remarks(replace(work, diagnosis=(several,)))[0]
+    assert all(RU.check.mistakes[code].name in first for code in ("A1", "A3"))
+    assert RU.check.mistakes["A1"].advice not in first
+    unknown = remarks(replace(work, diagnosis=(Diagnosis((), False, ("a_B3",)),)))[0]
+    assert "πb_{3}" in unknown and "не удалось" in unknown
+
+
+def test_a_wrong_answer_without_a_diagnosis_is_not_passed_over() -> None:
+    key = ex3_work.entries()[0]
+    told = remarks(one(Verdict.WRONG, value=key.exact * 1.4))
+    assert len(told) == 1 and "v_{B3}" in told[0] and "pb_{3}" in told[0]
+
+
+def test_each_verdict_has_its_remark() -> None:
+    key = ex3_work.entries()[0]
+    near = remarks(one(Verdict.NEAR, value=key.exact * 1.04, points=0.7))
+    assert "0,7 из 1" in near[0]
+    assert (
+        "из ваших предыдущих"
+        in remarks(one(Verdict.INCONSISTENT, value=key.exact, local=3.0, points=1.0))[0]
+    )
+    slipped = remarks(one(Verdict.WRONG, value=4.49, slip=True))
+    assert "44,87 мм · 0,05 = 2,243" in " ".join(slipped).replace("\N{NO-BREAK SPACE}", " ")
+    blank = remarks(one(Verdict.BLANK, written=None))
+    assert blank == [RU.check.student.blank.format(answers="v_{B3}")]
+    raw = Written(
+        id="v_B3", raw="семь", where="Ответы!D12", unreadable="x", why=Unread.NUMBER, fault="семь"
+    )
+    unread = remarks(one(Verdict.UNREADABLE, written=raw))[0]
+    assert "«семь»" in unread and "Ответы!D12" in unread
+    wrong_way = Written(id="v_B3", value=key.exact, sense=Sense.RIGHT)
+    assert (
+        "←" in remarks(one(Verdict.WRONG, value=key.exact, written=wrong_way, sense_right=False))[0]
+    )
+    silent = remarks(one(Verdict.OK, value=key.exact, points=0.7))
+    assert silent == [RU.check.student.no_sense.format(answers="v_{B3}")]
+    assert remarks(one(Verdict.OK, value=key.exact, points=1.0)) == [RU.check.student.all_right]
+
+
+def test_points_that_inheriting_costs_are_told() -> None:
+    work = ex3_work.work()
+    half = tuple(
+        replace(j, points=0.5) if j.verdict is Verdict.INHERITED else j for j in work.answers
+    )
+    assert "1,5 из 3" in remarks(replace(work, answers=half))[1]
+
+
+def test_what_is_unreadable_beside_the_answers_is_told() -> None:
+    work = ex3_work.work()
+    scale = Written(where="group.csv:7", unreadable="x", why=Unread.SCALE, fault="два")
+    told = remarks(replace(work, work=replace(work.work, remarks=(scale,))))
+    assert "«два»" in told[-1] and "(group.csv:7)" in told[-1]
+
+
+def test_what_is_to_be_drawn_anew_is_where_the_trouble_begins() -> None:
+    lines = Remarks(Speech(RU), ex3_work.work(), ex3_work.SCALES).redraw()
+    assert len(lines) == 1 and "πb_{3}" in lines[0] and "55,6" in lines[0]
+
+
+# The picture --------------------------------------------------------------------------------------
+
+
+def test_segments_lie_on_the_plan_with_the_students_lengths() -> None:
+    velocity, acceleration = overlays(ex3_work.solution(), ex3_work.work(), RU)
+    assert all(own.is_right for own in velocity.own) and len(velocity.own) == 3
+    by_number = {own.number: own for own in acceleration.own}
+    assert not by_number[5].is_right
+    assert abs(by_number[5].head - by_number[5].tail) == pytest.approx(119.64, abs=0.1)
+    assert acceleration.mistake == "A1" and any(own.number is None for own in acceleration.own)
+    left, low, right, high = acceleration.bounds
+    for own in acceleration.own:
+        assert left <= own.head.real <= right and low <= own.head.imag <= high
+
+
+def test_the_plan_of_the_mistake_gives_the_direction() -> None:
+    work = ex3_work.work()
+    bare = replace(work, diagnosis=(replace(work.diagnosis[0], places={}),))
+    drawn, plain = (overlays(ex3_work.solution(), w, RU)[1] for w in (work, bare))
+    here, there = (next(o for o in plan.own if o.number == 5) for plan in (drawn, plain))
+    assert abs(here.head - here.tail) == pytest.approx(abs(there.head - there.tail))
+    assert abs(here.head - there.head) > 20.0
+    assert not plain.mistake and all(own.number for own in plain.own)
+
+
+def test_absurd_numbers_leave_the_plan_to_be_seen() -> None:
+    work = ex3_work.work()
+    absurd = tuple(replace(j, value=v) for j, v in zip(work.answers, _odd(), strict=False))
+    for plan in overlays(ex3_work.solution(), replace(work, answers=absurd), RU):
+        assert max(plan.size) < 1500.0
+
+
+def _odd() -> Iterator[float | None]:
+    yield from (1e300, float("nan"), float("inf"), -1e9, 0.0, None, 1e-300, 1e6, -0.0)
+
+
+def test_a_wrong_sense_is_drawn_the_other_way() -> None:
+    key = ex3_work.entries()[0]
+    right, turned = (
+        overlays(ex3_work.solution(), one(Verdict.WRONG, value=key.exact, sense_right=s), RU)[0]
+        for s in (True, False)
+    )
+    assert (
+        abs(right.own[0].head - right.own[0].tail + turned.own[0].head - turned.own[0].tail) < 1e-9
+    )
+
+
+# Files --------------------------------------------------------------------------------------------
+
+
+class _Strict(HTMLParser):
+    """Checks that tags are closed, and collects what would be loaded or run."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.bad: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag not in ("meta", "br"):
+            self.open.append(tag)
+        if tag in ("script", "link", "iframe", "object", "img", "base", "form"):
+            self.bad.append(tag)
+        self.bad += [n for n, v in attrs if n.startswith("on") or n in ("src", "href")]
+        self.bad += [v for n, v in attrs if n == "xlink:href" and v and not v.startswith("#")]
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_starttag(tag, attrs)
+        self.open.pop()
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_html_is_whole_loads_nothing_and_runs_nothing(lang: str) -> None:
+    name = "<script>alert(1)</script><img src=x onerror=y>\x00"
+    work = ex3_work.work(name)
+    text = html_page(page_of(work, lang), ex3_work.solution(), language(lang))
+    reader = _Strict()
+    reader.feed(text)
+    assert not reader.open and not reader.bad
+    assert "\x00" not in text and "<script" not in text and text.count("<svg") == 2
+
+
+def test_nothing_is_told_by_colour_alone() -> None:
+    work = ex3_work.work()
+    text = html_page(page_of(work), ex3_work.solution(), RU)
+    for judged in work.answers:
+        row = re.search(rf'<tr class="{judged.verdict.value}">.*?</tr>', text)
+        assert row and re.search("верно|следует|чертёж|нет|не прочитано", row[0])
+    assert "stroke-dasharray" in text
+
+
+def test_indices_become_tags_and_nothing_else_does() -> None:
+    assert tagged("v_{B3} <b> a^{τ}") == "v<sub>B3</sub> &lt;b&gt; a<sup>τ</sup>"
+    assert "<script>" not in tagged("x_{<script>}")
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_pdf_is_the_same_each_time_and_embeds_its_letters(lang: str) -> None:
+    page = page_of(ex3_work.work(), lang)
+    data = pdf_page(page, language(lang))
+    assert data == pdf_page(page, language(lang)) and data.startswith(b"%PDF")
+    assert b"Helvetica" not in data and b"PlanmethodGOST" in data
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+def test_the_text_of_the_pdf_can_be_searched(tmp_path: Path) -> None:
+    work = ex3_work.work("Щукина Ёлка " + "длинное" * 30)
+    (tmp_path / "s.pdf").write_bytes(pdf_page(page_of(work), RU))
+    done = subprocess.run(
+        ["pdftotext", "-layout", str(tmp_path / "s.pdf"), "-"], capture_output=True, timeout=60
+    )
+    text = done.stdout.decode()
+    assert "Щукина Ёлка" in text and "Кориолиса" in text and "неверно" in text
+
+
+def test_a_long_work_goes_on_over_pages() -> None:
+    work = ex3_work.work()
+    many = replace(work, answers=work.answers * 20)
+    data = pdf_page(page_of(many), RU)
+    assert data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") >= 4
+
+
+def _texts(words: object) -> Iterator[str]:
+    if isinstance(words, str):
+        yield words
+    elif is_dataclass(words):
+        for field in fields(words):
+            yield from _texts(getattr(words, field.name))
+    elif isinstance(words, tuple):
+        for word in words:
+            yield from _texts(word)
+    elif isinstance(words, dict):
+        for word in words.values():
+            yield from _texts(word)
+
+
+def test_languages_have_the_same_places_in_their_sentences() -> None:
+    def places(lang: str) -> list[set[str]]:
+        parse = string.Formatter().parse
+        return [
+            {name for _, name, _, _ in parse(re.sub(r"[_^]\{[^{}]*\}", "", text)) if name}
+            for text in _texts(language(lang).check)
+        ]
+
+    first, *others = (places(lang) for lang in LANGUAGES)
+    assert all(other == first for other in others)
