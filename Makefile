@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-thorough lint format tables gallery bench clean
+.PHONY: demo test test-thorough lint format tables gallery group bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -19,6 +19,9 @@ $(VENV)/.ready: pyproject.toml
 
 demo: $(VENV)/.ready
 	$(BIN)/planmethod sheet --format svg,pdf -o out problems/linkages/*.toml problems/levers/*.toml problems/press/*.toml
+	$(BIN)/planmethod check --key problems/linkages/ex3-variants.toml -o out
+	$(BIN)/planmethod form problems/linkages/ex3-variants.toml --all-variants -o out
+	$(BIN)/planmethod check problems/linkages/ex3-variants.toml problems/groups/ex3.csv -o out || test $$? -eq 1 # a cell cannot be read
 
 test: $(VENV)/.ready
 	$(TESTS)
@@ -49,6 +52,10 @@ gallery: $(VENV)/.ready
 	$(BIN)/planmethod specimen symbols --format png --dpi 70 -o docs/gallery
 	$(BIN)/planmethod specimen lines --format png --dpi 90 -o docs/gallery
 	$(BIN)/planmethod specimen lettering --format png --dpi 45 -o docs/gallery
+
+# The works of thirty invented students: problems/groups/ex3.csv.
+group: $(VENV)/.ready
+	$(BIN)/python -m benchmarks.group
 
 # Writes docs/speed-and-error.md and its figure; the peers come with the extra.
 bench: $(VENV)/.ready

@@ -64,11 +64,11 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
             judged[numbers[id(one.written)]] = _judged(task, one)
         examined += ready
     answers = [judged[number] for number in sorted(judged)]
-    given = {answer.id for answer in answers}
+    given = {(answer.key.id, answer.key.position) for answer in answers if answer.key}
     for item in (*task.declared, *also):
-        if item.id not in given:
+        if (item.name, item.position) not in given:
             answers.append(_unjudged(task, item, Verdict.BLANK, None))
-            given.add(item.id)
+            given.add((item.name, item.position))
     points = math.fsum(answer.points for answer in answers)
     whole = math.fsum(answer.of for answer in answers)
     return Checked(

@@ -11,11 +11,11 @@ from planmethod.check.mistakes.model import Scene
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
-from planmethod.check.sheet import Sheet
+from planmethod.check.sheet import Sheet, point
 from planmethod.check.slips import completed, put_explanation, slips
 from planmethod.check.task import Task
 from planmethod.construct.steps import Name, PointName, makes, operands
-from planmethod.plans.model import MOTION
+from planmethod.plans.model import FACTS, MOTION
 
 CLEARLY = 6.0
 """How much better the best explanation must be than the next one to be named."""
@@ -29,8 +29,11 @@ CLOSE = 15.0
 MANY = 2
 """So many wrong numbers that some of them are like something by chance."""
 
-UNNAMED = 3.0
-"""How common a number is that is wrong and nobody knows why, beside one mistake at one place."""
+UNNAMED = 15.0
+"""How common a number is that is wrong and nobody knows why, beside one mistake at one place.
+
+Some seventy mistakes can be made on a sheet: one of them comes near almost any single number.
+"""
 
 
 def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]:
@@ -48,6 +51,17 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     return _one_by_one(task, sheet, found, wrong, facts, own)
 
 
+def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> bool:
+    """Tell whether a mistake changes a wrong answer at all, its number or its sense."""
+    for one in wrong:
+        given, right = (e[one.item.question.id] for e in (explanation.values, sheet.exact))
+        turned = one.sense_right is False and given * right <= 0
+        vector = one.sense_right is False and one.item.question.sign is not Sign.TURN
+        if turned or vector or abs(abs(given) - abs(right)) > one.limit.tolerance() / 2:
+            return True
+    return False
+
+
 def _numbers(sheet: Sheet, found: list[Examined]) -> Numbers:
     return Numbers(put_in(sheet, found), put_in(sheet, found, values=True))
 
@@ -55,7 +69,7 @@ def _numbers(sheet: Sheet, found: list[Examined]) -> Numbers:
 def _whole(
     task: Task, sheet: Sheet, wrong: list[Examined], facts: list[Fact], own: Numbers
 ) -> list[Fit] | None:
-    """Return the explanations of everything that is answered, the best first; None where none is."""
+    """Return the explanations of all that is answered, the best first; None where none is."""
     fits = _fits(task, sheet, wrong, facts, own)
     best = fits[0] if fits else None
     if best is None or not best.likely:
@@ -71,7 +85,8 @@ def _fits(
 ) -> list[Fit]:
     """Return how explanations fit, the best first."""
     explained = task.explanations(sheet)
-    tried = [*explained.nearest(facts, TRIED), *_scaled(task, sheet, wrong)]
+    near = [e for e in explained.nearest(facts, TRIED) if _explains(sheet, wrong, e)]
+    tried = [*near, *_scaled(task, sheet, wrong)]
     fits = sorted((explained.fit(e, facts, own) for e in tried), key=lambda fit: fit.score)
     close = [fit for fit in fits if fit.score <= fits[0].score + CLOSE]
     fits = [explained.fit(fit.explanation, facts, own, closely=True) for fit in close]
@@ -165,11 +180,23 @@ def _passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[F
         codes = () if fits[0].explanation.code == "" else tuple(c for c in codes if c)
         sure = False
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
-    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, _told(found, best))
+    told, places = _told(found, best), _places(best)
+    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, told, places)
 
 
 def _told(found: list[Examined], explanation: Explanation) -> dict[str, float]:
     return {one.item.id: explanation.values[one.item.question.id] for one in found}
+
+
+def _places(explanation: Explanation) -> dict[str, complex]:
+    """Return the points of the velocity and acceleration plans of an explanation, m/s and m/s²."""
+    sheet = explanation.sheet
+    return {
+        name: point(explanation.trace.value[name]) * sheet.scales[FACTS[plan.kind].scale]
+        for plan in sheet.questions.construction.plans
+        for name in plan.letters
+        if name in explanation.trace.value
+    }
 
 
 def _follows(one: Examined, explanation: Explanation, near: float) -> bool:

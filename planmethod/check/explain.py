@@ -36,8 +36,8 @@ FAR = 30.0
 
 ONE_MISTAKE = 2 * math.log(20.0)
 
-MISREAD_SENSE = 9.0
-"""What a sense told the other way costs: one in a hundred is a slip of the pen."""
+MISREAD_SENSE = 14.0
+"""What a sense told the other way costs: one in a thousand is a slip of the pen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,7 +216,7 @@ class Explanations:
         return np.where(np.isfinite(found), found, 0.0)
 
     def nearest(self, facts: Sequence[Fact], count: int) -> list[Explanation]:
-        """Return the named explanations that come nearest, answers that are far off not counting."""
+        """Return the named explanations that come nearest; what is far off counts no more."""
         rows = {question.id: row for row, question in enumerate(self.sheet.asked)}
         chosen = [rows[fact.id] for fact in facts]
         if not self.named or not chosen:

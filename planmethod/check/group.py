@@ -104,7 +104,9 @@ def check_works(
             except UnansweredError:
                 continue
             if not task.declared:
-                asked.setdefault((work.where, name), {}).setdefault(item.id, item)
+                asked.setdefault((work.where, name), {}).setdefault(
+                    item.name, replace(item, id=item.name)
+                )
     for work in works:
         try:
             name = variants.name_of(work)
@@ -118,7 +120,8 @@ def check_works(
 def keys_of(variants: Variants, checked: Sequence[Checked]) -> dict[str | None, Key]:
     """Return the keys of the variants that works have, of all that they answer."""
     found: dict[str | None, Key] = {}
-    for name in dict.fromkeys(work.variant for work in checked):
+    names = dict.fromkeys(work.variant for work in checked)
+    for name in (name for name in names if name is None or name in variants.names):
         task = variants.task(name)
         items: dict[str, Item] = {item.id: item for item in task.declared}
         for one in checked:
@@ -126,6 +129,7 @@ def keys_of(variants: Variants, checked: Sequence[Checked]) -> dict[str | None, 
                 continue
             for judged in one.answers:
                 if judged.key is not None and judged.written is not None:
-                    items.setdefault(judged.id, replace(task.find(judged.written), id=judged.id))
+                    item = task.find(judged.written)
+                    items.setdefault(item.name, replace(item, id=item.name))
         found[name] = key_of_task(task, items.values())
     return found

@@ -212,7 +212,7 @@ def put_in(sheet: Sheet, found: list[Examined], *, values: bool = False) -> Own:
     for one in found:
         question = one.item.question
         name, length = question.name, question.length
-        if name is None or one.limit.zero:  # what is too short to be read tells nothing
+        if name is None or (one.limit.zero and one.right):  # too short to be read, it tells nothing
             continue
         one.slot, one.per_slot = slot_of(sheet, one)
         if one.slot != name and not values:
@@ -231,9 +231,10 @@ def slot_of(sheet: Sheet, one: Examined) -> tuple[NumberName | None, float]:
     question = one.item.question
     name, length = question.name, question.length
     direct = name != length and question.selector.kind not in RATES
-    if name is not None and length is not None and direct:
-        if sheet.order[length] < sheet.order[name]:
-            return length, sheet.scales[question.scale]
+    if name is None or length is None or not direct:
+        return name, 1.0
+    if sheet.order[length] < sheet.order[name]:
+        return length, sheet.scales[question.scale]
     return name, 1.0
 
 
@@ -352,7 +353,7 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
     facts: dict[str, Fact] = {}
     for one in found:
         question = one.item.question
-        if question.sign is Sign.ANGLE or one.limit.zero:
+        if question.sign is Sign.ANGLE or (one.limit.zero and one.right):
             continue
         strict = question.sign is Sign.STRICT
         sense: Callable[[Trace], bool | None] | None = None

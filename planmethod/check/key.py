@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -93,25 +94,32 @@ def entry_of(task: Task, item: Item, limit: Limit, *, hidden: tuple[str, ...] = 
     question, sheet = item.question, task.sheet(item.position)
     length = sheet.length(question)
     plan = question.plan
+    letters = item.label not in ("", question.id)
     return KeyEntry(
-        item.id,
-        item.label or question.id,
-        question.symbol,
-        question.unit,
-        abs(limit.exact) if question.sign is Sign.SIZE else limit.exact,
-        limit.sigma,
-        limit.tolerance(),
-        limit.seen,
-        limit.zero,
-        length,
-        "" if plan is None or question.is_mm else FACTS[plan].scale,
-        segment_of(task, item),
-        None if limit.zero else sense_of(sheet, question),
-        item.asks_sense,
-        item.points,
-        item.position,
-        hidden,
+        id=item.name,
+        label=item.label or item.name,
+        symbol=rich(item.label) if letters else question.symbol,
+        unit=question.unit,
+        exact=abs(limit.exact) if question.sign is Sign.SIZE else limit.exact,
+        sigma=limit.sigma,
+        tolerance=limit.tolerance(),
+        seen=limit.seen,
+        zero=limit.zero,
+        signed=question.sign is not Sign.SIZE,
+        mm=length,
+        scale="" if plan is None or question.is_mm else FACTS[plan].scale,
+        segment=segment_of(task, item),
+        sense=None if limit.zero else sense_of(sheet, question),
+        asks_sense=item.asks_sense,
+        points=item.points,
+        position=item.position,
+        hidden=hidden,
     )
+
+
+def rich(letters: str) -> str:
+    """Return letters of the department as rich text: ``v_B1`` has B1 as its index."""
+    return re.sub(r"_([^{}\s]+)", r"_{\1}", letters)
 
 
 def segment_of(task: Task, item: Item) -> str:

@@ -7,6 +7,7 @@ underscores, spaces, subscripts, and letters of another alphabet that look the s
 from __future__ import annotations
 
 import unicodedata
+
 from planmethod.problem.names import LOOKALIKES
 
 GREEK = {"ω": "omega", "ε": "epsilon", "φ": "phi", "Φ": "inertia", "ϕ": "phi", "έ": "epsilon"}

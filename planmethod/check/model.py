@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from types import MappingProxyType
 
 
 class Sense(Enum):
@@ -75,7 +74,7 @@ class Written:
     unit : str
         As it was written; empty when none was: SI.
     step : float
-        Unit of the last digit of ``value`` as it was written, SI: 0.01 of 2.35 m/s; 0 where unknown.
+        Unit of the last digit of ``value`` as written, SI: 0.01 of 2.35 m/s; 0 where unknown.
     mm : float or None
         Segment of his own plan, mm.
     mm_step : float
@@ -148,7 +147,7 @@ class Work:
     student: str
     answers: tuple[Written, ...]
     variant: str | None = None
-    scales: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    scales: Mapping[str, float] = field(default_factory=dict)
     ruler_mm: float | None = None
     problem: str = ""
     where: str = ""
@@ -297,8 +296,8 @@ class Diagnosis:
     sure: bool
     roots: tuple[str, ...]
     where: str = ""
-    values: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
-    places: Mapping[str, complex] = field(default_factory=lambda: MappingProxyType({}))
+    values: Mapping[str, float] = field(default_factory=dict)
+    places: Mapping[str, complex] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -127,7 +127,7 @@ class Questions:
         return self._found[selector]
 
     def usual(self) -> Iterator[Selector]:
-        """Yield what a task asks that says nothing else: velocities, accelerations, ω, ε, forces."""
+        """Yield what is asked where nothing is said: velocities, accelerations, ω, ε, forces."""
         construction, kin = self.construction, self.construction.kinematics
         told = {self._asking.zero, *self.construction.draft.numbers}  # nothing, and the given ones
         kinds = (
@@ -171,7 +171,7 @@ class Questions:
             yield relative.name, (label(relative.of, place), label(relative.to, place))
 
     def vectors(self) -> Iterator[tuple[Selector, PlanKind, Ends]]:
-        """Yield the vectors of the plans that are between two points of a link: v_ED, aⁿ_ED, aᵗ_ED."""
+        """Yield the vectors of the plans between two points of a link: v_ED, aⁿ_ED, aᵗ_ED."""
         words = {
             (PlanKind.VELOCITY, VectorKind.RELATIVE): "v",
             (PlanKind.ACCELERATION, VectorKind.NORMAL): "an",

@@ -44,6 +44,11 @@ Own: TypeAlias = Mapping[NumberName, tuple[float, bool]]
 """A student's own numbers, by what they stand for; whether the sign of each is his own."""
 
 
+def point(value: Number) -> complex:
+    """Return the one point of an array."""
+    return complex(np.reshape(value, -1)[0])
+
+
 @dataclass(frozen=True, slots=True)
 class Local:
     """What a set of numbers leaves open of those that follow from it, to first order.
@@ -136,8 +141,8 @@ class Sheet:
         if question.ends is None:
             return None
         value = (trace or self.trace).value
-        tail, head = (np.asarray(value[end], dtype=complex).reshape(-1)[0] for end in question.ends)
-        return complex(head - tail) * question.way
+        tail, head = (point(value[end]) for end in question.ends)
+        return (head - tail) * question.way
 
     # Errors ----------------------------------------------------------------------------------
 
@@ -165,7 +170,7 @@ class Sheet:
         return Errors(drawn, draws=DRAWS)
 
     def sigma(self, question: Question, *, length: bool = False) -> float:
-        """Return one standard deviation of an answer, or of its segment; infinite where it has none."""
+        """Return one sigma of an answer, or of its segment; infinite where it has none."""
         label = f"|{question.id}|" if length else question.id
         if label not in self.errors.items:
             label = question.id

@@ -37,25 +37,29 @@ CLOSE = 0.03
 def slips(sheet: Sheet, one: Examined) -> Iterator[tuple[str, str, float, float]]:
     """Yield what may have been done with one number: code, where, its value then, prior."""
     base = one.limit.exact if one.local is None else one.local
+    if one.told:  # his own millimetres tell it better than anything
+        base = math.copysign(one.told, base)
     if not base or not one.value:
         return
     ratio = abs(one.value / base)
     slack = max(CLOSE, 1.5 * one.limit.tolerance() / abs(one.limit.exact or base))
+    slack = 0.5 * CLOSE if one.told else slack
 
     def near(factor: float) -> bool:
         return abs(ratio / factor - 1.0) <= min(slack, 0.3)
 
     for factor in UNITS:
         if near(factor):
-            yield "S2", "", base * factor, 1.0
+            yield "S2", "", base * factor, 6.0
     for factor in PLACES:
         if near(factor):
-            yield "S4", "", base * factor, 1.0
+            yield "S4", "", base * factor, 6.0
     for swapped in _swaps(one):
         if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
             yield "S4", "", one.value, 0.2
     yield from _scales(sheet, one, base)
-    yield from _segments(sheet, one, base, slack)
+    if not one.slip:
+        yield from _segments(sheet, one, base, min(slack, 0.05))
     question = one.item.question
     if question.is_mm and question.plan is PlanKind.POSITION:
         true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
@@ -90,12 +94,12 @@ def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[tuple[str, str
     own = sheet.scales[question.scale]
     sign = math.copysign(1.0, base)
     if abs(abs(one.value) * own / mm - 1.0) <= 0.01 and own != 1.0:
-        yield "S1", question.scale, sign * mm / own, 2.0
+        yield "S1", question.scale, sign * mm / own, 20.0
     for plan in MOTION:
         other = sheet.scales[FACTS[plan].scale]
         share = abs(one.told) / own * other
         if other != own and abs(abs(one.value) / share - 1.0) <= 0.01:
-            yield "S3", question.scale, sign * share, 2.0
+            yield "S3", question.scale, sign * share, 20.0
 
 
 def _segments(
@@ -107,13 +111,13 @@ def _segments(
     if not length or question.plan not in SEGMENT_CODES or question.sign is Sign.STRICT:
         return
     if one.foreign and one.told is not None and not one.slip:
-        yield SEGMENT_CODES[question.plan], one.foreign, one.value, 3.0
+        yield SEGMENT_CODES[question.plan], one.foreign, one.value, 200.0
         return
     for segment in sheet.questions.construction.segments:
         if segment.kind is not question.plan or segment.length not in sheet.trace.value:
             continue
         share = abs(scalar(sheet.trace.value[NumberName(segment.length)])) / length
-        if abs(share - 1.0) > slack and abs(abs(one.value / base) / share - 1.0) <= slack:
+        if abs(share - 1.0) > slack and abs(abs(one.value / base) - share) <= slack * share > 0:
             yield SEGMENT_CODES[question.plan], segment.name, base * share, 0.5
 
 

@@ -35,6 +35,8 @@ class Item:
         Tolerance that the task itself allows, a share.
     label : str
         How the department writes it.
+    name : str
+        The same for all who are asked, however they call it.
     """
 
     id: str
@@ -44,6 +46,7 @@ class Item:
     asks_sense: bool = False
     fixed: float | None = None
     label: str = ""
+    name: str = ""
 
 
 class Task:
@@ -89,6 +92,7 @@ class Task:
             asked.sense is not None,
             asked.tolerance,
             asked.letters[0] if asked.letters else "",
+            asked.id,
         )
         for form in (asked.id, *asked.letters):
             self._forms.setdefault(plain(form), item)
@@ -133,7 +137,8 @@ class Task:
         questions = self.questions(position)
         found = [self.ask(questions.question(sel), position) for sel in questions.usual()]
         return tuple(
-            Item(q.id, q, position, asks_sense=q.sign is Sign.TURN, label=q.id) for q in found
+            Item(q.id, q, position, asks_sense=q.sign is Sign.TURN, label=q.id, name=q.id)
+            for q in found
         )
 
     def find(self, written: Written) -> Item:
@@ -147,7 +152,7 @@ class Task:
         for text in (written.id, written.what):
             item = self._forms.get(text) or self._forms.get(plain(text)) if text else None
             if item is not None and written.position in (None, item.position):
-                return item
+                return replace(item, id=written.id or item.id)
         position = written.position or 0
         questions, why = self.questions(position), NoAnswer.NO_WHAT
         for text in (written.what, written.id):
@@ -159,7 +164,11 @@ class Task:
                 why = error.why
                 continue
             return Item(
-                written.id or question.id, self.ask(question, position), position, label=question.id
+                written.id or question.id,
+                self.ask(question, position),
+                position,
+                label=question.id,
+                name=question.id,
             )
         raise UnansweredError(why)
 

@@ -82,7 +82,8 @@ def limit_of(sheet: Sheet, question: Question, settings: Settings, fixed: float 
     zero = not turned and (size < SHORT * sigma or not size)
     if zero:
         least = max(settings.floor_mm * per_mm, 1e-9)
-        spread *= FOLDED if question.sign is Sign.SIZE else 1.0
+        if question.sign is Sign.SIZE:
+            spread = max(spread, FOLDED * spread - size)
     own = Limit(exact, sigma, spread, least, most, zero or spread <= most, zero, per_mm)
     if zero:
         return own

@@ -53,6 +53,9 @@ FORMATS = ("html", "pdf")
 )
 @click.option("--anonymize", is_flag=True, help="Stable numbers in place of the names.")
 @click.option(
+    "--salt", default="", metavar="WORD", help="Word of the course that these numbers depend on."
+)
+@click.option(
     "--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Processes at work."
 )
 @lang_option
@@ -69,6 +72,7 @@ def check(
     profile: str | None,
     overrides: Path | None,
     anonymize: bool,
+    salt: str,
     jobs: int,
     lang: str,
 ) -> None:
@@ -99,7 +103,9 @@ def check(
     if as_json:
         _print_json(checked, paths)
     else:
-        _write_results(problem, paths, checked, settings, variant, out, anonymize, lang)
+        _write_results(
+            problem, paths, checked, settings, variant, out, salt if anonymize else None, lang
+        )
     unreadable = [a for work in checked for a in work.answers if a.verdict.value == "unreadable"]
     lost = [remark for work in checked for remark in work.work.remarks]
     for judged in unreadable:
@@ -139,7 +145,7 @@ def _checked(
 def _in_processes(
     problem: Path, works: list[Work], variant: str | None, settings: Settings, jobs: int
 ) -> list[Checked]:
-    """Check works in several processes; each file of works stays whole, as its works go together."""
+    """Check works in several processes."""
     from concurrent.futures import ProcessPoolExecutor
     from functools import partial
 
@@ -188,16 +194,16 @@ def _write_results(
     settings: Settings,
     variant: str | None,
     out: Path,
-    anonymize: bool,
+    salt: str | None,
     lang: str,
 ) -> None:
     from planmethod.check.group import Variants, keys_of
     from planmethod.check.pages.files import write_all
 
-    if anonymize:
+    if salt is not None:
         from planmethod.check.pages.run import anonymous
 
-        checked = anonymous(checked, problem.stem)
+        checked = anonymous(checked, salt)
     keys = keys_of(Variants(problem, settings, variant), checked)
     with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:
         written = write_all(out, checked, keys, settings, [problem, *paths], lang, done=done)

@@ -11,7 +11,6 @@ from click.testing import CliRunner
 from slotted import R, problem_of
 
 from planmethod.cli import cli
-from planmethod.solved.selected.asking import NoAnswer
 from planmethod.note.audit.audit import (
     Audited,
     Verdict,
@@ -24,6 +23,7 @@ from planmethod.note.audit.table import Document
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
 from planmethod.problem.model import Problem, Published
+from planmethod.solved.selected.asking import NoAnswer
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = sorted((ROOT / "problems").glob("*/*.toml"), key=str)

@@ -12,15 +12,15 @@ from loaded import with_resultant
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
-from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.note.audit.audit import Audited, Verdict, audit, source_force_scale
-from planmethod.solved.selected.quantities import Quantities
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import FORCES, parse_selector
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.selected.asking import NoAnswer, UnansweredError
+from planmethod.solved.selected.quantities import Quantities
 from planmethod.solved.solution import Solution
 
 LOADS = """

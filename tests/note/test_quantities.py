@@ -9,9 +9,9 @@ import pytest
 from cases import each
 from slotted import R, problem_of
 
+from planmethod.problem.selector import QUANTITIES, parse_selector
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.selected.quantities import Quantities
-from planmethod.problem.selector import QUANTITIES, parse_selector
 from planmethod.solved.solution import Solution
 
 

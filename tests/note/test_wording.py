@@ -11,12 +11,12 @@ import pytest
 
 import planmethod
 from planmethod.errors import ExitCode
-from planmethod.solved.selected.asking import NoAnswer
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
 from planmethod.problem import FAMILIES
 from planmethod.problem.model import FORCE, MOMENT
+from planmethod.solved.selected.asking import NoAnswer
 
 HOME = Path(planmethod.__file__).parent
 CYRILLIC = re.compile("[\u0400-\u04ff]")

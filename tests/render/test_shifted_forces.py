@@ -13,7 +13,6 @@ from loaded import with_resultant
 from test_forces_sheet import arrows, couples, shown, views, within
 from worked import drawn_sheets, problem_of
 
-from planmethod.solved.selected.quantities import Quantities
 from planmethod.note.wording import language
 from planmethod.problem.selector import parse_selector
 from planmethod.render.control.remarks import Severity
@@ -24,6 +23,7 @@ from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.selected.quantities import Quantities
 from planmethod.solved.solution import Solution
 
 RU = language("ru")

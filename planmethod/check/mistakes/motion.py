@@ -64,7 +64,8 @@ def driver_reversed(scene: Scene) -> Iterator[Change]:
     drive = scene.problem.drive
     name = drive.coordinate.rates[0]
     if name in scene.made and drive.rate:
-        yield Change("V2", drive.link, data={name: -drive.rate})
+        # That one sense is wrong says nothing yet of the driver.
+        yield Change("V2", drive.link, data={name: -drive.rate}, prior=0.04)
 
 
 def similarity_wrong(scene: Scene) -> Iterator[Change]:
@@ -137,7 +138,7 @@ def arm_wrong(scene: Scene) -> Iterator[Change]:
     """V5: ω by another arm: a given length of the link, or the distance of the pivots."""
     for link, turning in scene.turnings(V):
         step = scene.compute(scene.kin.omega[link])
-        if step is None:
+        if step is None or not scene.exact(step.out):
             continue
         value = step.powers[0]
         right = abs(scene.exact(value[0]) / scene.exact(step.out))

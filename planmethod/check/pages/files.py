@@ -62,7 +62,7 @@ def write_all(
     checked : sequence of Checked
         With the overrides, and with the names hidden if they shall be.
     keys : mapping
-        By the variant of a work.
+        By the variant of a work; a work without a key has no page.
     inputs : sequence of Path
         Files that the marks came from.
     done : callable
@@ -107,7 +107,10 @@ def _pages(
     words = language(lang)
     solutions: dict[str | None, Solution] = {}
     for work, mark in zip(checked, marks, strict=True):
-        key = keys[work.variant]
+        key = keys.get(work.variant)
+        if key is None:  # of a variant that the problem has not: the tables tell it
+            yield {}
+            continue
         if work.variant not in solutions:
             solutions[work.variant] = Solution(key.problem)
         solution = solutions[work.variant]

@@ -1,185 +1,27 @@
-"""The key, printed: what every answer should be, for a red pencil (ключ на бумаге).
-
-One variant has a table with a row for each answer. Several variants, or positions, have a row
-each, and the answers are columns.
-"""
+"""The key for a terminal, for a red pencil, and as a workbook (ключ на экране и на бумаге)."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from planmethod.check.key import Key
-from planmethod.check.model import KeyEntry, Sense
-from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
-from planmethod.check.pages.speech import Speech
+from planmethod.check.model import KeyEntry
+from planmethod.check.pages.keytable import UNSEEN, KeyPage
+from planmethod.check.pages.pdf import NOTE, TEXT, Document
+from planmethod.check.pages.speech import told
+from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
 from planmethod.note.plaintext import NO_BREAK, columns_text, heading, plain_text, wrap
 from planmethod.note.plaintext import table as text_table
-from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
-from planmethod.plans.model import FACTS
 
-UNSEEN = "*"
-"""Sign of an answer that the drawing does not show, where there is no room for words."""
+SINGLE = (22.0, 36.0, 17.0, 21.0, 15.0, 14.0, 15.0, 46.0)
+"""Widths of the columns of one variant, mm."""
 
+WIDE = 273.0
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One variant in one position (строка ключа группы)."""
-
-    key: Key
-    position: int
-    entries: Mapping[str, KeyEntry]
-
-
-@dataclass(frozen=True, slots=True)
-class KeyPage:
-    """The key of a group in a language.
-
-    Attributes
-    ----------
-    keys : tuple of Key
-        Of one problem, one for each variant.
-    words : Language
-    """
-
-    keys: tuple[Key, ...]
-    words: Language
-
-    @property
-    def say(self) -> KeyWording:
-        """Words of the key."""
-        return self.words.check.key
-
-    @property
-    def speech(self) -> Speech:
-        """How numbers are told."""
-        return Speech(self.words)
-
-    @property
-    def title(self) -> str:
-        """Heading, with the variant where there is one alone."""
-        problem = self.keys[0].problem
-        title = f"{self.say.title}: {problem.title or problem.name}"
-        if len(self.keys) == 1 and self.keys[0].variant:
-            title += f". {self.say.variant.format(variant=self.keys[0].variant)}"
-        return title
-
-    def rows(self) -> list[Row]:
-        """Return variants and positions."""
-        found: dict[tuple[int, int], dict[str, KeyEntry]] = {}
-        for number, key in enumerate(self.keys):
-            for entry in key.entries:
-                found.setdefault((number, entry.position), {})[entry.label] = entry
-        return [Row(self.keys[number], at, entries) for (number, at), entries in found.items()]
-
-    def scales(self) -> str:
-        """Return the scales as a sentence, rich text: variants that have the same ones together."""
-        whose: dict[str, list[str]] = {}
-        for key in self.keys:
-            whose.setdefault(self._scales(key), []).append(key.variant or "")
-        if len(whose) == 1:
-            return self.say.scales.format(scales=next(iter(whose)))
-        parts = (f"{', '.join(names)}: {told}" for told, names in whose.items())
-        return self.say.scales.format(scales=". ".join(parts))
-
-    def _scales(self, key: Key) -> str:
-        say = self.words.say
-        units = {facts.scale: facts.unit for facts in FACTS.values()}
-        shown = []
-        for name, per_mm in key.scales.items():
-            unit = say.units.get(units.get(name, ""), "")
-            of = f"({unit})" if "/" in unit or "·" in unit else unit
-            shown.append(f"{scale_letters(name)} = {say.given(per_mm)} {of}/{say.units['mm']}")
-        return "; ".join(shown)
-
-    def hidden(self) -> list[str]:
-        """Return the mistakes that no answer shows, a line each: code, name, variants."""
-        whose: dict[str, list[Key]] = {}
-        for key in self.keys:
-            for code in key.hidden:
-                whose.setdefault(code, []).append(key)
-        lines = []
-        for code, keys in whose.items():
-            known = self.words.check.mistakes.get(code)
-            found = {place for key in keys for place in key.hidden[code] if place}
-            places = [place_letters(place) for place in sorted(found)]
-            line = f"{code}: {known.name if known else code}"
-            line += f" ({', '.join(places)})" if places else ""
-            if len(keys) < len(self.keys):
-                names = ", ".join(str(key.variant) for key in keys)
-                line += f" — {self.say.variant.format(variant=names)}"
-            lines.append(line)
-        return lines
-
-    def note(self) -> str:
-        """Return what the tolerance is."""
-        return self.say.note.format(unseen=self.say.unseen)
-
-    # Cells -------------------------------------------------------------------------------------
-
-    def line(self, entry: KeyEntry) -> list[str]:
-        """Return an answer as the cells of a row, rich text, see `KeyWording.columns`."""
-        speech = self.speech
-        return [
-            speech.letters(entry),
-            self._value(entry),
-            speech.unit(entry),
-            segment_letters(entry.segment) if entry.segment else "",
-            "" if entry.mm is None else speech.mm(entry.mm, unit=False),
-            self._sense(entry.sense),
-            speech.share(entry.points),
-            self.say.zero if entry.zero else "" if entry.seen else self.say.unseen,
-        ]
-
-    def cell(self, entry: KeyEntry | None) -> tuple[str, str]:
-        """Return an answer in two short lines: the value, and its segment and sense."""
-        if entry is None:
-            return "", ""
-        speech = self.speech
-        mm = "" if entry.mm is None else speech.mm(entry.mm)
-        sign = self._sense(entry.sense)
-        return (
-            self._value(entry) + ("" if entry.seen else UNSEEN),
-            " ".join(part for part in (mm, sign) if part),
-        )
-
-    def head(self, entry: KeyEntry) -> str:
-        """Return the head of an answer's column: its letters and unit."""
-        unit = self.speech.unit(entry)
-        return f"{self.speech.letters(entry)}, {unit}" if unit else self.speech.letters(entry)
-
-    def lead(self, row: Row) -> str:
-        """Return what a row begins with: variant, and position where there are several."""
-        several = len({r.position for r in self.rows()}) > 1
-        lead = [row.key.variant] if row.key.variant else []
-        lead += [self.say.position.format(position=row.position + 1)] if several else []
-        return ", ".join(lead) or "—"
-
-    def _value(self, entry: KeyEntry) -> str:
-        number = self.speech.value(entry, entry.tolerance)
-        return f"{number}{NO_BREAK}±{NO_BREAK}{self.speech.error(entry.tolerance)}"
-
-    def _sense(self, sense: Sense | None) -> str:
-        return self.speech.sense(sense)
-
-    def columns(self) -> list[KeyEntry]:
-        """Return the answers, one entry for each label, in the order in which they are asked."""
-        found: dict[str, KeyEntry] = {}
-        for row in self.rows():
-            for label, entry in row.entries.items():
-                found.setdefault(label, entry)
-        return list(found.values())
-
-    @property
-    def has_unseen(self) -> bool:
-        """Whether there is an answer that the drawing does not show."""
-        return any(not entry.seen for key in self.keys for entry in key.entries)
-
-    @property
-    def is_single(self) -> bool:
-        """Whether there is one variant in one position."""
-        return len(self.rows()) == 1
+COLUMN = 34.0
+LEAD = 20.0
 
 
 def key_text(keys: Sequence[Key], words: Language) -> str:
@@ -207,3 +49,86 @@ def key_text(keys: Sequence[Key], words: Language) -> str:
             part for line in hidden for part in wrap(plain_text(line), first="  ", rest="    ")
         ]
     return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
+
+
+def key_pdf(keys: Sequence[Key], words: Language) -> bytes:
+    """Return the key as PDF: a standing page for one variant, lying ones for several."""
+    page = KeyPage(tuple(keys), words)
+    pdf = Document(plain_text(page.title), wide=not page.is_single)
+    pdf.paragraph(page.title, 14.0)
+    pdf.paragraph(page.scales(), NOTE)
+    pdf.gap(4.0)
+    if page.is_single:
+        rows = [page.line(entry) for entry in page.keys[0].entries]
+        pdf.table(page.say.columns, rows, SINGLE, right=(4,), size=TEXT)
+    else:
+        for part in _parts(page):
+            pdf.table(*_matrix(page, part), size=NOTE)
+            pdf.gap(5.0)
+        if page.has_unseen:
+            pdf.paragraph(f"{UNSEEN} — {page.say.unseen}.", NOTE)
+    pdf.gap(3.0)
+    pdf.paragraph(page.note(), NOTE)
+    if hidden := page.hidden():
+        pdf.heading(page.say.hidden)
+        pdf.listed(hidden, NOTE)
+    return pdf.close()
+
+
+def _parts(page: KeyPage) -> Iterator[list[KeyEntry]]:
+    """Cut the columns into tables that fit on a lying page, about as wide as each other."""
+    columns = page.columns()
+    most = int((WIDE - LEAD) // COLUMN)
+    tables = -(-len(columns) // most)
+    size = -(-len(columns) // max(1, tables))
+    for start in range(0, len(columns), size):
+        yield columns[start : start + size]
+
+
+def _matrix(
+    page: KeyPage, columns: Sequence[KeyEntry]
+) -> tuple[list[str], list[list[str]], list[float]]:
+    """Return head, rows and widths of a table with a column for each answer."""
+    rows = []
+    for row in page.rows():
+        cells = [page.cell(row.entries.get(entry.label)) for entry in columns]
+        rows.append([page.lead(row), *("; ".join(filter(None, cell)) for cell in cells)])
+    width = min(48.0, (WIDE - LEAD) / len(columns))
+    header = [page.say.rows[0], *(page.head(entry) for entry in columns)]
+    return header, rows, [LEAD, *[width] * len(columns)]
+
+
+def key_xlsx(keys: Sequence[Key], words: Language) -> bytes:
+    """Return the key as a workbook: a row for each answer of each variant."""
+    page = KeyPage(tuple(keys), words)
+    quantity, value, unit, segment, mm, sense, points, note = page.say.columns
+    exact, _, tolerance = value.partition(" ± ")
+    header = [
+        *page.say.rows, quantity, exact, f"± {tolerance}", unit, segment, mm, sense, points, note,
+    ]  # fmt: skip
+    rows = []
+    for row in page.rows():
+        for entry in row.entries.values():
+            cells = [plain_text(cell) for cell in page.line(entry)]
+            rows.append(
+                [
+                    row.key.variant,
+                    row.position + 1,
+                    entry.label,
+                    told(entry.exact, entry),
+                    entry.tolerance,
+                    cells[2],
+                    cells[3],
+                    entry.mm,
+                    cells[5],
+                    entry.points,
+                    cells[7],
+                ]
+            )
+    book = new_workbook()
+    formats = {3: "0.0000", 4: "0.0000", 7: "0.0", 9: "0.##"}
+    add_sheet(book, page.say.sheet, header, rows, formats=formats, frozen=3)
+    if hidden := page.hidden():
+        lines: list[list[Any]] = [[plain_text(line)] for line in hidden]
+        add_sheet(book, page.say.sheet_hidden, [page.say.hidden], lines, frozen=0)
+    return saved(book)

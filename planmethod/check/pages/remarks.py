@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict, Written
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.check_model import StudentWording
+from planmethod.plans.model import FACTS, PlanKind
 
-SCALES_OF_PLANS: Mapping[str, str] = {"mu_v": "velocity", "mu_a": "acceleration"}
+PLANS = {FACTS[kind].scale: kind for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)}
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
 
@@ -49,14 +50,15 @@ class Remarks:
             key = judged.key
             if key is None or key.mm is None or not key.segment or judged.verdict not in OFF:
                 continue
-            plan = SCALES_OF_PLANS.get(key.scale)
-            if plan is None:
+            plan = PLANS.get(key.scale)
+            # A number that follows from a segment does not tell that the segment is wrong.
+            if plan is None or key.unit not in (FACTS[plan].unit, "mm") or self._fits(judged):
                 continue
             lines.setdefault(
                 (key.segment, key.scale),
                 self.say.redraw_line.format(
                     segment=segment_letters(key.segment),
-                    plan=self.say.plan_names[plan],
+                    plan=self.say.plan_names[plan.value],
                     right=self.speech.mm(key.mm),
                 ),
             )

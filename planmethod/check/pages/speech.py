@@ -43,6 +43,11 @@ def told(value: float, key: KeyEntry) -> float:
     return value if key.signed else abs(value)
 
 
+def shows_turn(key: KeyEntry) -> bool:
+    """Tell whether an arrow of turning stands in place of the sign."""
+    return key.asks_sense and key.sense is not None and key.sense.turns
+
+
 @dataclass(frozen=True, slots=True)
 class Speech:
     """How answers are told in a language."""
@@ -90,7 +95,9 @@ class Speech:
     def right(self, key: KeyEntry, tolerance: float | None = None) -> str:
         """Return the exact value with its tolerance, unit and sense: ``21,3 ± 0,7 м/с² ←``."""
         allowed = key.tolerance if tolerance is None else tolerance
-        number = f"{self.value(key, allowed)}{NO_BREAK}±{NO_BREAK}{self.error(allowed)}"
+        value = abs(key.exact) if shows_turn(key) else key.exact
+        number = self.rounded(told(value, key), allowed)
+        number += f"{NO_BREAK}±{NO_BREAK}{self.error(allowed)}"
         return self._pointed(self.with_unit(number, key), key.sense if key.asks_sense else None)
 
     def value(self, key: KeyEntry, tolerance: float) -> str:
@@ -111,16 +118,21 @@ class Speech:
         if judged.value is None or key is None:
             bare = "" if written is None or written.mm is None else self.mm(written.mm)
             return self._pointed(bare, None if written is None else written.sense)
-        text = self.with_unit(self.number(told(judged.value, key)), key)
-        return self._pointed(text, None if written is None else written.sense)
+        sense = None if written is None else written.sense
+        value = abs(judged.value) if sense is not None and sense.turns else judged.value
+        return self._pointed(self.with_unit(self.number(told(value, key)), key), sense)
 
     def close_to(self, value: float, judged: Judged) -> str:
         """Return another value of an answer, to the digits that can be told apart."""
         key = judged.key
         if key is None:
             return self.number(value)
-        value = told(value, key)
-        return self.with_unit(self.rounded(value, judged.tolerance or key.tolerance), key)
+        sense = None
+        if shows_turn(key):
+            sense = Sense.CCW if value > 0 else Sense.CW
+            value = abs(value)
+        number = self.rounded(told(value, key), judged.tolerance or key.tolerance)
+        return self._pointed(self.with_unit(number, key), sense)
 
     def mm(self, length: float, *, unit: bool = True) -> str:
         """Return a length on a plan, to a tenth of a millimetre."""

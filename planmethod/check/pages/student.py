@@ -10,6 +10,7 @@ from planmethod.check.pages.overlay import Overlay, overlays
 from planmethod.check.pages.remarks import Remarks, what_stands
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.language import Language
+from planmethod.plans.model import FACTS
 from planmethod.solved.solution import Solution
 
 PAPER = (178.0, 92.0)
@@ -156,7 +157,8 @@ def _lengths(judged: Judged, speech: Speech) -> str:
     key, written = judged.key, judged.written
     own = None if written is None else written.mm
     true = None if key is None else key.mm
-    if own is None and true is None:
+    follows = key is not None and key.unit not in ("mm", *(facts.unit for facts in FACTS.values()))
+    if own is None and (true is None or follows):
         return ""
     his = "—" if own is None else speech.number(own)
     return f"{his} / {'—' if true is None else speech.mm(true, unit=False)}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +13,6 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 if TYPE_CHECKING:
     from openpyxl import Workbook
 
-EPOCH = (1980, 1, 1, 0, 0, 0)
 _CLOCK = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 LONGEST = 1000
@@ -104,6 +104,8 @@ class _Looks:
         bold: bool = False,
     ) -> None:
         """Put a value into a cell."""
+        if isinstance(value, float) and not math.isfinite(value):
+            return  # no workbook holds it
         cell = self._sheet.cell(row, column)
         is_text = isinstance(value, str)
         # Set as text whatever it looks like: a name that begins with "=" stays one, in Excel too.
@@ -164,7 +166,7 @@ def saved(book: Workbook) -> bytes:
             data = old.read(name)
             if name == "docProps/core.xml":
                 data = _CLOCK.sub(rb"\g<1>1980-01-01T00:00:00Z", data)
-            entry = ZipInfo(name, EPOCH)
+            entry = ZipInfo(name)  # of 1980
             entry.compress_type = ZIP_DEFLATED
             new.writestr(entry, data)
     return fixed.getvalue()

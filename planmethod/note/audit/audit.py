@@ -9,12 +9,12 @@ from decimal import Decimal
 from enum import Enum
 
 from planmethod.languages import LANGUAGES
-from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError
-from planmethod.solved.selected.quantities import Quantities, is_angle
 from planmethod.note.wording import wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Published, Scales
 from planmethod.problem.selector import FORCES, Selector, parse_selector
+from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError
+from planmethod.solved.selected.quantities import Quantities, is_angle
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 

@@ -13,7 +13,6 @@ from functools import cached_property
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
-from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
 from planmethod.plans.forces.board import SCALE, Force, Given
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
@@ -24,6 +23,7 @@ from planmethod.problem.selector import Selector
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Reading
+from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
 
 LOADS = {

@@ -11,10 +11,10 @@ from functools import cached_property
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
-from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
-from planmethod.solved.selected.forces import ForceQuantities
 from planmethod.plans.model import PlanKind
 from planmethod.problem.selector import FORCES, Selector
+from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
+from planmethod.solved.selected.forces import ForceQuantities
 from planmethod.solved.solution import Solution
 
 

@@ -15,8 +15,7 @@ import pytest
 from worked import problem_of
 
 from planmethod.check.key import Key
-from planmethod.check.pages.keypage import key_text
-from planmethod.check.pages.keyprint import key_pdf, key_xlsx
+from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
 from planmethod.note.plaintext import WIDTH
 from planmethod.note.wording import LANGUAGES, language
 

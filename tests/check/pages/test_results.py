@@ -117,6 +117,13 @@ def test_a_workbook_has_no_clock_in_it() -> None:
         assert b"1980-01-01" in file.read("docProps/core.xml")
 
 
+def test_what_is_no_number_is_an_empty_cell() -> None:
+    book = new_workbook()
+    add_sheet(book, "A", ["x"], [[float("nan")], [float("inf")], [1.0]])
+    told = [row[0].value for row in openpyxl.load_workbook(io.BytesIO(saved(book)))["A"].rows]
+    assert told == ["x", None, None, 1]
+
+
 def test_signs_that_no_workbook_holds_are_left_out() -> None:
     book = new_workbook()
     add_sheet(book, "A", ["x"], [["a\x00b\ud800"], ["y" * 5000]])

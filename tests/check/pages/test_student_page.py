@@ -88,6 +88,15 @@ def test_a_wrong_answer_without_a_diagnosis_is_not_passed_over() -> None:
     assert len(told) == 1 and "v_{B3}" in told[0] and "pb_{3}" in told[0]
 
 
+def test_what_the_same_mistake_gives_is_told_as_its_consequence() -> None:
+    work = ex3_work.work()
+    answers = tuple(
+        replace(j, verdict=Verdict.WRONG, follows="") if j.id == "a_D" else j for j in work.answers
+    )
+    told = remarks(replace(work, answers=answers))
+    assert RU.check.student.follow.format(answers="a_{D}") in told
+
+
 def test_each_verdict_has_its_remark() -> None:
     key = ex3_work.entries()[0]
     near = remarks(one(Verdict.NEAR, value=key.exact * 1.04, points=0.7))
@@ -134,6 +143,15 @@ def test_what_is_to_be_drawn_anew_is_where_the_trouble_begins() -> None:
     assert len(lines) == 1 and "πb_{3}" in lines[0] and "55,6" in lines[0]
 
 
+def test_a_number_that_follows_from_a_segment_does_not_tell_to_draw_it_anew() -> None:
+    key = replace(ex3_work.entries()[1], mm=44.9, scale="mu_v", segment="p-b3")
+    judged = Judged(key.id, Verdict.WRONG, key, Written(id=key.id), value=-15.5, sense_right=False)
+    work = replace(ex3_work.work(), answers=(judged,), diagnosis=())
+    assert Remarks(Speech(RU), work, ex3_work.SCALES).redraw() == []
+    turned = one(Verdict.WRONG, value=ex3_work.entries()[0].exact, sense_right=False)
+    assert Remarks(Speech(RU), turned, ex3_work.SCALES).redraw() == []
+
+
 # The picture --------------------------------------------------------------------------------------
 
 
@@ -164,6 +182,16 @@ def test_absurd_numbers_leave_the_plan_to_be_seen() -> None:
     absurd = tuple(replace(j, value=v) for j, v in zip(work.answers, _odd(), strict=False))
     for plan in overlays(ex3_work.solution(), replace(work, answers=absurd), RU):
         assert max(plan.size) < 1500.0
+
+
+@pytest.mark.parametrize("value", [1e300, -1e300, float("nan"), float("inf"), 5e-324, 0.0])
+def test_absurd_numbers_break_no_page(value: float) -> None:
+    work = ex3_work.work()
+    answers = tuple(
+        replace(j, value=value, local=value, tolerance=abs(value), slip=True) for j in work.answers
+    )
+    page = page_of(replace(work, answers=answers, points=value, of=value))
+    assert pdf_page(page, RU) and html_page(page, ex3_work.solution(), RU)
 
 
 def _odd() -> Iterator[float | None]:

@@ -22,7 +22,9 @@ UNITS = {
 NOTATION = Notation(
     decimal=".",
     units={name: raised(unit) for name, unit in UNITS.items()},
-    symbols={"balancing moment": "M_{b}", "balancing force": "F_{b}",
+    symbols={
+        "balancing moment": "M_{b}",
+        "balancing force": "F_{b}",
         "lever moment": "M^{L}_{b}",
         "lever force": "F^{L}_{b}",
     },

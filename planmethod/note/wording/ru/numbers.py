@@ -22,7 +22,9 @@ UNITS = {
 NOTATION = Notation(
     decimal=",",
     units={name: raised(unit) for name, unit in UNITS.items()},
-    symbols={"balancing moment": "M_{ур}", "balancing force": "F_{ур}",
+    symbols={
+        "balancing moment": "M_{ур}",
+        "balancing force": "F_{ур}",
         "lever moment": "M^{Ж}_{ур}",
         "lever force": "F^{Ж}_{ур}",
     },

@@ -1,0 +1,112 @@
+"""Mistakes as rewrites of the program: what they give, and where they can be made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from planted import exact, explanations, task_of
+from worked import SIX
+
+from planmethod.check.explain import Explanation
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.rewrite import substituted
+from planmethod.construct.steps import NumberName, PointName
+
+
+def by_code(name: str, code: str) -> list[Explanation]:
+    return [e for e in explanations(task_of(name)) if e.code == code]
+
+
+def flat(value: object) -> list[complex]:
+    parts = value if isinstance(value, tuple) else (value,)
+    return [complex(np.ravel(np.asarray(part))[0]) for part in parts]
+
+
+def place(explanation: Explanation, name: str) -> complex:
+    return complex(explanation.trace.value[PointName(name)])
+
+
+CODES = {
+    "linkages/ex3": "V1 V2 V3 V4 V5 A1 A2 A3 A4 A5 A6 N1 N2 N3 N4 E2 sign S1 S2 S3 true_mm P1",
+    "linkages/ex1": "V1 V2 V3 V5 A6 N1 N2 N3 N4 E2 sign S1 S2 S3 P1",
+    "levers/task12": "V2 V3 V4 V5 A1 A2 A3 A4 A5 N1 N2 N3 E2 sign S1 S2 S3 true_mm P1 F1 F2 F3 F4 "
+    "F5 Z1 Z2",
+}
+
+
+@pytest.mark.parametrize("name", CODES)
+def test_every_mistake_that_can_be_made_is_tried(name: str) -> None:
+    assert {e.code for e in explanations(task_of(name))} == set(CODES[name].split())
+
+
+def test_the_plan_is_linear_in_the_coriolis_acceleration() -> None:
+    """Reversed, none, half, right: b₃ of the acceleration plan moves in equal steps."""
+    none, half, back = (by_code("linkages/ex3", code)[0] for code in ("A1", "A3", "A2"))
+    right = complex(task_of("linkages/ex3").sheet(0).trace.value[PointName("a:B3")])
+    step = right - place(half, "a:B3")
+    assert abs(step) > 10
+    assert place(none, "a:B3") == pytest.approx(right - 2 * step)
+    assert place(back, "a:B3") == pytest.approx(right - 4 * step)
+
+
+def test_an_outward_normal_component_leaves_the_tangential_one_of_a_slotted_link() -> None:
+    """N1 at ex3's link 3: a_B3 and its tangential part keep their sizes (CHECKING, N1)."""
+    (wrong,) = (e for e in by_code("linkages/ex3", "N1") if e.where == "B3C")
+    right = exact(task_of("linkages/ex3"))
+    for name in ("a_B3", "epsilon_3", "at_B3_C"):
+        assert abs(wrong.values[name]) == pytest.approx(abs(right[name]))
+    assert abs(wrong.values["a_E"]) > 1.1 * abs(right["a_E"])
+
+
+def test_the_driver_the_other_way_turns_velocities_and_leaves_accelerations() -> None:
+    for name in ("linkages/ex1", "linkages/ex3"):
+        (wrong,) = by_code(name, "V2")
+        for key, value in exact(task_of(name)).items():
+            assert abs(wrong.values[key]) == pytest.approx(abs(value)), key
+            if key.startswith("omega"):
+                assert wrong.values[key] == pytest.approx(-value)
+
+
+def test_rev_per_min_for_radians_grows_velocities_once_and_accelerations_twice() -> None:
+    wrong, right = by_code("linkages/ex3", "S2")[0], exact(task_of("linkages/ex3"))
+    factor = 30 / np.pi
+    assert wrong.values["v_D"] == pytest.approx(right["v_D"] * factor)
+    assert wrong.values["a_D"] == pytest.approx(right["a_D"] * factor**2)
+
+
+def test_weights_forgotten_change_forces_alone() -> None:
+    right = exact(task_of("levers/task12"))
+    for wrong in by_code("levers/task12", "F3"):
+        for name, value in right.items():
+            if not name.startswith("F_") and name not in ("balance", "lever"):
+                assert wrong.values[name] == value, name
+    whole = [e for e in by_code("levers/task12", "F3") if not e.where]
+    # G5 = 294 N hangs on F_45 alone: without it, 1991 N are 294 N more or less.
+    change = abs(whole[0].values["F_4_3"] - right["F_4_3"])
+    assert change == pytest.approx(30 * 9.8)
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_own_numbers_put_in_are_the_program_with_them_substituted(name: str) -> None:
+    """`Sheet.replayed` is `substituted`, in Python's own numbers, told by what would come out."""
+    task = task_of(name)
+    task.usual()
+    sheet = task.sheet(0)
+    names = [q.name for q in sheet.asked if q.name is not None and q.name != "0"][::3]
+    right = {name: float(np.reshape(sheet.trace.value[name], -1)[0]) for name in names}
+    own: Mapping[NumberName, tuple[float, bool]] = {
+        name: (value * 1.1, True) for name, value in right.items()
+    }
+    local, trace = sheet.replayed(own)
+    program = substituted(sheet.program, own)
+    put: dict[str, object] = {str(name): np.array([value]) for name, (value, _) in own.items()}
+    data = {**sheet.data, **put}
+    expected = evaluate(program, data, Float64())
+    for step in sheet.program.steps:
+        one, two = (flat(t.value[step.out]) for t in (trace, expected))
+        np.testing.assert_allclose(one, two, rtol=1e-9, atol=1e-9)
+    first = min(own, key=lambda name: sheet.order[name])
+    assert local[first] == pytest.approx(right[first])
