@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from types import MappingProxyType
 
 from planmethod.check.model import Unread, Work, Written
 from planmethod.check.works.answer import NotReadError, read_scaled
@@ -154,7 +153,7 @@ class Draft:
             student=self.student,
             answers=tuple(map(self._renamed, (*self.answers.values(), *self.twice))),
             variant=self.variant,
-            scales=MappingProxyType(dict(self.scales)),
+            scales=dict(self.scales),
             ruler_mm=self.ruler,
             problem=self.problem,
             where=self.where,
