@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from statistics import median
 
@@ -16,6 +17,12 @@ from planmethod.check.slips import completed, put_explanation, slips
 from planmethod.check.task import Task
 from planmethod.construct.steps import Name, PointName, makes, operands
 from planmethod.plans.model import FACTS, MOTION
+
+FEW = 0.3
+"""Answers that an exact hand must have given before it is believed to be one."""
+
+EXACT = 0.15
+"""Nobody is believed to err less than this share of the errors of a careful drawing."""
 
 CLEARLY = 6.0
 """How much better the best explanation must be than the next one to be named."""
@@ -44,8 +51,9 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     if not wrong:
         return []
-    facts, own = facts_of(sheet, found, task.settings.k), _numbers(sheet, found)
-    whole = _whole(task, sheet, wrong, facts, own)
+    facts = facts_of(sheet, found, task.settings.k)
+    own = _numbers(sheet, found, facts)
+    whole = _whole(task, sheet, found, wrong, facts, own)
     if whole is not None:
         return [_passed_on(task, sheet, found, whole)]
     return _one_by_one(task, sheet, found, wrong, facts, own)
@@ -62,15 +70,31 @@ def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> 
     return False
 
 
-def _numbers(sheet: Sheet, found: list[Examined]) -> Numbers:
-    return Numbers(put_in(sheet, found), put_in(sheet, found, values=True))
+def _numbers(sheet: Sheet, found: list[Examined], facts: list[Fact]) -> Numbers:
+    own = put_in(sheet, found)
+    right = {one.item.question.id for one in found if one.right and one.sense_right is not False}
+    came, left = sheet.replayed(own)[0], sheet.local(own)
+    squares, count = FEW, FEW
+    for fact in facts:
+        if fact.id in right and fact.slot in came and fact.slot is not None:
+            sigma = left.sigma[fact.slot] * fact.per_slot
+            if sigma > fact.least:
+                off = fact.value - fact.of(came[fact.slot] * fact.per_slot)
+                squares, count = squares + (off / sigma) ** 2, count + 1
+    share = min(1.0, max(EXACT, math.sqrt(squares / count)))
+    return Numbers(own, put_in(sheet, found, values=True), share)
 
 
 def _whole(
-    task: Task, sheet: Sheet, wrong: list[Examined], facts: list[Fact], own: Numbers
+    task: Task,
+    sheet: Sheet,
+    found: list[Examined],
+    wrong: list[Examined],
+    facts: list[Fact],
+    own: Numbers,
 ) -> list[Fit] | None:
     """Return the explanations of all that is answered, the best first; None where none is."""
-    fits = _fits(task, sheet, wrong, facts, own)
+    fits = _fits(task, sheet, found, wrong, facts, own)
     best = fits[0] if fits else None
     if best is None or not best.likely:
         fits = sorted([*fits, *_of_others(task, sheet, facts, own)], key=lambda fit: fit.score)
@@ -81,7 +105,12 @@ def _whole(
 
 
 def _fits(
-    task: Task, sheet: Sheet, wrong: list[Examined], facts: list[Fact], own: Numbers
+    task: Task,
+    sheet: Sheet,
+    found: list[Examined],
+    wrong: list[Examined],
+    facts: list[Fact],
+    own: Numbers,
 ) -> list[Fit]:
     """Return how explanations fit, the best first."""
     explained = task.explanations(sheet)
@@ -94,7 +123,7 @@ def _fits(
     for one in wrong:
         if one.item.question.id not in told:
             continue
-        for code, where, value, prior in slips(sheet, one):
+        for code, where, value, prior in slips(sheet, one, found):
             made = put_explanation(sheet, one, code, where, value, prior, free=False)
             fits.append(explained.fit(made, facts, own))
         code = "slip" if one.slip or (one.computed and one.contradicts) else ""
@@ -276,7 +305,7 @@ def _one_by_one(
             break
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
-        diagnoses.append(_alone(sheet, one, many=len(left) > MANY))
+        diagnoses.append(_alone(sheet, one, found, many=len(left) > MANY))
     _repoint(found)
     return diagnoses
 
@@ -287,12 +316,12 @@ def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
     return abs(given - abs(sheet.exact[one.item.question.id])) <= one.limit.tolerance()
 
 
-def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
+def _alone(sheet: Sheet, one: Examined, found: list[Examined], *, many: bool) -> Diagnosis:
     """Return what can be said of one number by itself; of one of many only what is sure."""
     roots = (one.item.id,)
     if one.sense_right is False and (one.right or one.follows or one.near):
         return Diagnosis(("sign",), True, roots)
-    codes = {} if many else dict.fromkeys(code for code, *_ in slips(sheet, one))
+    codes = {} if many else dict.fromkeys(code for code, *_ in slips(sheet, one, found))
     if one.slip or (one.computed and one.contradicts and not codes):
         codes = codes or {"slip": None}
     named = tuple(codes)

@@ -84,13 +84,24 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class Numbers:
-    """A student's own numbers: all, and only those that are answers, not lengths at his scale."""
+    """A student's own numbers (собственные числа студента).
+
+    Attributes
+    ----------
+    all : Own
+    values : Own
+        Only those that are answers, not lengths at his scale.
+    share : float
+        How exact his right answers are, as a share of what his hand is believed to err: who draws
+        with a program, or computes, tells more by every number.
+    """
 
     all: Own
     values: Own
+    share: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Explanation:
     """What may have been done, and what it gives (объяснение).
 
@@ -169,8 +180,8 @@ class Explanations:
         self.scene = Scene(sheet)
         self._named: list[Explanation] | None = None
         self._last: Own | None = None
-        self._came: dict[int, dict[Name, float]] = {}
-        self._locals: dict[tuple[int, frozenset[Name]], Local] = {}
+        self._came: dict[Sheet | Explanation, dict[Name, float]] = {}
+        self._locals: dict[tuple[Explanation, frozenset[Name]], Local] = {}
 
     @property
     def named(self) -> list[Explanation]:
@@ -252,7 +263,7 @@ class Explanations:
 
         Parameters
         ----------
-        own : Numbers
+        numbers : Numbers
         closely : bool
             With the errors of the plans that have the mistake; else with those of the right ones,
             in proportion.
@@ -262,7 +273,7 @@ class Explanations:
         own = numbers.values if of_scale else numbers.all
         came = self._replayed(explanation, own)
         left = self._left(explanation, own) if closely else sheet.local(own)
-        chi2, logdet, count = 0.0, 0.0, 0
+        chi2, score, count = 0.0, 0.0, 0
         for fact in facts:
             slot, per_slot = (fact.name, 1.0) if of_scale else (fact.slot, fact.per_slot)
             if fact.id == explanation.free or slot is None or slot not in came:
@@ -277,12 +288,13 @@ class Explanations:
                 sigma *= max(abs(given) / right, LEAST_SHARE) if right else 1.0
             count += 1
             if not math.isfinite(given):
-                chi2 = math.inf
+                chi2 = score = math.inf
                 continue
-            variance = sigma**2 + fact.least**2 + fact.step**2 / 12
-            chi2 += (fact.value - fact.of(given)) ** 2 / variance
-            logdet += math.log(2 * math.pi * variance)
-        score = chi2 + logdet + ONE_MISTAKE - 2 * math.log(explanation.prior)
+            off, own_error = fact.value - fact.of(given), fact.least**2 + fact.step**2 / 12
+            chi2 += off**2 / (sigma**2 + own_error)
+            variance = (sigma * numbers.share) ** 2 + own_error
+            score += min(off**2 / variance, FAR) + math.log(2 * math.pi * variance)
+        score += ONE_MISTAKE - 2 * math.log(explanation.prior)
         if explanation.free:
             free = next(fact for fact in facts if fact.id == explanation.free)
             usual = abs(sheet.exact[free.id])
@@ -296,7 +308,7 @@ class Explanations:
         change, sheet = explanation.change, explanation.sheet
         if self._last is not own:
             self._last, self._came = own, {}
-        key = id(sheet) if change is None else id(explanation)  # of every slip the same
+        key: Sheet | Explanation = sheet if change is None else explanation  # of slips the same
         if key not in self._came:
             data = {} if change is None else change.data
             self._came[key] = sheet.replayed(own, explanation.program, data)[0]
@@ -307,7 +319,7 @@ class Explanations:
         change, sheet = explanation.change, explanation.sheet
         if change is None:
             return sheet.local(own)
-        key = (id(explanation), frozenset[Name](own))
+        key = (explanation, frozenset[Name](own))
         if key not in self._locals:
             program = explanation.program or sheet.program
             self._locals[key] = sheet.localised(own, program, {**sheet.data, **change.data})

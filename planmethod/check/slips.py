@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -34,7 +34,9 @@ SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
 CLOSE = 0.03
 
 
-def slips(sheet: Sheet, one: Examined) -> Iterator[tuple[str, str, float, float]]:
+def slips(
+    sheet: Sheet, one: Examined, found: Sequence[Examined]
+) -> Iterator[tuple[str, str, float, float]]:
     """Yield what may have been done with one number: code, where, its value then, prior."""
     base = one.limit.exact if one.local is None else one.local
     if one.told:  # his own millimetres tell it better than anything
@@ -59,7 +61,7 @@ def slips(sheet: Sheet, one: Examined) -> Iterator[tuple[str, str, float, float]
             yield "S4", "", one.value, 0.2
     yield from _scales(sheet, one, base)
     if not one.slip:
-        yield from _segments(sheet, one, base, min(slack, 0.05))
+        yield from _segments(sheet, one, base, min(slack, 0.05), found)
     question = one.item.question
     if question.is_mm and question.plan is PlanKind.POSITION:
         true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
@@ -103,7 +105,7 @@ def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[tuple[str, str
 
 
 def _segments(
-    sheet: Sheet, one: Examined, base: float, slack: float
+    sheet: Sheet, one: Examined, base: float, slack: float, found: Sequence[Examined]
 ) -> Iterator[tuple[str, str, float, float]]:
     """Yield the values of the other segments of the plan, read in place of the right one."""
     question = one.item.question
@@ -118,7 +120,20 @@ def _segments(
             continue
         share = abs(scalar(sheet.trace.value[NumberName(segment.length)])) / length
         if abs(share - 1.0) > slack and abs(abs(one.value / base) - share) <= slack * share > 0:
-            yield SEGMENT_CODES[question.plan], segment.name, base * share, 0.5
+            twice = any(
+                other.item.question.length == segment.length and _equal(one, other)
+                for other in found
+            )  # he gives the same number for both
+            prior = 200.0 if twice else 0.5
+            yield SEGMENT_CODES[question.plan], segment.name, base * share, prior
+
+
+def _equal(one: Examined, other: Examined) -> bool:
+    if one.mm is not None and other.mm is not None:
+        return one.mm == other.mm
+    return (
+        one is not other and abs(abs(one.value) - abs(other.value)) <= (one.step + other.step) / 2
+    )
 
 
 def put_explanation(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -107,11 +108,14 @@ class Scene:
 
     def signed(self, step: Compute, powers: Powers, factor: float = 1.0) -> Compute:
         """Return a product with the sign that the right one has."""
-        value = factor
-        for name, power in powers:
-            value *= self.exact(name) ** power
-        turn = -1.0 if value * self.exact(step.out) < 0 else 1.0
+        made = Compute(step.out, factor, powers)
+        turn = -1.0 if self.value(made) * self.exact(step.out) < 0 else 1.0
         return Compute(step.out, factor * turn, powers)
+
+    def value(self, step: Compute) -> float:
+        """Return what a product comes to with the exact numbers."""
+        powers = (self.exact(name) ** power for name, power in step.powers)
+        return step.factor * math.prod(powers)
 
 
 def times(step: Compute, factor: float) -> tuple[Step, ...]:

@@ -26,6 +26,9 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Relative, Turning
 
+LITTLE = 0.05
+"""Share of a component below which it is as good as forgotten."""
+
 V, A = PlanKind.VELOCITY, PlanKind.ACCELERATION
 
 
@@ -306,7 +309,8 @@ def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
         ]
         for powers in wrong:
             made = Compute(step.out, step.factor, powers, size=True)
-            yield Change("N3", where, {step.out: (made,)})
+            if abs(scene.value(made)) > LITTLE * abs(scene.exact(step.out)):
+                yield Change("N3", where, {step.out: (made,)})
 
 
 def epsilon_of_whole(scene: Scene) -> Iterator[Change]:

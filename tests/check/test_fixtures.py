@@ -1,0 +1,147 @@
+"""The table of cases in docs/checking.md, each row put through the reader and the checking."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+
+import pytest
+from worked import ROOT, path_of
+
+from planmethod.check.checking import check
+from planmethod.check.group import Variants
+from planmethod.check.marks import DEFAULT, Settings
+from planmethod.check.model import Checked, Verdict, Written
+from planmethod.check.questions import Sign
+from planmethod.check.task import Item, Task
+from planmethod.check.works.student import read_json
+from planmethod.problem import load
+from planmethod.solved.selected.asking import UnansweredError
+from planmethod.solved.solution import Solution
+
+HEAD = "| case | problem | written | settings | verdicts | named | why |"
+
+
+@dataclass(frozen=True)
+class Case:
+    name: str
+    problem: str
+    written: str
+    settings: str
+    verdicts: str
+    named: str
+    why: str
+
+
+def cases() -> list[Case]:
+    text = (ROOT / "docs" / "checking.md").read_text("utf-8")
+    _, _, below = text.partition(HEAD)
+    rows = re.match(r"\n\|[-|: ]+\|\n((?:\|.*\|\n)+)", below)
+    assert rows, "docs/checking.md has no table of cases"
+    return [Case(*(c.strip() for c in row.split("|")[1:-1])) for row in rows[1].splitlines()]
+
+
+CASES = cases()
+_VARIANTS: dict[tuple[str, Settings], Variants] = {}
+
+
+def asked(case: Case) -> tuple[Task, dict[str, str]]:
+    """Return the task of a case, and what stands beside the settings of a department."""
+    settings, beside = DEFAULT, {}
+    known = {one.name for one in fields(Settings)}
+    for part in filter(None, case.settings.split(", ")):
+        key, value = part.split(" ")
+        if key in known:
+            told = value if key in ("policy", "profile") else float(value)
+            settings = replace(settings, **{key: told})
+        else:
+            beside[key] = value
+    path = path_of(case.problem)
+    if "phi" in beside:
+        positions = [float(phi) for phi in beside["phi"].split("+")]
+        return Task(Solution(load(path), positions=positions), settings), beside
+    variants = _VARIANTS.setdefault((case.problem, settings), Variants(path, settings))
+    return variants.task(beside.get("variant")), beside
+
+
+def named(task: Task, text: str) -> str:
+    """Return what the checking calls an answer of the table, ``balance @1`` in position 1."""
+    what, _, position = text.partition(" @")
+    try:
+        return task.find(Written(what, position=int(position) if position else None)).id
+    except UnansweredError:
+        return what
+
+
+def right(item: Item, task: Task) -> dict[str, str]:
+    """Return the right answer as somebody would write it."""
+    exact = task.sheet(item.position).exact[item.question.id]
+    size = abs(exact) if item.question.sign in (Sign.SIZE, Sign.TURN) else exact
+    sense = "" if item.question.sign is not Sign.TURN else "ccw" if exact > 0 else "cw"
+    return {"id": item.id, "value": f"{size:.4g}", "sense": sense}
+
+
+def answers(case: Case, task: Task) -> list[dict[str, str]]:
+    told: list[dict[str, str]] = []
+    parts = case.written.split("; ")
+    for part in parts:
+        if part == "all":
+            continue
+        match = re.fullmatch(r"([^=@]+)(?: @(\d))? = ?([^()]*?) ?(?:\(([\d.,]+)\))?", part)
+        assert match, part
+        what, position, value, mm = match.groups()
+        told.append({"what": what, "value": value, "mm": mm or "", "position": position or ""})
+    if parts[0] == "all":
+        own = {named(task, one["what"]) for one in told}
+        told += [right(item, task) for item in task.usual() if item.id not in own]
+    return told
+
+
+def judged(case: Case) -> tuple[Task, Checked]:
+    task, beside = asked(case)
+    scales = {key: value for key, value in beside.items() if key.startswith("mu_")}
+    work = {"student": "s", "scales": scales, "answers": answers(case, task)}
+    if "ruler" in beside:
+        work["ruler_mm"] = beside["ruler"]
+    (read,) = read_json(json.dumps(work).encode(), Path("s.json"))
+    assert not read.remarks
+    return task, check(task, replace(read, variant=task.variant))
+
+
+def outcome(case: Case) -> tuple[str, str]:
+    """Return what is said of the answers that a row asks for, in the words of the table."""
+    task, checked = judged(case)
+    texts = [part.split(":")[0] for part in case.verdicts.split("; ")]
+    texts += [part.split(" =")[0] for part in case.written.split("; ") if part != "all"]
+    called = {named(task, text): text for text in reversed(texts)}
+    verdicts = []
+    for text in texts[: len(case.verdicts.split("; "))]:
+        _, _, position = text.partition(" @")
+        one = next(
+            a
+            for a in checked.answers
+            if a.id == named(task, text)
+            and (not position or (a.key and a.key.position == int(position)))
+        )
+        follows = f" from {called.get(one.follows, one.follows)}" if one.follows else ""
+        points = f" {one.points:g}" if one.points not in (one.of, 0.0) else ""
+        verdicts.append(f"{text}: {one.verdict.value}{follows}{points}")
+    diagnosis = [
+        (" or ".join(sorted(d.codes)) or "nothing") + ("?" if len(d.codes) == 1 and not d.sure else "")
+        for d in checked.diagnosis
+    ]
+    if checked.suspicious:
+        diagnosis.append("too exact")
+    return "; ".join(verdicts), "; ".join(diagnosis)
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
+def test_a_case_is_judged_as_the_document_says(case: Case) -> None:
+    assert outcome(case) == (case.verdicts, case.named)
+
+
+def test_every_verdict_has_its_case() -> None:
+    said = " ".join(case.verdicts for case in CASES)
+    assert {verdict for verdict in Verdict if verdict.value in said} == set(Verdict)
