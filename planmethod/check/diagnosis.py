@@ -36,6 +36,9 @@ CLOSE = 15.0
 MANY = 2
 """So many wrong numbers that some of them are like something by chance."""
 
+COPIED = 25.0
+"""How common the numbers of another variant are where they fit: few mistakes give just these."""
+
 UNNAMED = 15.0
 """How common a number is that is wrong and nobody knows why, beside one mistake at one place.
 
@@ -96,7 +99,7 @@ def _whole(
     """Return the explanations of all that is answered, the best first; None where none is."""
     fits = _fits(task, sheet, found, wrong, facts, own)
     best = fits[0] if fits else None
-    if best is None or not best.likely:
+    if best is None or not best.likely or best.explanation.code == "P1":
         fits = sorted([*fits, *_of_others(task, sheet, facts, own)], key=lambda fit: fit.score)
         best = fits[0] if fits else None
     if best is None or not best.likely:
@@ -181,9 +184,9 @@ def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: Numbers) -> Ite
         theirs = task.asked_of(other, position)
         if theirs is None:
             continue
-        yield explained.fit(
-            Explanation("P2", other.variant or "", theirs.exact, theirs.trace, theirs), facts, own
-        )
+        values, trace = theirs.exact, theirs.trace
+        made = Explanation("P2", other.variant or "", values, trace, theirs, prior=COPIED)
+        yield explained.fit(made, facts, own)
 
 
 # What follows --------------------------------------------------------------------------------
@@ -200,7 +203,9 @@ def _passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[F
     if begins:
         best = completed(best, root)
     for one in found:
-        if one is root or one.verdict is not Verdict.WRONG:
+        if sure and best.code == "P2" and one.verdict is Verdict.INHERITED:
+            one.verdict, one.source = Verdict.WRONG, ""  # that they agree earns nothing
+        if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
             continue
         if _follows(one, best, task.settings.near):
             one.verdict, one.source = Verdict.INHERITED, root.item.id

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from cases import some
 from planted import checked, exact, explanations, task_of, verdicts, work_of
-from worked import SIX
+from worked import SIX, problem_of
 
 from planmethod.check.checking import check
 from planmethod.check.marks import Settings
@@ -229,3 +229,16 @@ def test_positions_of_a_cycle_are_judged_each_by_itself() -> None:
     )
     found = [answer.verdict for answer in check(task, Work("s", written)).answers]
     assert found == [Verdict.OK, Verdict.OK, Verdict.WRONG, Verdict.UNREADABLE]
+
+
+def test_the_numbers_of_another_variant_earn_nothing() -> None:
+    """P2: those of Б where А was given; that they agree with one another is no work of his."""
+    tasks = {
+        name: Task(Solution(problem_of("levers/task12-variants", name))) for name in ("А", "Б")
+    }
+    task = Task(tasks["А"].solution, others=lambda: tasks.values())
+    found = check(task, work_of(task, exact(tasks["Б"])))
+    assert [d.codes for d in found.diagnosis] == [("P2",)]
+    assert found.diagnosis[0].where == "Б"
+    assert {Verdict.INHERITED} & set(verdicts(found).values()) == set()
+    assert found.points < 0.3 * found.of

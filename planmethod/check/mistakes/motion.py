@@ -240,6 +240,8 @@ def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:
         start, head = relative.a_start, relative.a_head
         if start is None or start != relative.a_turned or relative.to in scene.kin.omega:
             continue
+        if relative.speed not in scene.made:  # nothing that is asked needs it
+            continue
         for line in scene.steps:
             if not (
                 isinstance(line, Parallel) and line.through == start and _meets(scene, line, head)

@@ -50,6 +50,8 @@ class Remarks:
             key = judged.key
             if key is None or key.mm is None or not key.segment or judged.verdict not in OFF:
                 continue
+            if judged.slip:  # the segment is another matter
+                continue
             plan = PLANS.get(key.scale)
             # A number that follows from a segment does not tell that the segment is wrong.
             if plan is None or key.unit not in (FACTS[plan].unit, "mm") or self._fits(judged):
@@ -73,6 +75,8 @@ class Remarks:
             if not roots:
                 continue
             first, others = roots[0], roots[1:]
+            if diagnosis.codes == ("slip",) and first.slip and not others:
+                continue  # said with his own numbers
             parts = [self._compared(first), self._why(diagnosis, first)]
             if others:
                 parts.append(self.say.also.format(answers=self._listed(others)))
