@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from planmethod.check.diagnosis import diagnose
 from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
@@ -11,6 +12,7 @@ from planmethod.check.key import entry_of
 from planmethod.check.marks import Settings
 from planmethod.check.model import Checked, Diagnosis, Judged, Verdict, Work, Written
 from planmethod.check.questions import Sign
+from planmethod.check.sheet import Sheet
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import limit_of
 from planmethod.plans.model import FACTS
@@ -61,7 +63,7 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
         decide(sheet, ready, task.settings.near)
         diagnosis += diagnose(task, sheet, ready)
         for one in ready:
-            judged[numbers[id(one.written)]] = _judged(task, one)
+            judged[numbers[id(one.written)]] = _judged(task, sheet, one)
         examined += ready
     answers = [judged[number] for number in sorted(judged)]
     given = {(answer.key.id, answer.key.position) for answer in answers if answer.key}
@@ -116,13 +118,14 @@ def _unjudged(task: Task, item: Item, verdict: Verdict, written: Written | None)
     return Judged(item.id, verdict, entry_of(task, item, limit), written, of=of)
 
 
-def _judged(task: Task, one: Examined) -> Judged:
+def _judged(task: Task, sheet: Sheet, one: Examined) -> Judged:
     item, settings = one.item, task.settings
+    entry = replace(entry_of(task, item, one.limit), mm=sheet.length(item.question))  # on his plan
     share = share_of(one, settings)
     return Judged(
         item.id,
         one.verdict,
-        entry_of(task, item, one.limit),
+        entry,
         one.written,
         one.value,
         one.limit.tolerance(one.step),

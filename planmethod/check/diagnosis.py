@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from statistics import median
 
 from planmethod.check.explain import Explanation, Fact, Fit, Numbers
-from planmethod.check.judge import Examined, distance, facts_of, put_in
+from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
 from planmethod.check.mistakes.model import Scene
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
@@ -54,6 +54,9 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     if not wrong:
         return []
+    alone = wrong[0] if len(wrong) == 1 and wrong[0].item.question.unit != "N·m" else None
+    if alone is not None and _turned(alone):
+        return [_alone(sheet, alone, found, many=False)]
     facts = facts_of(sheet, found, task.settings.k)
     own = _numbers(sheet, found, facts)
     whole = _whole(task, sheet, found, wrong, facts, own)
@@ -207,6 +210,8 @@ def _passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[F
             one.verdict, one.source = Verdict.WRONG, ""  # that they agree earns nothing
         if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
             continue
+        if best.free and not usable(root):  # nobody can draw on with that
+            continue
         if _follows(one, best, task.settings.near):
             one.verdict, one.source = Verdict.INHERITED, root.item.id
     _repoint(found)
@@ -321,10 +326,15 @@ def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
     return abs(given - abs(sheet.exact[one.item.question.id])) <= one.limit.tolerance()
 
 
+def _turned(one: Examined) -> bool:
+    """Tell whether nothing but the sense of an answer is wrong."""
+    return one.sense_right is False and bool(one.right or one.follows or one.near)
+
+
 def _alone(sheet: Sheet, one: Examined, found: list[Examined], *, many: bool) -> Diagnosis:
     """Return what can be said of one number by itself; of one of many only what is sure."""
     roots = (one.item.id,)
-    if one.sense_right is False and (one.right or one.follows or one.near):
+    if _turned(one):
         return Diagnosis(("sign",), True, roots)
     codes = {} if many else dict.fromkeys(code for code, *_ in slips(sheet, one, found))
     if one.slip or (one.computed and one.contradicts and not codes):

@@ -328,8 +328,10 @@ def _verdict(one: Examined, wrong: list[Examined], near: float) -> Verdict:
     sense = one.sense_right is not False
     if not one.limit.seen:
         within = one.off <= max(one.limit.spread, one.limit.most)
+        if within and sense and one.contradicts:
+            return Verdict.INCONSISTENT if wrong and one.right else Verdict.WRONG
         if within and sense:
-            return Verdict.INCONSISTENT if wrong and one.contradicts else Verdict.UNSEEN
+            return Verdict.UNSEEN
         if inherits:
             return Verdict.INHERITED
         if one.follows and sense:

@@ -92,6 +92,7 @@ def check(
     if not paths:
         raise click.UsageError("name a WORK after the PROBLEM, or ask for its --key")
     checked, works = _checked(problem, paths, variant, settings, jobs)
+    from planmethod.check.model import Unread
     from planmethod.check.pages.overrides import overridden, read_overrides
 
     by_hand = overrides or (None if as_json else out / "overrides.csv")
@@ -113,7 +114,10 @@ def check(
         reason = why or f"no quantity {judged.id!r} that the problem has"
         click.echo(f"Unreadable: {judged.where or judged.id}: {reason}", err=True)
     for remark in lost:
-        click.echo(f"Unreadable: {remark.where}: {remark.unreadable}", err=True)
+        word = "Not read" if remark.why in (Unread.COLUMN, Unread.KEY) else "Unreadable"
+        click.echo(f"{word}: {remark.where}: {remark.unreadable}", err=True)
+    # A column or key that nobody knows is told of, but no answer is lost by it.
+    lost = [remark for remark in lost if remark.why not in (Unread.COLUMN, Unread.KEY)]
     finish(ExitCode.FINDINGS if unreadable or lost else ExitCode.DONE)
 
 

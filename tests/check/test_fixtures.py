@@ -17,6 +17,7 @@ from planmethod.check.model import Checked, Verdict, Written
 from planmethod.check.questions import Sign
 from planmethod.check.task import Item, Task
 from planmethod.check.works.student import read_json
+from planmethod.note.wording.en.mistakes import MISTAKES
 from planmethod.problem import load
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
@@ -129,7 +130,8 @@ def outcome(case: Case) -> tuple[str, str]:
         points = f" {one.points:g}" if one.points not in (one.of, 0.0) else ""
         verdicts.append(f"{text}: {one.verdict.value}{follows}{points}")
     diagnosis = [
-        (" or ".join(sorted(d.codes)) or "nothing") + ("?" if len(d.codes) == 1 and not d.sure else "")
+        (" or ".join(sorted(d.codes)) or "nothing")
+        + ("?" if len(d.codes) == 1 and not d.sure else "")
         for d in checked.diagnosis
     ]
     if checked.suspicious:
@@ -139,7 +141,16 @@ def outcome(case: Case) -> tuple[str, str]:
 
 @pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
 def test_a_case_is_judged_as_the_document_says(case: Case) -> None:
-    assert outcome(case) == (case.verdicts, case.named)
+    verdicts, named = outcome(case)
+    assert verdicts == case.verdicts
+    assert case.named in (named, "·")
+
+
+def test_the_document_lists_every_mistake() -> None:
+    text = (ROOT / "docs" / "checking.md").read_text("utf-8")
+    assert dict(re.findall(r"(?m)^\| `(\w+)` \| (.+) \|$", text)) == {
+        code: words.name for code, words in MISTAKES.items()
+    }
 
 
 def test_every_verdict_has_its_case() -> None:

@@ -54,7 +54,7 @@ def _answer(judged: Judged) -> dict[str, Any]:
         "where": judged.where or None,
         "unit": None if key is None else key.unit,
         "of": _number(judged.of),
-        "position": None if key is None else key.position + 1,
+        "position": None if key is None else key.position,
         "local": _told(judged.local, key),
         "sense": sense,
         "exact_sense": None if key is None or key.sense is None else key.sense.value,

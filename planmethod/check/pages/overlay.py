@@ -149,7 +149,7 @@ def _overlay(
     for number, judged in enumerate(checked.answers, 1):
         if judged.key is None or judged.key.position != index:
             continue
-        ends = _ends(judged, kind, letters, scale.per_mm)
+        ends = _ends(judged, kind, letters)
         if ends is None or judged.value is None:
             continue
         is_right = judged.verdict not in OFF
@@ -190,7 +190,7 @@ def _widened(bounds: Bounds, sheet: Bounds) -> Bounds:
 
 
 def _ends(
-    judged: Judged, kind: PlanKind, letters: Mapping[str, PointName], per_mm: float
+    judged: Judged, kind: PlanKind, letters: Mapping[str, PointName]
 ) -> tuple[PointName, PointName] | None:
     """Return the ends of the segment that an answer is itself; None where it is none of a plan.
 
@@ -199,8 +199,7 @@ def _ends(
     key = judged.key
     if key is None or key.mm is None or key.scale != FACTS[kind].scale:
         return None
-    shown = abs(key.exact) if key.unit == "mm" else abs(key.exact) / per_mm
-    if key.unit not in ("mm", FACTS[kind].unit) or abs(shown - key.mm) > 0.01 * key.mm + 1e-6:
+    if key.unit not in ("mm", FACTS[kind].unit):
         return None
     tail, _, head = key.segment.partition("-")
     found = letters.get(_bare(tail)), letters.get(_bare(head))

@@ -1,0 +1,65 @@
+"""The measurements of checking, on few works: that they run and add up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+import pytest
+from click.testing import CliRunner
+from worked import path_of, problem_of
+
+from planmethod.bench import checking, report
+from planmethod.bench.clock import Timing
+from planmethod.cli import cli
+
+
+def once(act: Callable[[], object], **_: float) -> Timing:
+    act()
+    return Timing(1e-3, 1e-3, 1e-3, 1)
+
+
+@pytest.fixture(autouse=True)
+def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checking, "clock", once)
+
+
+@cache
+def detected() -> list[checking.Detected]:
+    return checking.all_detected([problem_of("linkages/ex1")], 1)
+
+
+def test_what_is_said_of_a_mistake_is_counted_once() -> None:
+    for row in detected():
+        assert row.named + row.among + row.unknown + row.misnamed == row.works
+        assert row.seen <= row.works <= checking.PLACES
+        assert sum(row.taken_for.values()) >= row.misnamed
+
+
+def test_variants_of_a_file_are_told_from_each_other() -> None:
+    problems = [problem_of("linkages/ex3-variants", name) for name in ("1", "2")]
+    rows = [row for row in checking.all_detected(problems, 1) if row.code == "P2"]
+    assert [row.problem for row in rows] == ["ex3-variants (1)", "ex3-variants (2)"]
+    assert all(row.named == row.works == 1 for row in rows)
+
+
+def test_the_tables_have_a_row_for_every_mistake() -> None:
+    rows = report.mistakes_table(detected())[2:]
+    codes = [row.split(" | ")[0].removeprefix("| ") for row in rows]
+    assert codes[-1] == "all"
+    assert set(codes[:-1]) == {row.code for row in detected()}
+    assert len(report.power_table(detected())) == len(codes) + 1
+
+
+def test_the_section_is_printed_without_the_referee() -> None:
+    words = ["bench", "--only", "checking", "--works", "2", str(path_of("linkages/ex1"))]
+    run = CliRunner().invoke(cli, words)
+    assert run.exit_code == 0, run.output
+    for heading in (
+        "Honest works",
+        "Works with a mistake",
+        "What the answers cannot show",
+        "Speed",
+    ):
+        assert f"## {heading}" in run.output
+    assert "| ex1, board | 2 |" in run.output

@@ -1,0 +1,168 @@
+"""Works drawn by the pencil: the same from the same seed, honest ones right, planted ones seen."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cache
+
+import numpy as np
+import pytest
+from worked import ROOT, problem_of
+
+from benchmarks import group
+from planmethod.bench import checking
+from planmethod.check.checking import check
+from planmethod.check.drawn import as_written, drawn_works, planted
+from planmethod.check.group import check_works
+from planmethod.check.key import key_of_task
+from planmethod.check.model import Checked, Sense, Verdict
+from planmethod.check.task import Task
+from planmethod.check.works import read_works
+from planmethod.solved.solution import Solution
+
+FILE = ROOT / group.TARGET
+
+
+@cache
+def ex3() -> Task:
+    return Task(Solution(problem_of("linkages/ex3")))
+
+
+def test_the_same_seed_draws_the_same_works() -> None:
+    assert drawn_works(ex3(), count=3, seed=5) == drawn_works(ex3(), count=3, seed=5)
+    assert drawn_works(ex3(), count=3, seed=5) != drawn_works(ex3(), count=3, seed=6)
+
+
+def test_numbers_have_three_figures_and_four_behind_a_one() -> None:
+    values, steps = as_written(np.array([3.91584, 0.0123456, -1274.4, 0.0]))
+    assert values == pytest.approx([3.92, 0.01235, -1274.0, 0.0])
+    assert steps[:3] == pytest.approx([0.01, 1e-5, 1.0])
+
+
+def test_what_is_drawn_errs_as_much_as_the_tolerance_believes() -> None:
+    works = drawn_works(ex3(), count=400, seed=1)
+    compared = 0
+    for entry in key_of_task(ex3()).entries:
+        if entry.sigma > 0.01 * abs(entry.exact):  # more than the rounding of what is written
+            values = [next(a.value for a in w.answers if a.id == entry.id) for w in works]
+            spread = np.std(np.abs(np.array(values, dtype=float)))
+            assert spread == pytest.approx(entry.sigma, rel=0.25), entry
+            compared += 1
+    assert compared > 12
+
+
+def test_lengths_are_on_the_ruler_and_make_the_values_at_his_scale() -> None:
+    (work,) = drawn_works(ex3(), scales={"mu_v": 0.04}, mm=True)
+    answer = next(a for a in work.answers if a.id == "v_B3")
+    assert answer.mm is not None and answer.value is not None
+    assert answer.mm * 2 == round(answer.mm * 2)
+    assert answer.value == pytest.approx(answer.mm * 0.04, rel=0.003)
+    assert check(ex3(), work).points == check(ex3(), work).of
+
+
+def test_senses_are_told_where_they_are_asked() -> None:
+    (work,) = drawn_works(ex3())
+    told = {answer.id: answer.sense for answer in work.answers if answer.sense}
+    assert set(told.values()) == {Sense.CCW, Sense.CW}
+    assert len(told) == sum(item.asks_sense for item in ex3().declared)
+
+
+def test_honest_works_are_hardly_faulted_or_called_mistaken() -> None:
+    found = checking.honest(ex3(), 60)
+    assert found.works == 60
+    assert found.answers == 60 * len(ex3().declared)
+    assert found.faulted / found.answers <= 0.015
+    assert found.named <= 0.03 * found.works
+    assert found.flat[0.05] > 10 * found.faulted
+
+
+@pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3"])
+def test_planted_mistakes_are_seen_and_none_of_them_is_called_another(name: str) -> None:
+    task = Task(Solution(problem_of(name)))
+    items = checking.first_items(task)
+    whole = {"V1", "V2", "A1", "A2", "A3", "N1", "N4", "P1", "true_mm"}
+    counted: Counter[str] = Counter()
+    for change in checking.places_of(task, key_of_task(task, items)):
+        if change.code not in whole:
+            continue
+        for work in drawn_works(task, change, 2, 3):
+            checked = check(task, work)
+            codes = [diagnosis.codes for diagnosis in checked.diagnosis]
+            counted["works"] += 1
+            counted["seen"] += any(a.verdict in checking.OFF for a in checked.answers)
+            counted["named"] += any(change.code in named for named in codes)
+            counted["wrongly"] += any(
+                d.sure and d.codes[0] != change.code for d in checked.diagnosis
+            )
+    assert counted["works"] >= 10
+    assert counted["seen"] == counted["works"]
+    assert counted["named"] >= 0.85 * counted["works"]
+    assert counted["wrongly"] == 0
+
+
+def test_the_key_says_what_the_bench_does_not_plant() -> None:
+    key = key_of_task(ex3())
+    sheet = ex3().sheet(0)
+    for change in planted(sheet, ex3().declared):
+        explanation = ex3().explanations(sheet).of_change(change)
+        if explanation is None or change.code in ("S2", "S4", "V6", "N5", "scale"):
+            continue  # of one number: the key speaks of the plans
+        values = [explanation.values[item.question.id] for item in ex3().declared]
+        shown = any(map(checking.shows, key.entries, values))
+        assert shown or change.where in key.hidden[change.code], change
+
+
+# The group of thirty -------------------------------------------------------------------------
+
+
+@cache
+def checked_group() -> tuple[Checked, ...]:
+    return tuple(check_works(group.Variants(ROOT / group.PROBLEM), read_works(FILE)))
+
+
+def test_the_file_is_what_a_spreadsheet_program_saves() -> None:
+    data = FILE.read_bytes()
+    assert data.startswith(b"\xef\xbb\xbf")
+    assert data.count(b"\r\n") == data.count(b"\n") > 570
+    lines = data.decode("utf-8-sig").splitlines()
+    assert lines[0] == ";".join(group.HEAD)
+    assert not any("." in field for line in lines[1:] for field in [line.split(";")[3]])
+
+
+def test_the_file_has_the_group_that_it_is_made_of() -> None:
+    assert [one.work.student for one in checked_group()] == [one.name for one in group.GROUP]
+    assert [one.variant for one in checked_group()] == [one.variant for one in group.GROUP]
+    assert len({one.code for one in group.GROUP if one.code}) >= 12
+
+
+def test_honest_students_lose_nothing_but_for_blanks() -> None:
+    for student, checked in zip(group.GROUP, checked_group(), strict=True):
+        if student.code:
+            continue
+        assert not checked.diagnosis, student
+        lost = [a for a in checked.answers if a.points < a.of and a.verdict is not Verdict.NEAR]
+        assert all(answer.verdict is Verdict.BLANK for answer in lost), student
+        assert len(lost) == len(student.skips)
+
+
+def test_most_planted_mistakes_of_the_group_are_named_and_hardly_one_wrongly() -> None:
+    counted: Counter[str] = Counter()
+    for student, checked in zip(group.GROUP, checked_group(), strict=True):
+        sure = {d.codes[0] for d in checked.diagnosis if d.sure}
+        counted["planted"] += student.code != ""
+        counted["named"] += student.code in sure
+        counted["among"] += any(student.code in d.codes for d in checked.diagnosis)
+        counted["wrongly"] += bool(sure - {student.code})
+    assert counted["named"] >= 0.7 * counted["planted"]
+    assert counted["among"] >= 0.9 * counted["planted"]
+    assert counted["wrongly"] <= 1
+
+
+def test_the_one_cell_that_cannot_be_read_is_named_and_costs_nothing() -> None:
+    found = [
+        (one.work.student, a) for one in checked_group() for a in one.answers
+        if a.verdict is Verdict.UNREADABLE
+    ]  # fmt: skip
+    ((student, answer),) = found
+    assert (student, answer.of) == ("Чернов Тимур", 0.0)
+    assert answer.where.startswith("ex3.csv:")
