@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import numpy as np
+
 from planmethod.bench.clock import clock
 from planmethod.check.checking import check
 from planmethod.check.drawn import drawn_works, planted
@@ -17,6 +19,7 @@ from planmethod.check.marks import DEFAULT, PROFILES
 from planmethod.check.mistakes.model import Change
 from planmethod.check.model import Checked, Judged, KeyEntry, Verdict
 from planmethod.check.pages.files import write_all
+from planmethod.check.questions import Sign
 from planmethod.check.task import Item, Task
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
@@ -29,6 +32,9 @@ PLACES = 4
 """Places at which a mistake is planted, evenly spread over those where it can be made."""
 
 GROUP = 30
+
+ALIKE = 1e-3
+"""Answers of two mistakes that differ by no more of themselves are the same when written."""
 
 OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED, Verdict.INCONSISTENT)
 
@@ -73,7 +79,8 @@ class Detected:
     seen : int
         Works in which an answer is faulted.
     named, among, unknown, misnamed : int
-        Named surely; among several; not recognised; another one named surely.
+        Named surely, or one that gives the same answers; among several; not recognised; another
+        one named surely.
     """
 
     problem: str
@@ -150,18 +157,40 @@ def all_honest(problems: Sequence[Problem], count: int) -> list[Honest]:
 
 def places_of(task: Task, key: Key) -> Iterator[Change]:
     """Yield mistakes at a few places each, those that the answers cannot show left out."""
-    items = first_items(task)
-    sheet = task.sheet(items[0].position)
     made: dict[str, list[Change]] = {}
-    for change in planted(sheet, items):
-        explanation = task.explanations(sheet).of_change(change)
-        if explanation is None:
-            continue
-        values = [explanation.values[item.question.id] for item in items]
+    for change, values in _given(task, first_items(task)):
         if any(map(shows, key.entries, values)):
             made.setdefault(change.code, []).append(change)
     for changes in made.values():
         yield from changes[:: -(-len(changes) // PLACES)]
+
+
+def _given(task: Task, items: Sequence[Item]) -> Iterator[tuple[Change, list[float]]]:
+    """Yield every mistake with what it gives, sizes without a sign."""
+    sheet = task.sheet(items[0].position)
+    for change in planted(sheet, items):
+        explanation = task.explanations(sheet).of_change(change)
+        if explanation is not None:
+            values = [explanation.values[item.question.id] for item in items]
+            yield (
+                change,
+                [
+                    abs(value) if item.question.sign is Sign.SIZE else value
+                    for item, value in zip(items, values, strict=True)
+                ],
+            )
+
+
+def _twins(
+    given: Sequence[tuple[Change, list[float]]], change: Change, right: Sequence[float]
+) -> set[str]:
+    """Return the codes of all mistakes that give the same answers."""
+    mine = next(values for one, values in given if one == change)
+    codes = {one.code for one, values in given if np.allclose(values, mine, rtol=ALIKE)}
+    turned = sum(a * b < 0 for a, b in zip(mine, right, strict=True))
+    if turned == 1 and np.allclose(np.abs(mine), np.abs(right), rtol=ALIKE):
+        codes.add("sign")  # one sense is otherwise, and nothing else
+    return codes
 
 
 def shows(entry: KeyEntry, value: float) -> bool:
@@ -174,28 +203,30 @@ def shows(entry: KeyEntry, value: float) -> bool:
 def detection(task: Task, count: int) -> list[Detected]:
     """Plant every mistake in some works, and hear what is said of them."""
     found: dict[str, Detected] = {}
-    key = key_of_task(task, first_items(task))
+    key, given = key_of_task(task, first_items(task)), [*_given(task, first_items(task))]
     for number, change in enumerate(places_of(task, key)):
         row = found.setdefault(change.code, Detected(called(task), change.code))
+        twins = _twins(given, change, [entry.exact for entry in key.entries])
         for work in drawn_works(task, change, count, SEED + number):
-            _count(row, check(task, work))
+            _count(row, check(task, work), twins)
     for other in task.others():
         row = found.setdefault("P2", Detected(called(task), "P2"))
         for work in drawn_works(other, None, count, SEED):
-            _count(row, check(task, replace(work, variant=task.variant)))
+            _count(row, check(task, replace(work, variant=task.variant)), {"P2"})
     return list(found.values())
 
 
-def _count(row: Detected, checked: Checked) -> None:
+def _count(row: Detected, checked: Checked, right: set[str]) -> None:
+    """Count a work in which one of some mistakes, all alike, is right to name."""
     sure = {diagnosis.codes[0] for diagnosis in checked.diagnosis if diagnosis.sure}
     row.works += 1
     row.seen += any(answer.verdict in OFF for answer in checked.answers)
-    if sure - {row.code}:
+    if sure - right:
         row.misnamed += 1
-        row.taken_for.update(sure - {row.code})
-    elif row.code in sure:
+        row.taken_for.update(sure - right)
+    elif sure:
         row.named += 1
-    elif any(row.code in diagnosis.codes for diagnosis in checked.diagnosis):
+    elif any(right & {*diagnosis.codes} for diagnosis in checked.diagnosis):
         row.among += 1
     else:
         row.unknown += 1

@@ -268,8 +268,8 @@ def checking_section(problems: Sequence[Problem], works: int = WORKS) -> Table:
         "",
         f"Works of the board's profile, {mistaken} with each mistake at each of at most "
         f"{checking.PLACES} places, where it shows. *Seen*: an answer is faulted, or follows from "
-        'a faulted one; *named*: the mistake is named, and nothing else; *among several*: "one '
-        'of …"; *not named*: "not recognised"; *wrongly*: another one is named surely.',
+        "a faulted one; *named*: the mistake is named, or one that gives the same answers; *among "
+        'several*: "one of …"; *not named*: "not recognised"; *wrongly*: another one is named.',
         "",
         *mistakes_table(found),
         "",

@@ -6,6 +6,7 @@ import json
 import re
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from worked import ROOT, path_of
@@ -50,16 +51,16 @@ _VARIANTS: dict[tuple[str, Settings], Variants] = {}
 
 def asked(case: Case) -> tuple[Task, dict[str, str]]:
     """Return the task of a case, and what stands beside the settings of a department."""
-    settings, beside = DEFAULT, {}
+    told: dict[str, Any] = {}
+    beside: dict[str, str] = {}
     known = {one.name for one in fields(Settings)}
     for part in filter(None, case.settings.split(", ")):
         key, value = part.split(" ")
         if key in known:
-            told = value if key in ("policy", "profile") else float(value)
-            settings = replace(settings, **{key: told})
+            told[key] = value if key in ("policy", "profile") else float(value)
         else:
             beside[key] = value
-    path = path_of(case.problem)
+    settings, path = replace(DEFAULT, **told), path_of(case.problem)
     if "phi" in beside:
         positions = [float(phi) for phi in beside["phi"].split("+")]
         return Task(Solution(load(path), positions=positions), settings), beside
@@ -103,7 +104,7 @@ def answers(case: Case, task: Task) -> list[dict[str, str]]:
 def judged(case: Case) -> tuple[Task, Checked]:
     task, beside = asked(case)
     scales = {key: value for key, value in beside.items() if key.startswith("mu_")}
-    work = {"student": "s", "scales": scales, "answers": answers(case, task)}
+    work: dict[str, Any] = {"student": "s", "scales": scales, "answers": answers(case, task)}
     if "ruler" in beside:
         work["ruler_mm"] = beside["ruler"]
     (read,) = read_json(json.dumps(work).encode(), Path("s.json"))
