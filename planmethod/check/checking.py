@@ -39,7 +39,7 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
         try:
             item = task.find(written)
         except UnansweredError:
-            judged[number] = Judged(name, Verdict.UNREADABLE, written=written, of=1.0)
+            judged[number] = Judged(name, Verdict.UNREADABLE, written=written)
             continue
         if written.unreadable:
             judged[number] = _unjudged(task, item, Verdict.UNREADABLE, written)

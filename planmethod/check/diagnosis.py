@@ -121,7 +121,7 @@ def _fits(
     """Return how explanations fit, the best first."""
     explained = task.explanations(sheet)
     near = [e for e in explained.nearest(facts, TRIED) if _explains(sheet, wrong, e)]
-    tried = [*near, *_scaled(task, sheet, wrong)]
+    tried = [*near, *_scaled(task, sheet, found)]
     fits = sorted((explained.fit(e, facts, own) for e in tried), key=lambda fit: fit.score)
     close = [fit for fit in fits if fit.score <= fits[0].score + CLOSE]
     fits = [explained.fit(fit.explanation, facts, own, closely=True) for fit in close]
@@ -155,17 +155,20 @@ def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
 def _same(one: Mapping[str, float], two: Mapping[str, float], facts: list[Fact]) -> bool:
     """Tell whether two explanations give the same answers."""
     return all(
-        abs(fact.of(one[fact.id]) - fact.of(two[fact.id])) <= fact.least * 0.5 for fact in facts
+        abs(fact.of(one[fact.id]) - fact.of(two[fact.id])) <= fact.least * 0.5
+        and (not fact.turn or one[fact.id] * two[fact.id] >= 0)
+        for fact in facts
     )
 
 
-def _scaled(task: Task, sheet: Sheet, wrong: list[Examined]) -> Iterator[Explanation]:
+def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explanation]:
     """Yield a plan that was drawn to another scale than it is read by."""
     for plan in MOTION[1:]:
         ratios = [
             abs(one.value / one.limit.exact)
-            for one in wrong
-            if one.item.question.plan is plan
+            for one in found
+            if one.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
+            and one.item.question.plan is plan
             and one.item.question.selector.kind not in RATES
             and one.limit.exact
             and one.value
@@ -202,7 +205,8 @@ def _passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[F
     sure = len(codes) == 1 and bool(codes[0])
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     begins = [one for one in wrong if one.item.id in best.begins]
-    root = begins[0] if begins else min(wrong, key=lambda one: _rank(sheet, one))
+    moved = [one for one in wrong if not _idle(sheet, one, best)]
+    root = begins[0] if begins else min(moved or wrong, key=lambda one: _rank(sheet, one))
     if begins:
         best = completed(best, root)
     for one in found:

@@ -121,6 +121,8 @@ class Explanation:
         Question whose answer it takes as it is.
     fixed : str
         Question whose answer it tells whatever goes before it.
+    sigma : float or None
+        Error of that answer, where it is not that of the right one in proportion.
     prior : float
     change, program : Change, Program or None
         The mistake, and the program with it.
@@ -134,6 +136,7 @@ class Explanation:
     begins: tuple[str, ...] = ()
     free: str = ""
     fixed: str = ""
+    sigma: float | None = None
     prior: float = 1.0
     change: Change | None = None
     program: Program | None = None
@@ -283,6 +286,7 @@ class Explanations:
             if fact.id == explanation.fixed:
                 sigma *= abs(explanation.values[fact.id] / given) if given else 1.0
                 given = explanation.values[fact.id]
+                sigma = sigma if explanation.sigma is None else explanation.sigma
             elif not closely:
                 right = abs(sheet.exact[fact.id])
                 sigma *= max(abs(given) / right, LEAST_SHARE) if right else 1.0

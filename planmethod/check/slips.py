@@ -120,12 +120,11 @@ def _segments(
             continue
         share = abs(scalar(sheet.trace.value[NumberName(segment.length)])) / length
         if abs(share - 1.0) > slack and abs(abs(one.value / base) - share) <= slack * share > 0:
-            twice = any(
-                other.item.question.length == segment.length and _equal(one, other)
-                for other in found
-            )  # he gives the same number for both
-            prior = 200.0 if twice else 0.5
-            yield SEGMENT_CODES[question.plan], segment.name, base * share, prior
+            value, prior = base * share, 0.5
+            for other in found:  # he gives the same number for both
+                if other.item.question.length == segment.length and _equal(one, other):
+                    value, prior = math.copysign(other.value, base), 200.0
+            yield SEGMENT_CODES[question.plan], segment.name, value, prior
 
 
 def _equal(one: Examined, other: Examined) -> bool:
@@ -150,8 +149,15 @@ def put_explanation(
         begins=(one.item.id,),
         free=question.id if free else "",
         fixed="" if free else question.id,
+        sigma=_read_anew(one, value) if code in SEGMENT_CODES.values() else None,
         prior=prior,
     )
+
+
+def _read_anew(one: Examined, value: float) -> float:
+    """Return how far a segment may be off that is read in place of the right one."""
+    exact = abs(one.limit.exact)
+    return one.limit.sigma * (abs(value) / exact if exact else 1.0)
 
 
 def completed(explanation: Explanation, one: Examined) -> Explanation:
