@@ -14,6 +14,7 @@ from planmethod.errors import ExitCode
 from planmethod.options import lang_option, out_option
 
 if TYPE_CHECKING:
+    from planmethod.check.group import Variants
     from planmethod.check.marks import Settings
     from planmethod.check.model import Checked, Work
     from planmethod.problem.model import Problem
@@ -91,7 +92,10 @@ def check(
     problem, *paths = files
     if not paths:
         raise click.UsageError("name a WORK after the PROBLEM, or ask for its --key")
-    checked, works = _checked(problem, paths, variant, settings, jobs)
+    from planmethod.check.group import Variants
+
+    variants = Variants(problem, settings, variant)
+    checked, works = _checked(variants, paths, jobs)
     from planmethod.check.model import Unread
     from planmethod.check.pages.overrides import overridden, read_overrides
 
@@ -104,9 +108,7 @@ def check(
     if as_json:
         _print_json(checked, paths)
     else:
-        _write_results(
-            problem, paths, checked, settings, variant, out, salt if anonymize else None, lang
-        )
+        _write_results(variants, paths, checked, out, salt if anonymize else None, lang)
     unreadable = [a for work in checked for a in work.answers if a.verdict.value == "unreadable"]
     lost = [remark for work in checked for remark in work.work.remarks]
     for judged in unreadable:
@@ -128,16 +130,13 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
     return replace(settings, policy=policy or settings.policy, profile=profile or settings.profile)
 
 
-def _checked(
-    problem: Path, paths: list[Path], variant: str | None, settings: Settings, jobs: int
-) -> tuple[list[Checked], list[Work]]:
-    from planmethod.check.group import Variants, check_works
+def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Checked], list[Work]]:
+    from planmethod.check.group import check_works
     from planmethod.check.works import read_works
 
     works = [work for path in paths for work in read_works(path)]
     if jobs > 1 and len(works) > jobs:
-        return _in_processes(problem, works, variant, settings, jobs), works
-    variants = Variants(problem, settings, variant)
+        return _in_processes(variants, works, jobs), works
     with bar(len(works), long=len(works) >= MANY_WORKS) as done:
         checked = []
         for one in check_works(variants, works):
@@ -146,18 +145,16 @@ def _checked(
     return checked, works
 
 
-def _in_processes(
-    problem: Path, works: list[Work], variant: str | None, settings: Settings, jobs: int
-) -> list[Checked]:
+def _in_processes(variants: Variants, works: list[Work], jobs: int) -> list[Checked]:
     """Check works in several processes."""
     from concurrent.futures import ProcessPoolExecutor
     from functools import partial
 
     share = -(-len(works) // jobs)
     parts = [works[start : start + share] for start in range(0, len(works), share)]
+    part = partial(_part, variants.path, variants.default, variants.settings, works)
     with ProcessPoolExecutor(jobs) as pool:
-        done = pool.map(partial(_part, problem, variant, settings, works), parts)
-        return [one for part in done for one in part]
+        return [one for done in pool.map(part, parts) for one in done]
 
 
 def _part(
@@ -192,25 +189,23 @@ def _print_json(checked: list[Checked], paths: list[Path]) -> None:
 
 
 def _write_results(
-    problem: Path,
+    variants: Variants,
     paths: list[Path],
     checked: list[Checked],
-    settings: Settings,
-    variant: str | None,
     out: Path,
     salt: str | None,
     lang: str,
 ) -> None:
-    from planmethod.check.group import Variants, keys_of
+    from planmethod.check.group import keys_of
     from planmethod.check.pages.files import write_all
 
     if salt is not None:
         from planmethod.check.pages.run import anonymous
 
         checked = anonymous(checked, salt)
-    keys = keys_of(Variants(problem, settings, variant), checked)
+    keys, inputs = keys_of(variants, checked), [variants.path, *paths]
     with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:
-        written = write_all(out, checked, keys, settings, [problem, *paths], lang, done=done)
+        written = write_all(out, checked, keys, variants.settings, inputs, lang, done=done)
     for path in written:
         click.echo(str(path))
 
