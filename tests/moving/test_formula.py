@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import random
+import re
 from pathlib import Path
+from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -168,3 +171,45 @@ def test_which_files_are_moving_points(tmp_path: Path) -> None:
     for text, wanted in (("[point]", True), ("[point]\n[links]", False), ("[", False), ("", False)):
         path.write_text(text, encoding="utf-8")
         assert is_point(path) is wanted
+
+
+SAFE = ("sin({})", "cos({})", "exp({}/4)", "sh({}/3)", "th({})", "arctg({})", "sqrt(1 + ({})^2)")
+JOINED = ("({}) + ({})", "({}) - ({})", "({})*({})", "({})/(2 + sin({}))", "ln(3 + cos({}))*({})")
+
+
+def made_up(draw: random.Random, depth: int) -> str:
+    if depth == 0:
+        return draw.choice(
+            ["t", "t", "0.7", "pi", "3", "t^2", "t^(-2)", "2^t", "t^0.3", "(t - 0.9)"]
+        )
+    if draw.random() < 0.5:
+        return draw.choice(SAFE).format(made_up(draw, depth - 1))
+    return draw.choice(JOINED).format(made_up(draw, depth - 1), made_up(draw, depth - 1))
+
+
+def test_errors_of_derivatives_keep_within_their_bounds() -> None:
+    names = {name: getattr(mpmath, name) for name in ("sin", "cos", "exp", "sqrt", "pi")}
+    names |= {"sh": mpmath.sinh, "th": mpmath.tanh, "arctg": mpmath.atan, "ln": mpmath.log}
+    draw = random.Random(6)
+    looked = 0
+    for _ in range(80):
+        text = made_up(draw, 3)
+        made = read_formula(Faults(), "x", text)
+        assert made is not None, text
+        jet = evaluate(made, np.array([0.9]))
+        with mpmath.workdps(60):
+            code = compile(re.sub(r"([\d.]*\d)", r"mpf(\1)", text.replace("^", "**")), "x", "eval")
+
+            def exact(t: Any, code: Any = code) -> Any:
+                given = {**names, "mpf": lambda number: mpmath.mpf(float(number)), "t": t}
+                return mpmath.mpf(1) * eval(code, {"__builtins__": {}}, given)
+
+            for order, part in enumerate((jet.value, jet.rate, jet.acceleration)):
+                value, radius = float(part.value[0]), float(part.radius[0])
+                if not np.isfinite(value + radius):
+                    continue
+                looked += 1
+                wanted = mpmath.diff(exact, mpmath.mpf(0.9), order)
+                off = float(abs(wanted - value))
+                assert off <= 1.01 * radius + 1e-18, (text, order)
+    assert looked > 200
