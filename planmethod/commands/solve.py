@@ -186,19 +186,9 @@ def solve(
 
                 click.echo("\n" + referee_tables(solution, referee, lang))
 
+    plain = phi is None and not (told or sigma or referee or covariance_file)
     code, linkages = _solve_points(
-        problems,
-        variant,
-        all_variants,
-        as_json,
-        lang,
-        records,
-        told=told
-        or sigma
-        or partial
-        or phi is not None
-        or referee is not None
-        or covariance_file is not None,
+        problems, variant, all_variants, as_json, lang, records, plain=plain
     )
     others = each(linkages, variant, all_variants, compute)
     code = others if code is ExitCode.DONE else code
@@ -226,7 +216,7 @@ def _solve_points(
     lang: str,
     records: list[dict[str, Any]],
     *,
-    told: bool,
+    plain: bool,
 ) -> tuple[ExitCode, tuple[Path, ...]]:
     """Solve the files with a moving point; return how that ended, and the other files."""
     from planmethod.moving.kind import is_point
@@ -235,7 +225,7 @@ def _solve_points(
     code = ExitCode.DONE
     if not points:
         return code, paths
-    if told:
+    if not plain:
         raise click.UsageError(f"{points[0]}: of a moving point there is a text, or --json")
     if all_variants and variant is not None:
         raise click.UsageError("give --variant or --all-variants, not both")

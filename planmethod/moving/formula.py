@@ -15,6 +15,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from enum import Enum
 from types import MappingProxyType
 
@@ -80,11 +81,15 @@ class Kind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """One operation, which takes its operands from the results before it (действие)."""
+    """One operation, which takes its operands from the results before it (действие).
+
+    ``is_exact`` tells of a number whether float64 has it as it is written: 0.5, not 0.1.
+    """
 
     kind: Kind
     name: str = ""
     value: float = 0.0
+    is_exact: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +117,11 @@ class _FormulaError(Exception):
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
         self.hint = hint
+
+
+def is_exact(text: str) -> bool:
+    """Tell whether float64 has a number as it is written in decimal."""
+    return Decimal(text) == Decimal(float(text))
 
 
 def read_formula(
@@ -207,7 +217,7 @@ class _Parser:
             if not math.isfinite(number):
                 raise _FormulaError(f"character {where}: the number {short(text, 12)} is too large")
             self.at += 1
-            self.made.append(Operation(Kind.NUMBER, value=number))
+            self.made.append(Operation(Kind.NUMBER, value=number, is_exact=is_exact(text)))
         elif kind == "name":
             self._name(text, where)
         elif text == "(":

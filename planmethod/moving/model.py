@@ -39,8 +39,8 @@ class PointProblem:
         Of the circle along which a natural motion runs, counter-clockwise from (radius, 0) about
         the origin; None along the x axis.
     times : tuple of float, s
-    blur : float
-        Relative error of the times; 0 where the file gives them as numbers.
+    blur : tuple of float
+        Relative errors of the times in float64; 0 where that has them as the file says.
     """
 
     name: str
@@ -50,7 +50,7 @@ class PointProblem:
     formulas: Mapping[str, Formula]
     radius: float | None
     times: tuple[float, ...]
-    blur: float
+    blur: tuple[float, ...]
     stamp: Mapping[str, str]
     sheet: SheetSettings
     published: tuple[Published, ...]

@@ -124,7 +124,7 @@ def _reasons(columns: dict[str, Reals]) -> tuple[Why | None, ...]:
 def _coordinates(problem: PointProblem, times: Reals) -> tuple[Jet, Jet, tuple[Jet, Jet] | None]:
     """Return x and y, and r and phi of a motion that is stated so."""
     read = {
-        key: evaluate(formula, times, blur=problem.blur)
+        key: evaluate(formula, times, blur=np.array(problem.blur))
         for key, formula in problem.formulas.items()
     }
     match problem.law:

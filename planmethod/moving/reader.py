@@ -12,7 +12,7 @@ import numpy as np
 
 from planmethod.errors import ProblemError
 from planmethod.moving.bounded import ROUNDOFF
-from planmethod.moving.formula import Formula, read_formula
+from planmethod.moving.formula import Formula, is_exact, read_formula
 from planmethod.moving.model import FORMULAS, Law, PointProblem
 from planmethod.moving.series import evaluate
 from planmethod.problem import keys
@@ -110,7 +110,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         formulas=formulas,
         radius=radius,
         times=times,
-        blur=ROUNDOFF * 8 if _has_formula(point.get("t")) else 0.0,
+        blur=_blur(times, rounded=_has_formula(point.get("t"))),
         stamp=read_stamp(faults, given.get("stamp", {})),
         sheet=read_sheet(faults, given.get("sheet", {})),
         published=_read_published(faults, given.get("published", {}), len(times)),
@@ -143,6 +143,11 @@ def _has_formula(value: object) -> bool:
     return isinstance(value, str) or (
         not is_number(value) and any(isinstance(part, str) for part in parts or ())  # type: ignore[attr-defined]
     )
+
+
+def _blur(times: tuple[float, ...], *, rounded: bool) -> tuple[float, ...]:
+    """Return the relative errors of moments; ``rounded`` where they are of formulas."""
+    return tuple(0.0 if not rounded and is_exact(repr(t)) else 8 * ROUNDOFF for t in times)
 
 
 def _read_times(faults: Faults, value: object) -> tuple[float, ...]:

@@ -19,14 +19,14 @@ Derivatives = tuple[Any, Any, Any, Any]
 """A function and its first three derivatives, at given values."""
 
 
-def evaluate(formula: Formula, times: Reals, *, blur: float = 0.0) -> Jet:
+def evaluate(formula: Formula, times: Reals, *, blur: Reals | float = 0.0) -> Jet:
     """Return the values of a formula, its rates and the rates of those.
 
     Parameters
     ----------
     times : array of float, shape (n,)
-    blur : float
-        Relative error of the times; 0 where they are what the file says.
+    blur : array of float, shape (n,), or float
+        Relative errors of the times; 0 where they are what the file says.
 
     Returns
     -------
@@ -37,10 +37,9 @@ def evaluate(formula: Formula, times: Reals, *, blur: float = 0.0) -> Jet:
     with np.errstate(all="ignore"):
         for operation in formula.operations:
             match operation.kind:
-                case Kind.NUMBER:
-                    stack.append((Jet(Bounded(operation.value)), True))
-                case Kind.CONSTANT:
-                    radius = ROUNDOFF * operation.value
+                case Kind.NUMBER | Kind.CONSTANT:
+                    is_exact = operation.kind is Kind.NUMBER and operation.is_exact
+                    radius = 0.0 if is_exact else ROUNDOFF * operation.value
                     stack.append((Jet(Bounded(operation.value, radius)), True))
                 case Kind.TIME:
                     now = Bounded(times, blur * np.abs(times))
@@ -96,7 +95,8 @@ def _raised(base: Jet, power: Bounded) -> Jet:
 
     made = _composed(base, derivatives, edge=True)
     if power.radius:
-        slope = float(power.radius) * (np.abs(np.log(np.abs(base.value.value))) + 1.0)
+        size = np.abs(bounded(base.value).value)
+        slope = float(power.radius) * (np.abs(np.log(np.where(size == 0.0, 1.0, size))) + 1.0)
         for part in _parts(made):
             part.radius = part.radius + slope * np.abs(part.value)
     return made

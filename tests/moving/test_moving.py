@@ -174,6 +174,8 @@ def test_a_point_at_rest_has_no_tangent() -> None:
         'x = "t^2"\ny = "t^3"\nt = 0',
         'x = "cos(t)"\ny = "0.3 + 2*cos(t)"\nt = "pi"',
         'x = "sin(pi*t)"\ny = "1"\nt = 0.5',
+        'x = "cos(10*pi*t/3)"\ny = "1"\nt = 0.3',
+        'x = "(t - 0.3)^2"\ny = "(10*t - 3)^2"\nt = { from = 0.3, to = 0.9, step = 1 }',
     ):
         (row,) = rows(point)
         assert row["reason"] == "at rest"
