@@ -4,6 +4,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+LINKAGES = $(sort $(filter-out problems/point/%,$(wildcard problems/*/*.toml)))
 
 # A file of tests is run by one worker, which solves and draws what they share once. Bytecode is kept, and out of the
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
@@ -41,7 +42,7 @@ format: $(VENV)/.ready
 
 # Files in byte order, as the test of the document has them.
 tables: $(VENV)/.ready
-	$(BIN)/planmethod audit --lang en -o docs/published.md $(sort $(wildcard problems/*/*.toml))
+	$(BIN)/planmethod audit --lang en -o docs/published.md $(LINKAGES)
 
 # The pictures of the documentation; the resolutions keep each below 150 kB.
 gallery: $(VENV)/.ready
@@ -60,7 +61,7 @@ group: $(VENV)/.ready
 # Writes docs/speed-and-error.md and its figure; the peers come with the extra.
 bench: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[bench]'
-	$(BIN)/python -m benchmarks $(sort $(wildcard problems/*/*.toml))
+	$(BIN)/python -m benchmarks $(LINKAGES)
 
 clean:
 	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png

@@ -130,7 +130,7 @@ def _read_positions(faults: Faults, given: Table, key: str) -> Span | None:
         if not value:
             faults.add(path, "expected at least one position, got an empty list")
             return None
-        if _too_many(faults, path, len(value)):
+        if too_many(faults, path, len(value)):
             return None
         read = [_read_position(faults, f"{path}[{i}]", item, key) for i, item in enumerate(value)]
         kept = [item for item in read if item is not None]
@@ -149,7 +149,8 @@ def _read_position(faults: Faults, path: str, value: object, key: str) -> float 
     return read_angle(faults, path, value) if key == "phi" else read_coordinate(faults, path, value)
 
 
-def _too_many(faults: Faults, path: str, count: int) -> bool:
+def too_many(faults: Faults, path: str, count: int) -> bool:
+    """Whether there are more positions than a file may have; a fault."""
     if count <= keys.POSITION_LIMIT:
         return False
     shown = f"{count}" if count < 10**9 else "over a billion"
@@ -173,13 +174,26 @@ def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None
         return None
     start = _read_position(faults, f"{path}.from", given["from"], key)
     end = 0.0 if full_turn else _read_position(faults, f"{path}.to", given["to"], key)
+    return spread(faults, path, given, start, end, full_turn=full_turn)
+
+
+def spread(
+    faults: Faults,
+    path: str,
+    given: Table,
+    start: float | None,
+    end: float | None,
+    *,
+    full_turn: bool = False,
+) -> Span | None:
+    """Return the row from one place to another by its ``count`` or ``step``; None after a fault."""
     if "count" in given:
         count = given["count"]
         least = 1 if full_turn else 2
         if not isinstance(count, int) or isinstance(count, bool) or count < least:
             faults.add(f"{path}.count", f"expected a whole number from {least}, got {show(count)}")
             return None
-        if _too_many(faults, f"{path}.count", count) or start is None or end is None:
+        if too_many(faults, f"{path}.count", count) or start is None or end is None:
             return None
         if full_turn:
             return tuple(start + 360.0 * k / count for k in range(count))
@@ -192,7 +206,7 @@ def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None
         return None
     # a step of 0.1 must reach its end in spite of rounding
     last = math.floor((end - start) / step + 1e-9) if (end - start) / step < 1e9 else 10**9
-    if _too_many(faults, path, last + 1):
+    if too_many(faults, path, last + 1):
         return None
     return tuple(start + step * k for k in range(last + 1))
 

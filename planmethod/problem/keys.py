@@ -43,6 +43,8 @@ DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
+MOVING = ("x", "y", "r", "phi", "s", "radius", "t")
+"""Keys of ``[point]``."""
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP: Mapping[str, str] = MappingProxyType(
     {
@@ -119,6 +121,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "driver": DRIVER,
     "span": SPAN,
     "rule": RULE,
+    "moving": MOVING,
     "scales": SCALES,
     "stamp": tuple(STAMP),
     "sheet": SHEET,

@@ -87,7 +87,7 @@ def read_parsed(
     variants = read_variants(faults, table)
     if variant is not None:
         if variant not in variants:
-            raise ProblemError(source, [*faults.found, _unknown_variant(variant, variants)])
+            raise ProblemError(source, [*faults.found, unknown_variant(variant, variants)])
         table = apply_variant(table, variants[variant])
     problem = _read_parts(faults, table, name)
     if faults or problem is None:
@@ -95,7 +95,8 @@ def read_parsed(
     return replace(problem, variants=tuple(variants), variant=variant)
 
 
-def _unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
+def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
+    """Return the fault of a variant that a file has not, with the nearest name."""
     if not known:
         return Fault("variants", f"there is no variant '{variant}'", "The file has no variants.")
     guess = near(variant, known) or next((k for k in known if fold(k) == fold(variant)), None)

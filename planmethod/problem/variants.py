@@ -27,7 +27,7 @@ _FREE = ("gears", "point")
 _HOLDERS = (Mapping, list)
 """What a path may lead through: a table, the loads or the answers."""
 
-_MOTION = ("frame", "links", "driver", "assembly")
+_MOTION = ("frame", "links", "driver", "assembly", "point")
 """Tables on which all published values depend."""
 
 _CONTACT = ("slides", "length")
@@ -82,7 +82,7 @@ def _is_leaf(path: Path) -> bool:
     """Whether a table at this path is one value: spans, places, sizes and phases of loads."""
     if path[:1] in (("loads",), ("answers",)):
         return len(path) == 3
-    return path[:-1] == ("driver",) or (path[:1] == ("assembly",) and len(path) > 1)
+    return path[:-1] in (("driver",), ("point",)) or (path[:1] == ("assembly",) and len(path) > 1)
 
 
 def _get(base: Any, path: Path) -> Any:

@@ -159,6 +159,7 @@ SCHEMA_TABLES = {
     "driver": SCHEMA["$defs"]["driver"]["properties"],
     "span": SCHEMA["$defs"]["span"]["properties"],
     "rule": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
+    "moving": SCHEMA["$defs"]["moving"]["properties"],
     "scales": SCHEMA["$defs"]["scales"]["properties"],
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
     "sheet": SCHEMA["$defs"]["sheet"]["properties"],

@@ -9,6 +9,7 @@ from planmethod.note.wording.en.frame import FRAME
 from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
 from planmethod.note.wording.en.note import NOTE
 from planmethod.note.wording.en.numbers import NOTATION
+from planmethod.note.wording.en.point import POINT
 from planmethod.note.wording.en.sheets import SHEETS
 from planmethod.note.wording.en.specimens import SPECIMENS
 from planmethod.note.wording.en.structure import STRUCTURE
@@ -27,6 +28,7 @@ LANGUAGE = Language(
     audit=AUDIT,
     check=CHECK,
     form=FORM,
+    point=POINT,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

@@ -10,6 +10,7 @@ from planmethod.note.wording.ru.frame import FRAME
 from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
 from planmethod.note.wording.ru.note import NOTE
 from planmethod.note.wording.ru.numbers import NOTATION
+from planmethod.note.wording.ru.point import POINT
 from planmethod.note.wording.ru.sheets import SHEETS
 from planmethod.note.wording.ru.specimens import SPECIMENS
 from planmethod.note.wording.ru.structure import STRUCTURE
@@ -27,6 +28,7 @@ LANGUAGE = Language(
     audit=AUDIT,
     check=CHECK,
     form=FORM,
+    point=POINT,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

@@ -1,0 +1,1 @@
+"""The moving point: its law as formulas, velocity, acceleration and curvature (движение точки)."""

@@ -1,0 +1,156 @@
+"""Motion of a point from its law: velocity, acceleration, their parts, radius of curvature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from planmethod.construct.jet import Jet
+from planmethod.moving.bounded import ROUNDOFF, Bounded, Reals, bounded, length
+from planmethod.moving.model import Law, PointProblem
+from planmethod.moving.series import CALLS, evaluate
+
+
+class Why(Enum):
+    """Why a quantity does not exist at a moment (причина)."""
+
+    POSITION = "position undefined"
+    VELOCITY = "velocity undefined"
+    ACCELERATION = "acceleration undefined"
+    REST = "at rest"
+    STRAIGHT = "straight"
+
+
+COLUMNS = (
+    "t",
+    "x",
+    "y",
+    "vx",
+    "vy",
+    "v",
+    "ax",
+    "ay",
+    "a",
+    "a_tangential",
+    "a_normal",
+    "rho",
+)
+POLAR = ("r", "phi", "v_r", "v_phi", "a_r", "a_phi")
+"""Further columns of a motion in polar coordinates; phi in radians."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """Motion of a point at all its moments (движение точки).
+
+    Attributes
+    ----------
+    columns : dict of str to array of float, shape (n,)
+        SI, radians; NaN where a quantity does not exist. What cannot be told from zero within the
+        bound of rounding is zero. ``a_tangential`` is positive where the point speeds up.
+    reasons : tuple of (Why or None)
+        Why something does not exist, at every moment.
+    """
+
+    columns: dict[str, Reals]
+    reasons: tuple[Why | None, ...]
+
+
+def move(problem: PointProblem) -> Motion:
+    """Return the motion of a point at the moments of its file."""
+    times = np.array(problem.times)
+    with np.errstate(all="ignore"):
+        x, y, polar = _coordinates(problem, times)
+        parts = [bounded(part).settled() for part in (x.value, y.value)]
+        rates = [bounded(part).settled() for part in (x.rate, y.rate)]
+        bends = [bounded(part).settled() for part in (x.acceleration, y.acceleration)]
+        speed, size = length(*rates), length(*bends)
+        (vx, vy), (ax, ay) = rates, bends
+        along = ((vx * ax + vy * ay) / speed).settled()
+        cross = abs(vx * ay - vy * ax).settled()
+        across = cross / speed
+        rho = speed / across * speed
+        found = [*parts, vx, vy, speed, ax, ay, size, along, across, rho]
+        columns = {"t": times, **_reals(COLUMNS[1:], found)}
+        if polar is not None:
+            columns |= _reals(POLAR, _polar(*polar))
+    return Motion(_whole(columns), _reasons(columns))
+
+
+def _reals(names: tuple[str, ...], found: list[Bounded]) -> dict[str, Reals]:
+    pairs = zip(names, found, strict=True)
+    return {name: np.where(np.isfinite(one.value), one.value, np.nan) for name, one in pairs}
+
+
+_LEVELS = {
+    Why.POSITION: (("x", "y"), ("r", "phi")),
+    Why.VELOCITY: (("vx", "vy", "v"), ("v_r", "v_phi")),
+    Why.ACCELERATION: (("ax", "ay", "a", "a_tangential", "a_normal", "rho"), ("a_r", "a_phi")),
+}
+
+
+def _whole(columns: dict[str, Reals]) -> dict[str, Reals]:
+    """Leave no component without the others: a vector exists or does not."""
+    lost = np.zeros(len(columns["t"]), dtype=bool)
+    told = dict(columns)
+    for own, polar in _LEVELS.values():
+        lost = lost | np.isnan(columns[own[0]]) | np.isnan(columns[own[1]])
+        for name in (*own, *polar):
+            if name in told:
+                told[name] = np.where(lost, np.nan, columns[name])
+    return told
+
+
+def _reasons(columns: dict[str, Reals]) -> tuple[Why | None, ...]:
+    def none_of(*names: str) -> Reals:
+        missing: Reals = np.any([np.isnan(columns[name]) for name in names], axis=0)
+        return missing
+
+    cases = {
+        Why.POSITION: none_of("x", "y"),
+        Why.VELOCITY: none_of("vx", "vy"),
+        Why.ACCELERATION: none_of("ax", "ay"),
+        Why.REST: columns["v"] == 0.0,
+        Why.STRAIGHT: none_of("rho"),
+    }
+    return tuple(
+        next((why for why, is_so in cases.items() if is_so[k]), None)
+        for k in range(len(columns["t"]))
+    )
+
+
+def _coordinates(problem: PointProblem, times: Reals) -> tuple[Jet, Jet, tuple[Jet, Jet] | None]:
+    """Return x and y, and r and phi of a motion that is stated so."""
+    read = {
+        key: evaluate(formula, times, blur=np.array(problem.blur))
+        for key, formula in problem.formulas.items()
+    }
+    match problem.law:
+        case Law.COORDINATES:
+            return read["x"], read["y"], None
+        case Law.POLAR:
+            r, phi = read["r"], read["phi"]
+            return r * CALLS["cos"](phi), r * CALLS["sin"](phi), (r, phi)
+        case Law.NATURAL:
+            s = read["s"]
+            if problem.radius is None:
+                zeros = Bounded(np.zeros_like(times))
+                return s, Jet(zeros, zeros, zeros), None
+            turned = s / Bounded(problem.radius)
+            circle = Bounded(problem.radius, ROUNDOFF * problem.radius)
+            return CALLS["cos"](turned) * circle, CALLS["sin"](turned) * circle, None
+
+
+def _polar(r: Jet, phi: Jet) -> list[Bounded]:
+    """Return the radial and transverse parts: r', r·φ', r'' − r·φ'², r·φ'' + 2·r'·φ'."""
+    found = [
+        r.value,
+        phi.value,
+        r.rate,
+        r.value * phi.rate,
+        r.acceleration - r.value * phi.rate * phi.rate,
+        r.value * phi.acceleration + 2.0 * r.rate * phi.rate,
+    ]
+    return [bounded(one).settled() for one in found]

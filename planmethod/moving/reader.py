@@ -1,0 +1,237 @@
+"""Read a file with ``[point]``: formulas and moments, all faults at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from planmethod.errors import ProblemError
+from planmethod.moving.bounded import ROUNDOFF
+from planmethod.moving.formula import Formula, is_exact, read_formula
+from planmethod.moving.model import FORMULAS, Law, PointProblem
+from planmethod.moving.series import evaluate
+from planmethod.problem import keys
+from planmethod.problem.drive import spread, too_many
+from planmethod.problem.extras import read_heading, read_published
+from planmethod.problem.fields import (
+    Faults,
+    is_number,
+    read_keys,
+    read_length,
+    read_number,
+    read_table,
+    show,
+    unmask,
+)
+from planmethod.problem.model import Published
+from planmethod.problem.names import listed, near, segment, short
+from planmethod.problem.reader import unknown_variant
+from planmethod.problem.sheet import read_sheet, read_stamp
+from planmethod.problem.source import parse, read_source
+from planmethod.problem.variants import apply_variant, read_variants
+
+TOP = ("title", "source", "point", "stamp", "sheet", "published", "variants")
+"""Keys of a file with a moving point."""
+
+WHAT: Mapping[str, str] = {
+    **{name: name for name in ("x", "y", "vx", "vy", "v", "ax", "ay", "a", "rho")},
+    **dict.fromkeys(("a_tangential", "a_tau", "at"), "a_tangential"),
+    **dict.fromkeys(("a_normal", "a_n", "an"), "a_normal"),
+}
+"""Words of ``what`` in ``[published]``, and the columns of the record that they name."""
+
+_EXAMPLE = '[point] x = "3*t*exp(t/2)", y = "4*t*(1 + t/2)", t = 0'
+
+
+def load_point(path: str | Path, variant: str | None = None) -> PointProblem:
+    """Read a file with ``[point]``.
+
+    Raises
+    ------
+    ProblemError
+        With every fault of the file.
+    """
+    path = Path(path)
+    return loads_point(read_source(path), name=path.stem, source=str(path), variant=variant)
+
+
+def loads_point(
+    text: str, *, name: str, source: str | None = None, variant: str | None = None
+) -> PointProblem:
+    """Read a moving point from a text; messages call it ``source``."""
+    called = name if source is None else source
+    table = parse(text, name=called)
+    faults = Faults()
+    variants = read_variants(faults, table)
+    if variant is not None:
+        if variant not in variants:
+            raise ProblemError(called, [*faults.found, unknown_variant(variant, variants)])
+        table = apply_variant(table, variants[variant])
+    problem = _read(faults, table, name)
+    if faults or problem is None:
+        raise ProblemError(called, faults.found)
+    return replace(problem, variants=tuple(variants), variant=variant)
+
+
+def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem | None:
+    given = read_keys(faults, "", table, TOP)
+    if "point" not in given:
+        faults.add("point", "missing", f"For example: {_EXAMPLE}")
+    told = read_table(faults, "point", given.get("point", {}), _EXAMPLE)
+    before = len(faults)
+    point = read_keys(faults, "point", told or {}, keys.MOVING)
+    is_whole = len(faults) == before and told is not None and "point" in given
+    law = _read_law(faults, point, is_whole=is_whole)
+    formulas = {
+        key: formula
+        for key in (FORMULAS[law] if law else ())
+        if key in point and (formula := read_formula(faults, f"point.{key}", point[key]))
+    }
+    radius = None
+    if "radius" in point:
+        if law not in (Law.NATURAL, None):
+            faults.add("point.radius", "goes with s(t) only", "Leave it out.")
+        radius = read_length(faults, "point.radius", point["radius"])
+    times: tuple[float, ...] = ()
+    if "t" in point:
+        times = _read_times(faults, point["t"])
+    elif is_whole and law:
+        faults.add("point.t", "missing", "Give the moment, s: t = 0; or { from, to, step }.")
+    problem = PointProblem(
+        name=name,
+        title=read_heading(faults, given, "title"),
+        source=read_heading(faults, given, "source"),
+        law=law or Law.COORDINATES,
+        formulas=formulas,
+        radius=radius,
+        times=times,
+        blur=_blur(times, rounded=_has_formula(point.get("t"))),
+        stamp=read_stamp(faults, given.get("stamp", {})),
+        sheet=read_sheet(faults, given.get("sheet", {})),
+        published=_read_published(faults, given.get("published", {}), len(times)),
+    )
+    return None if faults else problem
+
+
+def _read_law(faults: Faults, point: Mapping[str, Any], *, is_whole: bool) -> Law | None:
+    """Tell by its keys how the motion is stated."""
+    found = [law for law, wanted in FORMULAS.items() if any(key in point for key in wanted)]
+    if len(found) > 1:
+        both = " and ".join(f"{', '.join(FORMULAS[law])}" for law in found)
+        faults.add("point", f"the motion is stated twice: {both}", "Keep one of them.")
+        return None
+    if not found:
+        if is_whole:
+            faults.add("point", "expected x and y, r and phi, or s", f"For example: {_EXAMPLE}")
+        return None
+    for key in FORMULAS[found[0]]:
+        if key not in point and is_whole:
+            faults.add(f"point.{key}", "missing", f'A formula of t: {key} = "4*t*(1 + t/2)".')
+    return found[0]
+
+
+# Moments ----------------------------------------------------------------------------------------
+
+
+def _has_formula(value: object) -> bool:
+    parts = value.values() if isinstance(value, Mapping) else value
+    return isinstance(value, str) or (
+        not is_number(value) and any(isinstance(part, str) for part in parts or ())  # type: ignore[attr-defined]
+    )
+
+
+def _blur(times: tuple[float, ...], *, rounded: bool) -> tuple[float, ...]:
+    """Return the relative errors of moments; ``rounded`` where they are of formulas."""
+    return tuple(0.0 if not rounded and is_exact(repr(t)) else 8 * ROUNDOFF for t in times)
+
+
+def _read_times(faults: Faults, value: object) -> tuple[float, ...]:
+    """Read one moment, a list of them, or a row; none after noting a fault."""
+    path = "point.t"
+    before = len(faults)
+    if isinstance(value, list):
+        if not value:
+            faults.add(path, "expected at least one moment, got an empty list")
+        elif not too_many(faults, path, len(value)):
+            read = [_read_time(faults, f"{path}[{i}]", item) for i, item in enumerate(value)]
+            return () if len(faults) != before else tuple(item for item in read if item is not None)
+        return ()
+    if not isinstance(value, Mapping):
+        one = _read_time(faults, path, value)
+        return () if one is None else (one,)
+    given = read_keys(faults, path, value, keys.SPAN)
+    if len(faults) != before:
+        return ()
+    if set(given) not in ({"from", "to", "count"}, {"from", "to", "step"}):
+        ways = "{ from, to, step } or { from, to, count }"
+        faults.add(path, f"expected {ways}, got {{ {listed(given)} }}")
+        return ()
+    start = _read_time(faults, f"{path}.from", given["from"])
+    end = _read_time(faults, f"{path}.to", given["to"])
+    if "step" in given:
+        given["step"] = _read_time(faults, f"{path}.step", given["step"])
+    if len(faults) != before:
+        return ()
+    return spread(faults, path, given, start, end) or ()
+
+
+def _read_time(faults: Faults, path: str, value: object) -> float | None:
+    """Read a moment, s: a number, or a formula without t."""
+    number = value
+    if isinstance(value, str):
+        formula = read_formula(faults, path, value, constant=True)
+        if formula is None:
+            return None
+        number = _number_of(formula)
+        if not math.isfinite(number):
+            faults.add(path, f"'{short(value)}' has no value")
+            return None
+    what = "a moment in seconds"
+    return read_number(faults, path, number, what, low=-1e6, high=1e6, hint="Seconds.")
+
+
+def _number_of(formula: Formula) -> float:
+    return float(evaluate(formula, np.zeros(1)).value.value[0])
+
+
+# Printed values ---------------------------------------------------------------------------------
+
+
+def _read_published(faults: Faults, table: object, moments: int) -> tuple[Published, ...]:
+    """Read ``[published]``; what stands in ``what`` are columns of the record."""
+    bare, whats = table, {}
+    if isinstance(table, Mapping):
+        bodies = {key: body for key, body in table.items() if isinstance(body, Mapping)}
+        whats = {key: body["what"] for key, body in bodies.items() if "what" in body}
+        bare = {
+            **table,
+            **{k: {n: v for n, v in body.items() if n != "what"} for k, body in bodies.items()},
+        }
+    found = read_published(faults, bare, (), (), None, moments)
+    told: list[Published] = []
+    for item in found:
+        path = f"published.{segment(item.name)}"
+        what = ""
+        if item.name in whats:
+            what = _read_what(faults, f"{path}.what", whats[item.name])
+            if moments > 1 and item.position is None:
+                faults.add(f"{path}.position", "missing", f"There are {moments} moments: from 0.")
+        told.append(replace(item, what=what))
+    return tuple(told)
+
+
+def _read_what(faults: Faults, path: str, value: object) -> str:
+    if not isinstance(value, str):
+        faults.add(path, f"expected the name of a quantity, got {show(value)}")
+        return ""
+    name = unmask(faults, path, value)
+    if name not in WHAT:
+        guess = near(name, WHAT)
+        hint = f"Did you mean '{guess}'?" if guess else f"Known here: {listed(WHAT, limit=20)}."
+        faults.add(path, f"a moving point has no '{short(name)}'", hint)
+    return WHAT.get(name, "")

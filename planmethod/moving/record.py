@@ -1,0 +1,29 @@
+"""Machine-readable record of a moving point: the object that ``solve --json`` prints."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from planmethod.moving.model import PointProblem
+from planmethod.moving.motion import move
+from planmethod.note.numbers import finite_or_none
+
+SCHEMA = 1
+"""Version of the record's shape."""
+
+
+def record(problem: PointProblem) -> dict[str, Any]:
+    """Return the motion of a point as plain data; null with a reason for what does not exist."""
+    motion = move(problem)
+    rows: list[dict[str, Any]] = []
+    for k, why in enumerate(motion.reasons):
+        row: dict[str, Any] = {
+            name: finite_or_none(column[k]) for name, column in motion.columns.items()
+        }
+        if why is not None:
+            row["reason"] = why.value
+        rows.append(row)
+    found: dict[str, Any] = {"schema": SCHEMA, "problem": problem.name}
+    if problem.variant is not None:
+        found["variant"] = problem.variant
+    return {**found, "point": rows}

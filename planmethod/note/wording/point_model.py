@@ -1,0 +1,22 @@
+"""What a language must be able to say of a moving point."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointWording:
+    """Words of the moving point (движение точки).
+
+    ``circle`` and ``line`` say along what a natural motion runs, ``reasons`` are by the values of
+    `planmethod.moving.motion.Why`, ``printed`` are the heads of the table of printed values.
+    """
+
+    circle: str
+    line: str
+    at: str
+    reasons: Mapping[str, str]
+    polar: str
+    printed: tuple[str, str, str, str, str]
