@@ -19,6 +19,7 @@ $(VENV)/.ready: pyproject.toml
 
 demo: $(VENV)/.ready
 	$(BIN)/planmethod sheet --format svg,pdf -o out problems/linkages/*.toml problems/levers/*.toml problems/press/*.toml
+	$(BIN)/planmethod solve problems/gears/*.toml
 	$(BIN)/planmethod check --key problems/linkages/ex3-variants.toml -o out
 	$(BIN)/planmethod form problems/linkages/ex3-variants.toml --all-variants -o out
 	$(BIN)/planmethod check problems/linkages/ex3-variants.toml problems/groups/ex3.csv -o out || test $$? -eq 1 # a cell cannot be read
@@ -41,7 +42,7 @@ format: $(VENV)/.ready
 
 # Files in byte order, as the test of the document has them.
 tables: $(VENV)/.ready
-	$(BIN)/planmethod audit --lang en -o docs/published.md $(sort $(wildcard problems/*/*.toml))
+	$(BIN)/planmethod audit --lang en -o docs/published.md $(filter-out problems/gears/%,$(sort $(wildcard problems/*/*.toml)))
 
 # The pictures of the documentation; the resolutions keep each below 150 kB.
 gallery: $(VENV)/.ready
@@ -60,7 +61,7 @@ group: $(VENV)/.ready
 # Writes docs/speed-and-error.md and its figure; the peers come with the extra.
 bench: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[bench]'
-	$(BIN)/python -m benchmarks $(sort $(wildcard problems/*/*.toml))
+	$(BIN)/python -m benchmarks $(filter-out problems/gears/%,$(sort $(wildcard problems/*/*.toml)))
 
 clean:
 	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png

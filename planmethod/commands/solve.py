@@ -33,6 +33,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.note.records.spreadsheet import Table
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
@@ -185,7 +186,26 @@ def solve(
 
                 click.echo("\n" + referee_tables(solution, referee, lang))
 
-    code = each(problems, variant, all_variants, compute)
+    linkage_only = {
+        "--csv": csv_file is not None,
+        "--npz": npz_file is not None,
+        "--ask": ask is not None,
+        "--phi": phi is not None,
+        "--sigma": sigma,
+        "--covariance": covariance_file is not None,
+        "--referee": referee is not None,
+    }
+
+    def compute_other(kind: Kind, problem: KindProblem) -> None:
+        for option, given in linkage_only.items():
+            if given:
+                raise click.UsageError(f"{option} is for linkages, {problem.name} is none")
+        if as_json:
+            records.append(kind.record(problem, lang))
+        else:
+            click.echo(kind.solved_text(problem, lang))
+
+    code = each(problems, variant, all_variants, compute, compute_other)
     if records:
         import json
 

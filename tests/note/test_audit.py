@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 from slotted import R, problem_of
+from worked import every_file
 
 from planmethod.cli import cli
 from planmethod.note.audit.audit import (
@@ -26,7 +27,7 @@ from planmethod.problem.model import Problem, Published
 from planmethod.solved.selected.asking import NoAnswer
 
 ROOT = Path(__file__).parents[2]
-PROBLEMS = sorted((ROOT / "problems").glob("*/*.toml"), key=str)
+PROBLEMS = sorted(every_file(), key=str)
 
 
 def test_a_millimetre_of_a_rate_and_of_an_angle() -> None:

@@ -9,7 +9,7 @@ from cases import each, some
 from lettered import computed, force_lines
 from loaded import loaded_problem
 from told import LANGUAGES, drawn, worked
-from worked import PROBLEMS, SIX
+from worked import PROBLEMS, SIX, every_file
 
 from planmethod.construct.steps import Compute
 from planmethod.note.narrate.calculation import calculation
@@ -21,7 +21,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
 
-NAMES = sorted(path.relative_to(PROBLEMS).with_suffix("") for path in PROBLEMS.glob("*/*.toml"))
+NAMES = [path.relative_to(PROBLEMS).with_suffix("") for path in every_file()]
 SEEDS = range(some(60, few=20))
 PLANS = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from mechanisms import CRANK, LOADED, SLIDER, messages
-from worked import PROBLEMS
+from worked import PROBLEMS, every_file
 
 from planmethod.errors import ProblemError
 from planmethod.problem import Problem, load, loads
@@ -20,7 +20,7 @@ from planmethod.solved.asked import results_for
 from planmethod.solved.selected.quantities import Quantities
 from planmethod.solved.solution import Solution
 
-ALL = sorted(PROBLEMS.rglob("*.toml"))
+ALL = every_file()
 SLOTTED = (PROBLEMS / "linkages" / "ex3.toml").read_text("utf-8").partition("[[answers]]")[0]
 
 

@@ -12,6 +12,7 @@ from planmethod.note.wording.control_model import ControlWording
 from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
+from planmethod.note.wording.gear_model import GearWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
@@ -40,6 +41,8 @@ class Language:
         The checking of works.
     form : FormWording
         The form to fill in, and what cannot be read in works.
+    gears : GearWording
+        Gear trains.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -58,5 +61,6 @@ class Language:
     audit: AuditWording
     check: CheckWording
     form: FormWording
+    gears: GearWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]
