@@ -19,9 +19,10 @@ def efficiency(motion: Motion) -> Fraction | None:
     train = motion.train
     if train.output is None or motion.structure.mobility != 1 or len(train.inputs) != 1:
         return None
-    if any(mesh.eta is None for mesh in train.meshes):
+    if not all(train.inputs.values()) or any(mesh.eta is None for mesh in train.meshes):
         return None
     (source,) = train.inputs
+    turn = 1 if motion.speeds[source] > 0 else -1  # the torque of the input drives
     loose = [body for body in train.bodies if body not in train.fixed]
     forces = [f"mesh {mesh.name}" for mesh in train.meshes]
     forward = [True] * len(forces)
@@ -41,7 +42,7 @@ def efficiency(motion: Motion) -> Fraction | None:
                 if body in rows:
                     rows[body][name] = rows[body].get(name, Fraction(0)) + value
         rows[train.output]["out"] = Fraction(1)
-        right = {body: Fraction(-1 if body == source else 0) for body in loose}
+        right = {body: Fraction(-turn if body == source else 0) for body in loose}
         found = solve([*forces, "out"], [(rows[body], right[body]) for body in loose])
         if found.free or not found.consistent:
             return None
@@ -50,7 +51,7 @@ def efficiency(motion: Motion) -> Fraction | None:
             for mesh, name in zip(train.meshes, forces, strict=True)
         ]
         if seen == forward:
-            power_in = motion.speeds[source]
+            power_in = turn * motion.speeds[source]
             share = -found.values["out"] * motion.speeds[train.output] / power_in
             return share if share > 0 else None
         forward = seen
