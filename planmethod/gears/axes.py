@@ -110,7 +110,12 @@ def _place(
     size, height = _distance(train, mesh), heights[lines.line[start]]
     at_main = lines.line[start] == lines.main
     returns = size is None or height is None or abs(height) == size
-    if returns and not at_main and new not in around:
+    between = any(
+        new in both and other is not mesh and lines.line[start] in {lines.line[b] for b in both}
+        for other in train.meshes
+        for both in [train.ends(other)]
+    )  # an idler between wheels of one axis
+    if returns and not at_main and not between and new not in around:
         lines.join([lines.main, new])
         return
     if size is None or height is None:

@@ -42,12 +42,15 @@ class Draft:
     wheels: dict[str, Wheel] = field(default_factory=dict)
     racks: list[str] = field(default_factory=list)
     carriers: list[str] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
     toothed: bool = True
 
     def labels(self) -> tuple[str, ...]:
-        """All names that stand for a body: wheels, numbers of them, racks, carriers."""
+        """All names that stand for a body: wheels, numbers of them, racks, carriers, others."""
         numbers = [wheel.number for wheel in self.wheels.values()]
-        return tuple(dict.fromkeys([*self.wheels, *numbers, *self.racks, *self.carriers]))
+        return tuple(
+            dict.fromkeys([*self.wheels, *numbers, *self.racks, *self.carriers, *self.names])
+        )
 
     def bodies(self, groups: Sequence[Sequence[str]]) -> dict[str, str]:
         """Return the body of every label; a body is called by its carrier, or its first label."""

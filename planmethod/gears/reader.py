@@ -31,7 +31,7 @@ from planmethod.problem.fields import (
     show,
 )
 from planmethod.problem.model import Published
-from planmethod.problem.names import joined, segment
+from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_stamp
 
@@ -79,8 +79,10 @@ def _read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     unknown = read_labels(faults, "gears.unknown", given.get("unknown", []), GROUP_LIMIT)
     read_wheels(faults, given.get("wheels", {}), unknown, draft)
     meshes = read_meshes(faults, given.get("meshes", []), draft)
+    told_bodies = given.get("bodies", [])
+    draft.names = _further_names(told_bodies)
     known = draft.labels()
-    groups = _read_groups(faults, "gears.bodies", given.get("bodies", []), known)
+    groups = _read_groups(faults, "gears.bodies", told_bodies, known)
     coaxial = _read_groups(faults, "gears.coaxial", given.get("coaxial", []), known)
     body_of = draft.bodies(groups)
     fixed = _known(faults, "gears.fixed", given.get("fixed", []), known)
@@ -127,6 +129,16 @@ def _known(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> 
         if label not in known:
             report_unknown(faults, f"{path}[{index}]", label, known, noun="wheel")
     return tuple(label for label in found if label in known)
+
+
+def _further_names(value: object) -> list[str]:
+    """Return letters that only ``bodies`` has: a shaft or a carrier with a name of its own."""
+    groups = (
+        [group for group in value if isinstance(group, list)] if isinstance(value, list) else []
+    )
+    names = [name for group in groups[:GROUP_LIMIT] for name in group[:GROUP_LIMIT]]
+    kept = [fold(name) for name in names if isinstance(name, str) and is_label(fold(name))]
+    return [name for name in dict.fromkeys(kept) if name[0].isalpha()]
 
 
 def _read_groups(
