@@ -129,8 +129,7 @@ def outcome(case: Case) -> tuple[str, str]:
         points = f" {one.points:g}" if one.points not in (one.of, 0.0) else ""
         verdicts.append(f"{text}: {one.verdict.value}{follows}{points}")
     diagnosis = [
-        (" or ".join(sorted(d.codes)) or "nothing")
-        + ("?" if len(d.codes) == 1 and not d.sure else "")
+        (" or ".join(sorted(d.codes)) or "nothing") + ("?" if len(d.codes) == 1 and not d.sure else "")
         for d in checked.diagnosis
     ]
     if checked.suspicious:
