@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -12,6 +13,7 @@ import click
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
+from planmethod.kinds import Kind, KindProblem, kind_of
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from planmethod.solved.solution import Solution
 
 F = TypeVar("F", bound=Callable[..., Any])
+T = TypeVar("T")
 
 MANY = 6
 """Number of problems from which a command shows its progress."""
@@ -46,20 +49,40 @@ def guarded(command: F) -> F:
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
     """Read a problem file: one problem, or one for each variant."""
-    from planmethod.problem import load, variant_names
+    from planmethod.problem import load
+
+    return [load(path, variant=name) for name in _variants(path, variant, all_variants)]
+
+
+def _load_other(
+    kind: Kind, path: Path, variant: str | None, all_variants: bool
+) -> list[KindProblem]:
+    """Read the same of a problem that is no linkage."""
+    return [kind.load(path, name) for name in _variants(path, variant, all_variants)]
+
+
+def _variants(path: Path, variant: str | None, all_variants: bool) -> Sequence[str | None]:
+    """Return the variants that are meant; None for the main part."""
+    from planmethod.problem import variant_names
 
     if all_variants and variant is not None:
         raise click.UsageError("give --variant or --all-variants, not both")
-    if all_variants:
-        names = variant_names(path)
-        return [load(path, variant=name) for name in names] or [load(path)]
-    return [load(path, variant=variant)]
+    return (variant_names(path) or (None,)) if all_variants else (variant,)
 
 
 def each(
-    paths: tuple[Path, ...], variant: str | None, all_variants: bool, act: Callable[[Problem], None]
+    paths: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    act: Callable[[Problem], None],
+    other: Callable[[Kind, KindProblem], None] | None = None,
 ) -> ExitCode:
     """Act on every problem; a faulty one is reported and the others go on.
+
+    Parameters
+    ----------
+    other : callable, optional
+        Acts on problems that are no linkages (`planmethod.kinds`); without it they are faulty.
 
     Returns
     -------
@@ -68,18 +91,24 @@ def each(
     """
     codes: list[ExitCode] = []
 
-    def problems() -> Iterator[Problem]:
+    def problems() -> Iterator[Callable[[], None]]:
         for path in paths:
             try:
-                yield from load(path, variant, all_variants)
+                kind = None if other is None else kind_of(path)
+                if kind is None or other is None:
+                    for problem in load(path, variant, all_variants):
+                        yield partial(act, problem)
+                else:
+                    for one in _load_other(kind, path, variant, all_variants):
+                        yield partial(other, kind, one)
             except PlanMethodError as error:
                 codes.append(error.exit_code)
                 fail(error)
 
     found = list(problems())
-    for problem in watched(found):
+    for step in watched(found):
         try:
-            act(problem)
+            step()
         except PlanMethodError as error:
             codes.append(error.exit_code)
             fail(error)
@@ -92,8 +121,8 @@ def finish(code: ExitCode) -> None:
         sys.exit(code)
 
 
-def watched(found: list[Problem]) -> Iterator[Problem]:
-    """Yield problems, on a terminal with a bar when they are many (about a second of work)."""
+def watched(found: list[T]) -> Iterator[T]:
+    """Yield what is to do, on a terminal with a bar when they are many (about a second of work)."""
     if len(found) < MANY or not is_terminal(sys.stderr):
         yield from found
         return

@@ -12,7 +12,6 @@ import click
 from planmethod.commands.output import bar, is_narrow, is_terminal, put_parts
 from planmethod.commands.problems import (
     each,
-    fail,
     finish,
     guarded,
     solution_of,
@@ -20,7 +19,7 @@ from planmethod.commands.problems import (
     tell_changes,
     warn,
 )
-from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
+from planmethod.errors import AssemblyError, ExitCode
 from planmethod.options import (
     MOST_POSITIONS,
     MOST_SWEPT,
@@ -34,6 +33,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.note.records.spreadsheet import Table
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
@@ -186,12 +186,26 @@ def solve(
 
                 click.echo("\n" + referee_tables(solution, referee, lang))
 
-    plain = phi is None and not (told or sigma or referee or covariance_file)
-    code, linkages = _solve_points(
-        problems, variant, all_variants, as_json, lang, records, plain=plain
-    )
-    others = each(linkages, variant, all_variants, compute)
-    code = others if code is ExitCode.DONE else code
+    linkage_only = {
+        "--csv": csv_file is not None,
+        "--npz": npz_file is not None,
+        "--ask": ask is not None,
+        "--phi": phi is not None,
+        "--sigma": sigma,
+        "--covariance": covariance_file is not None,
+        "--referee": referee is not None,
+    }
+
+    def compute_other(kind: Kind, problem: KindProblem) -> None:
+        for option, given in linkage_only.items():
+            if given:
+                raise click.UsageError(f"{option} is for linkages, {problem.name} is none")
+        if as_json:
+            records.append(kind.record(problem, lang))
+        else:
+            click.echo(kind.solved_text(problem, lang))
+
+    code = each(problems, variant, all_variants, compute, compute_other)
     if records:
         import json
 
@@ -206,44 +220,6 @@ def solve(
     if npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
         _write_arrays(sweeps, npz_file)
     finish(code)
-
-
-def _solve_points(
-    paths: tuple[Path, ...],
-    variant: str | None,
-    all_variants: bool,
-    as_json: bool,
-    lang: str,
-    records: list[dict[str, Any]],
-    *,
-    plain: bool,
-) -> tuple[ExitCode, tuple[Path, ...]]:
-    """Solve the files with a moving point; return how that ended, and the other files."""
-    from planmethod.moving.kind import is_point
-
-    points = [path for path in paths if is_point(path)]
-    code = ExitCode.DONE
-    if not points:
-        return code, paths
-    if not plain:
-        raise click.UsageError(f"{points[0]}: of a moving point there is a text, or --json")
-    if all_variants and variant is not None:
-        raise click.UsageError("give --variant or --all-variants, not both")
-    from planmethod.moving.command import solve_point
-
-    for path in points:
-        try:
-            for made in solve_point(
-                path, variant, all_variants=all_variants, as_json=as_json, lang=lang
-            ):
-                if isinstance(made, str):
-                    click.echo(made)
-                else:
-                    records.append(made)
-        except PlanMethodError as error:
-            code = error.exit_code if code is ExitCode.DONE else code
-            fail(error)
-    return code, tuple(path for path in paths if path not in points)
 
 
 def _need_mpmath() -> None:

@@ -18,6 +18,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
 
 
@@ -78,4 +79,13 @@ def structure(
                 dxf_text=dxf_text,
             )
 
-    finish(each(problems, variant, all_variants, show))
+    def show_other(kind: Kind, problem: KindProblem) -> None:
+        import json
+
+        lang = str(asked.sheet["lang"] or LANGUAGES[0])
+        told = kind.structure_record(problem) if as_json else kind.structure_text(problem, lang)
+        if told is None:
+            raise click.UsageError(f"{problem.name} is no mechanism, it has no structure")
+        click.echo(told if isinstance(told, str) else json.dumps(told, ensure_ascii=is_narrow()))
+
+    finish(each(problems, variant, all_variants, show, show_other))

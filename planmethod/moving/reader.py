@@ -48,7 +48,7 @@ WHAT: Mapping[str, str] = {
 _EXAMPLE = '[point] x = "3*t*exp(t/2)", y = "4*t*(1 + t/2)", t = 0'
 
 
-def load_point(path: str | Path, variant: str | None = None) -> PointProblem:
+def load(path: str | Path, *, variant: str | None = None) -> PointProblem:
     """Read a file with ``[point]``.
 
     Raises
@@ -57,10 +57,10 @@ def load_point(path: str | Path, variant: str | None = None) -> PointProblem:
         With every fault of the file.
     """
     path = Path(path)
-    return loads_point(read_source(path), name=path.stem, source=str(path), variant=variant)
+    return loads(read_source(path), name=path.stem, source=str(path), variant=variant)
 
 
-def loads_point(
+def loads(
     text: str, *, name: str, source: str | None = None, variant: str | None = None
 ) -> PointProblem:
     """Read a moving point from a text; messages call it ``source``."""

@@ -12,7 +12,7 @@ SCHEMA = 1
 """Version of the record's shape."""
 
 
-def record(problem: PointProblem) -> dict[str, Any]:
+def record(problem: PointProblem, lang: str = "ru") -> dict[str, Any]:
     """Return the motion of a point as plain data; null with a reason for what does not exist."""
     motion = move(problem)
     rows: list[dict[str, Any]] = []

@@ -31,7 +31,7 @@ SYMBOLS = {
 """How columns of the record and formulas of the file are written."""
 
 
-def text(problem: PointProblem, lang: str = "ru") -> str:
+def solved_text(problem: PointProblem, lang: str = "ru") -> str:
     """Return the motion of a point as text of at most 100 columns.
 
     Raises

@@ -111,6 +111,25 @@ ANSWER = (
     "tolerance",
 )
 
+GEARS = (
+    "wheels",
+    "meshes",
+    "bodies",
+    "fixed",
+    "n",
+    "omega",
+    "unknown",
+    "coaxial",
+    "module",
+    "satellites",
+    "output",
+    "ask",
+    "picture",
+)
+WHEEL = ("z", "r", "x", "axis")
+MESH = ("of", "kind", "carrier", "eta", "hand")
+PICTURE = ("mu_l", "longest_mm", "pole_mm")
+
 KNOWN: dict[str, tuple[str, ...]] = {
     "top": TOP,
     "frame": FRAME,
@@ -132,6 +151,10 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "load": LOAD,
     "table": TABLE,
     "phases": PHASES,
+    "gears": GEARS,
+    "wheel": WHEEL,
+    "mesh": MESH,
+    "picture": PICTURE,
 }
 """All of them by the kind of table."""
 

@@ -45,6 +45,24 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     return read_parsed(table, source=str(path), name=path.stem, variant=variant)
 
 
+def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
+    """Return the table of a file with a variant laid over it, for the reader of any kind.
+
+    Raises
+    ------
+    ProblemError
+        The file cannot be read, or has no such variant.
+    """
+    table = parse(read_source(path), name=str(path))
+    faults = Faults()
+    variants = read_variants(faults, table)
+    if variant is None:
+        return table, faults
+    if variant not in variants:
+        raise ProblemError(str(path), [*faults.found, unknown_variant(variant, variants)])
+    return apply_variant(table, variants[variant]), faults
+
+
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     """Read a problem from a text; ``name`` stands for the stem of the file."""
     return read_parsed(parse(text, name=name), source=name, name=name, variant=variant)

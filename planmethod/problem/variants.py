@@ -27,7 +27,7 @@ _FREE = ("gears", "point")
 _HOLDERS = (Mapping, list)
 """What a path may lead through: a table, the loads or the answers."""
 
-_MOTION = ("frame", "links", "driver", "assembly", "point")
+_MOTION = ("frame", "links", "driver", "assembly", "gears", "point")
 """Tables on which all published values depend."""
 
 _CONTACT = ("slides", "length")

@@ -12,16 +12,16 @@ import numpy as np
 import pytest
 
 from planmethod.errors import ExitCode, ProblemError
+from planmethod.kinds import kind_of
 from planmethod.moving.formula import DEPTH_LIMIT, FUNCTIONS, LENGTH_LIMIT, read_formula
-from planmethod.moving.kind import is_point
-from planmethod.moving.reader import loads_point
+from planmethod.moving.reader import loads
 from planmethod.moving.series import CALLS, evaluate
 from planmethod.problem.fields import Faults
 
 
 def faults_of(text: str) -> list[str]:
     with pytest.raises(ProblemError) as caught:
-        loads_point(text, name="p")
+        loads(text, name="p")
     assert caught.value.exit_code is ExitCode.PROBLEM
     return [str(fault) for fault in caught.value.faults]
 
@@ -168,9 +168,10 @@ def test_strangers_get_faults_or_numbers_and_nothing_else() -> None:
 
 def test_which_files_are_moving_points(tmp_path: Path) -> None:
     path = tmp_path / "p.toml"
-    for text, wanted in (("[point]", True), ("[point]\n[links]", False), ("[", False), ("", False)):
+    for text, wanted in (("[point]", "point"), ("[point]\n[links]", None), ("", None)):
         path.write_text(text, encoding="utf-8")
-        assert is_point(path) is wanted
+        kind = kind_of(path)
+        assert (None if kind is None else kind.table) == wanted
 
 
 SAFE = ("sin({})", "cos({})", "exp({}/4)", "sh({}/3)", "th({})", "arctg({})", "sqrt(1 + ({})^2)")

@@ -14,8 +14,7 @@ from worked import PROBLEMS
 
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
-from planmethod.moving.command import solve_point
-from planmethod.moving.reader import load_point, loads_point
+from planmethod.moving.reader import load, loads
 from planmethod.moving.record import record
 
 K11 = sorted((PROBLEMS / "point").glob("k11-*.toml"))
@@ -81,9 +80,7 @@ def python(formula: str) -> Any:
 
 
 def rows(point: str, **more: Any) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = record(loads_point(f"[point]\n{point}", name="p", **more))[
-        "point"
-    ]
+    found: list[dict[str, Any]] = record(loads(f"[point]\n{point}", name="p", **more))["point"]
     return found
 
 
@@ -96,14 +93,14 @@ def agrees(got: dict[str, Any], wanted: dict[str, float], share: float = 1e-12) 
 def test_all_fourteen_are_here() -> None:
     assert [path.stem for path in K11] == [f"k11-{n:02}" for n in range(1, 15)]
     for path in K11:
-        problem = load_point(path)
+        problem = load(path)
         assert problem.title
         assert problem.source
 
 
 @each("number", AT_ZERO)
 def test_the_fourteen_answers(number: int) -> None:
-    (row,) = record(load_point(K11[number - 1]))["point"]
+    (row,) = record(load(K11[number - 1]))["point"]
     vx, vy, ax, ay = AT_ZERO[number]
     v, cross = math.hypot(vx, vy), abs(vx * ay - vy * ax)
     wanted = {"t": 0, "vx": vx, "vy": vy, "v": v, "ax": ax, "ay": ay, "a": math.hypot(ax, ay)}
@@ -120,7 +117,7 @@ def test_the_fourteen_answers(number: int) -> None:
 @each("number", AT_ZERO)
 @pytest.mark.parametrize("at", [0.0, 0.37, 2.5])
 def test_the_fourteen_against_derivatives_of_mpmath(number: int, at: float) -> None:
-    problem = load_point(K11[number - 1])
+    problem = load(K11[number - 1])
     x, y = (problem.formulas[key].text for key in "xy")
     (row,) = rows(f'x = "{x}"\ny = "{y}"\nt = {at}')
     agrees(row, referee(python(x), python(y), at))
@@ -267,8 +264,8 @@ def test_moments_of_all_kinds() -> None:
 def test_a_variant_has_a_law_of_its_own() -> None:
     text = '[point]\nx = "t"\ny = "t^2"\nt = 1\n[published.v]\nvalue = 2.24\nwhat = "v"\n'
     text += '[variants.Б]\npoint.y = "t^3"\n'
-    assert [item.what for item in loads_point(text, name="p").published] == ["v"]
-    other = loads_point(text, name="p", variant="Б")
+    assert [item.what for item in loads(text, name="p").published] == ["v"]
+    other = loads(text, name="p", variant="Б")
     assert other.published == ()
     (row,) = record(other)["point"]
     assert (row["vy"], row["ay"], record(other)["variant"]) == (3, 6, "Б")
@@ -331,7 +328,6 @@ def test_variants_are_solved_one_by_one(tmp_path: Any) -> None:
     told = json.loads(solve(path, "--all-variants", "--json").output)
     assert [(one["variant"], one["point"][0]["t"]) for one in told] == [("A", 2), ("B", 3)]
     assert solve(path, "--all-variants", "--variant", "A").exit_code == ExitCode.USAGE
-    assert list(solve_point(path, "A", all_variants=False, as_json=True, lang="ru"))
     assert solve(path, "--variant", "C").exit_code == ExitCode.PROBLEM
 
 
@@ -339,7 +335,7 @@ def test_variants_are_solved_one_by_one(tmp_path: Any) -> None:
 def test_options_of_linkages_are_refused(option: tuple[str, ...]) -> None:
     run = solve(K11[0], *option)
     assert run.exit_code == ExitCode.USAGE
-    assert "moving point" in run.output
+    assert "k11-01" in run.output
 
 
 def test_a_faulty_point_leaves_the_others_to_be_solved(tmp_path: Any) -> None:

@@ -13,13 +13,14 @@ from typing import Any
 
 import pytest
 from cases import each
+from worked import every_file
 
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
 from planmethod.problem.model import Convention
 from planmethod.problem.selector import FORCES, QUANTITIES, parse_selector
 
 ROOT = Path(__file__).parents[2]
-PROBLEMS = sorted((ROOT / "problems").glob("*/*.toml"))
+PROBLEMS = every_file()
 SCHEMA: dict[str, Any] = json.loads(
     (ROOT / "planmethod" / "problem" / "schema.json").read_text(encoding="utf-8")
 )
@@ -170,6 +171,10 @@ SCHEMA_TABLES = {
     "load": SCHEMA["$defs"]["load"]["properties"],
     "table": SCHEMA["$defs"]["table"]["properties"],
     "phases": SCHEMA["$defs"]["phases"]["properties"],
+    "gears": SCHEMA["$defs"]["gears"]["properties"],
+    "wheel": SCHEMA["$defs"]["gearWheel"]["properties"],
+    "mesh": SCHEMA["$defs"]["gearMesh"]["properties"],
+    "picture": SCHEMA["$defs"]["gears"]["properties"]["picture"]["properties"],
 }
 
 

@@ -12,6 +12,7 @@ from planmethod.note.wording.control_model import ControlWording
 from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
+from planmethod.note.wording.gear_model import GearWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
@@ -43,6 +44,8 @@ class Language:
         The form to fill in, and what cannot be read in works.
     point : PointWording
         The moving point.
+    gears : GearWording
+        Gear trains.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -62,5 +65,6 @@ class Language:
     check: CheckWording
     form: FormWording
     point: PointWording
+    gears: GearWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

@@ -6,6 +6,7 @@ from planmethod.note.wording.en.control import CONTROL
 from planmethod.note.wording.en.forces import FORCES
 from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
+from planmethod.note.wording.en.gears import GEARS
 from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
 from planmethod.note.wording.en.note import NOTE
 from planmethod.note.wording.en.numbers import NOTATION
@@ -29,6 +30,7 @@ LANGUAGE = Language(
     check=CHECK,
     form=FORM,
     point=POINT,
+    gears=GEARS,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

@@ -7,6 +7,7 @@ from planmethod.note.wording.ru.control import CONTROL
 from planmethod.note.wording.ru.forces import FORCES
 from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
+from planmethod.note.wording.ru.gears import GEARS
 from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
 from planmethod.note.wording.ru.note import NOTE
 from planmethod.note.wording.ru.numbers import NOTATION
@@ -29,6 +30,7 @@ LANGUAGE = Language(
     check=CHECK,
     form=FORM,
     point=POINT,
+    gears=GEARS,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

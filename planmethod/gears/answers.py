@@ -1,0 +1,118 @@
+"""Values of what is asked of a solved train (значения искомых величин)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from planmethod.gears.asked import Asked, parse
+from planmethod.gears.conditions import satellites_held
+from planmethod.gears.efficiency import efficiency
+from planmethod.gears.motion import Motion
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The value of a quantity (значение).
+
+    Attributes
+    ----------
+    value : float or None
+        None where it does not exist.
+    exact : Fraction or None
+        Where it is a fraction.
+    reason : str
+        Why there is no value: ``zero``, ``module``, ``rack``, ``satellites``, ``efficiency``.
+    """
+
+    name: str
+    value: float | None
+    exact: Fraction | None = None
+    unit: str = ""
+    reason: str = ""
+    label: str = ""
+
+
+def answer(motion: Motion, name: str) -> Answer:
+    """Return the value of what is asked."""
+    asked = parse(name, tuple(motion.train.body_of))
+    plain = {
+        "W": motion.structure.mobility,
+        "q": motion.structure.spatial,
+    }
+    if asked.kind in plain:
+        return _exact(name, Fraction(plain[asked.kind]))
+    if asked.kind == "U":
+        return _ratio(motion, name, asked)
+    if asked.kind in ("n", "omega", "v"):
+        return _speed(motion, name, asked)
+    if asked.kind == "eta":
+        share = efficiency(motion)
+        return _exact(name, share) if share is not None else _none(name, "efficiency")
+    if asked.kind == "k":
+        body = motion.train.body_of[asked.labels[0]]
+        most = satellites_held(motion, body) if body in motion.train.carriers else None
+        return _exact(name, Fraction(most)) if most is not None else _none(name, "satellites")
+    return _size(motion, name, asked)
+
+
+def _exact(name: str, value: Fraction, unit: str = "") -> Answer:
+    return Answer(name, float(value), value, unit)
+
+
+def _none(name: str, reason: str, label: str = "") -> Answer:
+    return Answer(name, None, reason=reason, label=label)
+
+
+def _ratio(motion: Motion, name: str, asked: Asked) -> Answer:
+    one, other = asked.labels
+    for label in asked.labels:
+        if motion.train.body_of[label] in motion.train.racks:
+            return _none(name, "rack", label)
+    below = motion.speed(other, asked.carrier)
+    if not below:
+        return _none(name, "zero", other)
+    return _exact(name, motion.speed(one, asked.carrier) / below)
+
+
+def _speed(motion: Motion, name: str, asked: Asked) -> Answer:
+    (label,) = asked.labels
+    speed = motion.speed(label, asked.carrier)
+    rack = motion.train.body_of[label] in motion.train.racks
+    if rack != (asked.kind == "v"):
+        return _none(name, "rack", label)
+    if rack:
+        metres = rack_speed(motion, label)
+        return _none(name, "module") if metres is None else Answer(name, metres, None, "m/s")
+    if asked.kind == motion.train.unit:
+        return _exact(name, speed, "1/min" if asked.kind == "n" else "1/s")
+    factor = math.pi / 30 if asked.kind == "omega" else 30 / math.pi
+    return Answer(name, float(speed) * factor, None, "1/s" if asked.kind == "omega" else "1/min")
+
+
+def rack_speed(motion: Motion, label: str) -> float | None:
+    """Return the speed of a rack, m/s; None where the module is not given."""
+    train = motion.train
+    if train.toothed and train.module is None:
+        return None
+    turn = math.pi / 30 if train.unit == "n" else 1.0
+    return float(motion.speed(label) * train.unit_m) * turn
+
+
+def _size(motion: Motion, name: str, asked: Asked) -> Answer:
+    """Return teeth, a radius or a distance of axes, mm."""
+    train, sizes, heights = motion.train, motion.axes.sizes, motion.axes.heights
+    label = asked.labels[0]
+    if asked.kind != "a_w" and label not in sizes:
+        return _none(name, "wheel", label)
+    if asked.kind == "z":
+        return _exact(name, sizes[label]) if train.toothed else _none(name, "teeth")
+    if train.toothed and train.module is None:
+        return _none(name, "module")
+    if asked.kind == "r":
+        return _exact(name, sizes[label] * train.unit_m * 1000, "mm")
+    one, other = (train.body_of[x] for x in asked.labels)
+    if one not in heights or other not in heights:
+        return _none(name, "wheel", label)
+    return _exact(name, abs(heights[one] - heights[other]) * train.unit_m * 1000, "mm")

@@ -1,0 +1,68 @@
+"""What is asked of a train: U_1_5, U_1_4^H, n_5, W and the like (искомые величины)."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from planmethod.problem.names import fold, listed, looks_latin, near, short
+
+PLAIN = ("W", "q")
+"""Names without labels."""
+
+COUNTS = {"U": 2, "n": 1, "omega": 1, "z": 1, "r": 1, "v": 1, "a_w": 2, "k": 1, "eta": 0}
+"""Quantities and how many labels each takes; ``k`` is the largest number of satellites."""
+
+RELATIVE = ("U", "n", "omega")
+"""Those that can be taken relative to a carrier."""
+
+
+class AskedError(ValueError):
+    """What is asked cannot be understood; the message says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """One quantity of a train (искомая величина)."""
+
+    kind: str
+    labels: tuple[str, ...] = ()
+    carrier: str | None = None
+
+
+def parse(text: str, known: Collection[str]) -> Asked:
+    """Parse a name such as ``U_1_4^H``; also ``U_15`` where that is read in one way only.
+
+    Raises
+    ------
+    AskedError
+    """
+    name = text.strip().replace("′", "'").replace("’", "'")
+    name = fold(name) if looks_latin(name) else name
+    if name in PLAIN or name == "eta":
+        return Asked(name)
+    whole, hat, carrier = name.partition("^")
+    kind = next((k for k in COUNTS if whole.startswith(f"{k}_")), None)
+    if kind is None:
+        raise AskedError(f"unknown quantity '{short(text)}'")
+    labels = _labels(whole.removeprefix(f"{kind}_"), COUNTS[kind], known)
+    if hat and kind not in RELATIVE:
+        raise AskedError(f"'{kind}' is not taken relative to a carrier")
+    for label in (*labels, *([carrier] if hat else [])):
+        if label not in known:
+            guess = near(label, known)
+            hint = f"the nearest is '{guess}'" if guess else f"known: {listed(known)}"
+            raise AskedError(f"the train has no '{short(label)}' ({hint})")
+    return Asked(kind, labels, carrier if hat else None)
+
+
+def _labels(text: str, count: int, known: Collection[str]) -> tuple[str, ...]:
+    parts = tuple(text.split("_")) if count else ()
+    if count == 2 and len(parts) == 1:
+        pairs = [(text[:i], text[i:]) for i in range(1, len(text))]
+        found = [pair for pair in pairs if pair[0] in known and pair[1] in known]
+        if len(found) == 1:
+            return found[0]
+    if len(parts) != count:
+        raise AskedError(f"expected {count} labels with _ between them, got '{short(text)}'")
+    return parts

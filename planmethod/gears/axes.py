@@ -1,0 +1,286 @@
+"""Where the axes stand, and the teeth that coaxiality tells (оси, условие соосности)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import product
+
+from planmethod.errors import Fault
+from planmethod.gears.linear import Row, Solved, solve
+from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
+from planmethod.gears.roles import Roles
+
+MOST_CHOSEN = 10
+"""Most meshes between wheels off the main axis: each may be on either side."""
+
+HINT = "Check the teeth, and which wheels share an axis."
+
+
+@dataclass(frozen=True, slots=True)
+class Axes:
+    """Sizes of all wheels and heights of all axes that are at known distances (размеры).
+
+    Attributes
+    ----------
+    sizes : mapping
+        By label: teeth or half modules, metres where no wheel has teeth.
+    heights : mapping
+        By body, from the main axis upwards, in half modules (or metres).
+    axis_of : mapping
+        By body, the body that its axis is called by.
+    """
+
+    sizes: Mapping[str, Fraction]
+    heights: Mapping[str, Fraction]
+    axis_of: Mapping[str, str]
+
+
+@dataclass
+class _Lines:
+    """Bodies by the axis that they turn about; the main one is ``main``."""
+
+    line: dict[str, str]
+    main: str = ""
+    below: set[str] = field(default_factory=set)
+
+    def join(self, bodies: Iterable[str]) -> None:
+        taken = {self.line[body] for body in bodies}
+        if not taken:
+            return
+        name = self.main if self.main in taken else min(taken, key=list(self.line).index)
+        self.line = {b: name if old in taken else old for b, old in self.line.items()}
+        self.main = name if self.main in taken else self.main
+
+
+def find_axes(train: Train, roles: Roles) -> tuple[Axes | None, list[Fault]]:
+    """Find the heights of the axes and the unknown teeth.
+
+    Unknown sizes and heights follow from one linear equation for each mesh; central wheels and
+    their carrier share an axis, and where nothing else is told, a train comes back to the main
+    axis as soon as it can.
+    """
+    lines = _find_lines(train, roles)
+    meshes = [mesh for mesh in train.meshes if mesh.kind in PARALLEL]
+    for mesh in meshes:
+        one, other = train.ends(mesh)
+        if lines.line[one] == lines.line[other]:
+            told = f"{mesh.first} and {mesh.second} mesh, and would turn about one axis"
+            return None, [Fault("gears.meshes", told, HINT)]
+    return _solve(train, lines, meshes)
+
+
+def _find_lines(train: Train, roles: Roles) -> _Lines:
+    lines = _Lines({body: body for body in train.bodies})
+    for carrier, bodies in roles.central.items():
+        lines.join([carrier, *bodies])
+    for group in train.coaxial:
+        lines.join(group)
+    first = train.ends(train.meshes[0])[0]
+    lines.main = lines.line[
+        next(iter(train.carriers), next((b for b in train.bodies if b in train.inputs), first))
+    ]
+    around = {body for bodies in roles.satellites.values() for body in bodies}
+    heights: dict[str, Fraction | None] = {lines.main: Fraction(0)}
+    left = [mesh for mesh in train.meshes if mesh.kind in PARALLEL]
+    while left:
+        mesh = next((m for m in left if any(lines.line[b] in heights for b in train.ends(m))), None)
+        if mesh is None:  # another part, reached through belts or bevels
+            break
+        left.remove(mesh)
+        _place(train, lines, heights, mesh, around)
+    for body in train.inputs:
+        lines.below |= _beside(train, lines, body)
+    return lines
+
+
+def _place(
+    train: Train,
+    lines: _Lines,
+    heights: dict[str, Fraction | None],
+    mesh: Mesh,
+    around: set[str],
+) -> None:
+    """Put the second axis of a mesh on the main one where that may be, else beside the first."""
+    ends = train.ends(mesh)
+    if all(lines.line[body] in heights for body in ends):
+        return
+    start, new = ends if lines.line[ends[0]] in heights else ends[::-1]
+    size, height = _distance(train, mesh), heights[lines.line[start]]
+    at_main = lines.line[start] == lines.main
+    returns = size is None or height is None or abs(height) == size
+    between = any(
+        new in both and other is not mesh and lines.line[start] in {lines.line[b] for b in both}
+        for other in train.meshes
+        for both in [train.ends(other)]
+    )  # an idler between wheels of one axis
+    if returns and not at_main and not between and new not in around:
+        lines.join([lines.main, new])
+        return
+    if size is None or height is None:
+        heights[lines.line[new]] = None
+    else:
+        heights[lines.line[new]] = height + size
+
+
+def _distance(train: Train, mesh: Mesh) -> Fraction | None:
+    one, other = (train.wheels[label].size for label in (mesh.first, mesh.second))
+    if one is None or other is None:
+        return None
+    return one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
+
+
+def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
+    """Axes of the stages before the main axis: they are drawn below it."""
+    if lines.line[body] == lines.main:
+        return set()
+    found = {lines.line[body]}
+    while True:
+        more = {
+            lines.line[b]
+            for mesh in train.meshes
+            if mesh.kind in PARALLEL and found & {lines.line[e] for e in train.ends(mesh)}
+            for b in train.ends(mesh)
+        } - {lines.main}
+        if more <= found:
+            return found
+        found |= more
+
+
+# Equations ---------------------------------------------------------------------------------------
+
+
+def _solve(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[Axes | None, list[Fault]]:
+    chosen = [m for m in meshes if lines.main not in {lines.line[b] for b in train.ends(m)}]
+    if len(chosen) > MOST_CHOSEN:
+        told = f"{len(chosen)} meshes off the main axis, the limit is {MOST_CHOSEN}"
+        return None, [Fault("gears.meshes", told)]
+    unknown = [("z", label) for label in train.unknown]
+    reached = dict.fromkeys(lines.line[b] for mesh in meshes for b in train.ends(mesh))
+    names = [*unknown, *(("h", name) for name in reached if name != lines.main)]
+    best: Fault | None = None
+    for signs in product((1, -1), repeat=len(chosen)):
+        side = dict(zip(chosen, signs, strict=True))
+        rows = [_equation(train, lines, mesh, side.get(mesh)) for mesh in meshes]
+        found = solve(names, rows)
+        fault = _judge(train, found, unknown)
+        if fault is None:
+            axes = _axes(train, lines, found)
+            fault = _positive(train, axes, meshes)
+            if fault is None:
+                return axes, []
+        best = fault if best is None or "coaxial" in best.message else best
+    if best is not None and "coaxial" in best.message:
+        best = _say_why(train, lines, meshes) or best
+    return None, [] if best is None else [best]
+
+
+def _equation(train: Train, lines: _Lines, mesh: Mesh, side: int | None) -> Row[tuple[str, str]]:
+    """Return the height of the second axis over the first: the sum or difference of the sizes."""
+    one, other = train.ends(mesh)
+    coefficients: dict[tuple[str, str], Fraction] = {}
+    right = Fraction(0)
+    for body, sign in ((one, -1), (other, 1)):
+        if lines.line[body] != lines.main:
+            key = ("h", lines.line[body])
+            coefficients[key] = coefficients.get(key, Fraction(0)) + sign
+    if side is None:  # the axis off the main one is above it, or below
+        up = one if lines.line[other] == lines.main else other
+        side = -1 if lines.line[up] in lines.below else 1
+        side = side if up == other else -side
+        out = up
+    else:
+        out = other
+    for label in (mesh.first, mesh.second):
+        sign = side
+        if mesh.kind is MeshKind.INTERNAL and label != _ring_label(train, mesh, out):
+            sign = -side
+        size = train.wheels[label].size
+        if size is None:
+            coefficients["z", label] = coefficients.get(("z", label), Fraction(0)) - sign
+        else:
+            right += sign * size
+    return coefficients, right
+
+
+def _ring_label(train: Train, mesh: Mesh, out: str) -> str:
+    """Return the wheel with internal teeth: the larger, or where that is unknown the central."""
+    one, other = (train.wheels[label].size for label in (mesh.first, mesh.second))
+    if one is not None and other is not None:
+        return mesh.first if one > other else mesh.second
+    return mesh.first if train.ends(mesh)[1] == out else mesh.second
+
+
+def _judge(
+    train: Train, found: Solved[tuple[str, str]], unknown: Sequence[tuple[str, str]]
+) -> Fault | None:
+    if not found.consistent:
+        return Fault("gears.wheels", "the train is not coaxial", HINT)
+    for kind, label in unknown:
+        value = found.values.get((kind, label))
+        if value is None:
+            told = f"coaxiality does not tell the teeth of {label}"
+            return Fault(
+                "gears.unknown", told, 'Say what it is coaxial with: coaxial = [["1","3"]].'
+            )
+        if value <= 0:
+            told = f"coaxiality gives wheel {label} the size {value}"
+            return Fault("gears.unknown", told, HINT)
+        if train.toothed and value.denominator != 1:
+            told = f"coaxiality gives wheel {label} {value} = {float(value):g} teeth, not whole"
+            return Fault("gears.unknown", told, HINT)
+    return None
+
+
+def _axes(train: Train, lines: _Lines, found: Solved[tuple[str, str]]) -> Axes:
+    sizes: dict[str, Fraction] = {}
+    for label, wheel in train.wheels.items():
+        sizes[label] = found.values["z", label] if wheel.size is None else wheel.size
+    heights: dict[str, Fraction] = {}
+    for body, line in lines.line.items():
+        if line == lines.main:
+            heights[body] = Fraction(0)
+        elif ("h", line) in found.values:
+            heights[body] = found.values["h", line]
+    return Axes(sizes, heights, lines.line)
+
+
+def _positive(train: Train, axes: Axes, meshes: Sequence[Mesh]) -> Fault | None:
+    """Check the distances again with the sizes found: a ring is larger than what runs in it."""
+    for mesh in meshes:
+        one, other = axes.sizes[mesh.first], axes.sizes[mesh.second]
+        first, second = train.ends(mesh)
+        apart = axes.heights.get(first, Fraction(0)) - axes.heights.get(second, Fraction(0))
+        if mesh.kind is MeshKind.INTERNAL and one == other:
+            told = f"{mesh.first} and {mesh.second} mesh internally and are of one size"
+            return Fault("gears.meshes", told, HINT)
+        wanted = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
+        known = first in axes.heights and second in axes.heights
+        if known and abs(apart) != wanted:
+            return Fault("gears.wheels", f"the train is not coaxial at {mesh.name}", HINT)
+    return None
+
+
+def _say_why(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> Fault | None:
+    """Name two meshes that put one axis at two heights."""
+    seen: dict[str, tuple[Mesh, Fraction]] = {}
+    for mesh in meshes:
+        names = {lines.line[b] for b in train.ends(mesh)} - {lines.main}
+        size = _distance(train, mesh)
+        if len(names) != 1 or size is None:
+            continue
+        (name,) = names
+        before, height = seen.setdefault(name, (mesh, size))
+        if height != size:
+            told = (
+                f"the train is not coaxial: the axis of {name} is {_shown(height)} from the main "
+                f"axis by the mesh {before.name}, and {_shown(size)} by {mesh.name}"
+            )
+            return Fault("gears.wheels", told, HINT)
+    return None
+
+
+def _shown(size: Fraction) -> str:
+    """Return a distance in half modules."""
+    return str(size) if size.denominator < 1000 else f"{float(size):g}"

@@ -1,0 +1,220 @@
+"""Conditions that a train must meet: coaxiality, assembly, neighbourhood, teeth (условия)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from planmethod.gears.model import PARALLEL, Mesh, MeshKind
+from planmethod.gears.motion import Motion
+from planmethod.note.wording import Language
+
+LEAST_TEETH = 17
+"""Least teeth of a wheel without shift that the rack does not undercut."""
+
+RING_LESS = 8
+"""Least difference of teeth in an internal mesh."""
+
+MOST_SATELLITES = 24
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A condition and whether it holds (условие синтеза).
+
+    Attributes
+    ----------
+    name : str
+        ``coaxiality``, ``assembly``, ``neighbourhood``, ``undercutting``, ``interference``,
+        ``satellites``: words are under it.
+    facts : mapping
+        What its sentence names.
+    """
+
+    name: str
+    holds: bool
+    facts: Mapping[str, str] = field(default_factory=dict)
+
+
+def conditions(motion: Motion) -> tuple[Condition, ...]:
+    """Return the conditions that can be judged of a train."""
+    return (*_coaxial(motion), *_sets(motion), *_teeth(motion))
+
+
+def sentence(condition: Condition, words: Language) -> str:
+    """Return a condition in words."""
+    decimal = words.note.decimal
+    facts = {name: value.replace(".", decimal) for name, value in condition.facts.items()}
+    return words.gears.conditions[condition.name].format(**facts)
+
+
+# Coaxiality --------------------------------------------------------------------------------------
+
+Terms = tuple[tuple[int, str], ...]
+"""A height as a sum of sizes: signs and labels."""
+
+
+def _coaxial(motion: Motion) -> Iterator[Condition]:
+    """Tell each mesh that comes back to an axis already reached: the sums of both ways."""
+    train, axes = motion.train, motion.axes
+    left = [mesh for mesh in train.meshes if mesh.kind in PARALLEL]
+    reached: dict[str, Terms] = {}
+    while left:
+        start = axes.axis_of[train.ends(left[0])[0]]
+        main = next((axes.axis_of[b] for b in axes.heights if not axes.heights[b]), start)
+        reached.setdefault(start if main in reached else main, ())
+        while True:
+            mesh = next(
+                (m for m in left if any(_axis(motion, m, i) in reached for i in (0, 1))), None
+            )
+            if mesh is None:
+                break
+            left.remove(mesh)
+            far = 1 if _axis(motion, mesh, 0) in reached else 0
+            if _axis(motion, mesh, far) in reached and reached[_axis(motion, mesh, far)] == ():
+                far = 1 - far
+            name, before = _axis(motion, mesh, far), reached[_axis(motion, mesh, 1 - far)]
+            terms = (*before, *_step(motion, mesh, far))
+            if name not in reached:
+                reached[name] = terms
+                continue
+            height = axes.heights[train.ends(mesh)[far]]
+            sums = " = ".join(_sum(motion, way, height) for way in (reached[name], terms))
+            facts = {"sums": sums, "axis": name, "value": _shown(abs(height))}
+            yield Condition("coaxiality", True, facts)
+
+
+def _axis(motion: Motion, mesh: Mesh, end: int) -> str:
+    return motion.axes.axis_of[motion.train.ends(mesh)[end]]
+
+
+def _step(motion: Motion, mesh: Mesh, far: int) -> Terms:
+    """Return how much higher the far axis of a mesh is."""
+    ends, heights = motion.train.ends(mesh), motion.axes.heights
+    side = 1 if heights[ends[far]] > heights[ends[1 - far]] else -1
+    one, other = mesh.first, mesh.second
+    if mesh.kind is MeshKind.EXTERNAL:
+        return ((side, one), (side, other)) if far else ((side, other), (side, one))
+    sizes = motion.axes.sizes
+    ring, small = (one, other) if sizes[one] > sizes[other] else (other, one)
+    return (side, ring), (-side, small)
+
+
+def _sum(motion: Motion, terms: Terms, height: Fraction) -> str:
+    """Write a sum of sizes as a positive height: ``z_1 + z_2``."""
+    letter = "z" if motion.train.toothed else "r"
+    turn = -1 if height < 0 else 1
+    parts = [f"{'+' if sign * turn > 0 else '−'} {letter}_{label}" for sign, label in terms]
+    return " ".join(parts).removeprefix("+ ")
+
+
+def _shown(value: Fraction) -> str:
+    return str(value.numerator) if value.denominator == 1 else f"{float(value):g}"
+
+
+# Sets of satellites ------------------------------------------------------------------------------
+
+
+def satellites_held(motion: Motion, carrier: str) -> int | None:
+    """Return the largest number of satellites that can be assembled and do not touch.
+
+    None where the carrier has more than one kind of satellite, or its wheels have no teeth.
+    """
+    found = _set_of(motion, carrier)
+    if found is None:
+        return None
+    whole, size, distance = found
+    counts = range(1, MOST_SATELLITES + 1)
+    fits = [k for k in counts if _assembles(whole, k) and _apart(size, distance, k)]
+    return max(fits, default=None)
+
+
+def _sets(motion: Motion) -> Iterator[Condition]:
+    for carrier in motion.train.carriers:
+        found = _set_of(motion, carrier)
+        if found is None:
+            continue
+        whole, size, distance = found
+        most = satellites_held(motion, carrier)
+        yield Condition(
+            "satellites", most is not None, {"carrier": carrier, "most": str(most or 0)}
+        )
+        count = motion.train.satellites.get(carrier)
+        if count is None:
+            continue
+        said = {"carrier": carrier, "k": str(count)}
+        value = {"value": _shown(whole / count), "whole": _shown(whole)}
+        yield Condition("assembly", _assembles(whole, count), said | value)
+        room = {
+            "left": f"{math.sin(math.pi / count):.4f}",
+            "right": f"{float((size + 2) / distance):.4f}",
+        }
+        yield Condition("neighbourhood", _apart(size, distance, count), said | room)
+
+
+def _set_of(motion: Motion, carrier: str) -> tuple[Fraction, Fraction, Fraction] | None:
+    """Return what k must divide, the largest rim of the satellite, and twice its distance/m."""
+    train, sizes = motion.train, motion.axes.sizes
+    satellites = motion.roles.satellites[carrier]
+    if len(satellites) != 1 or not train.toothed or satellites[0] in motion.roles.across:
+        return None
+    (satellite,) = satellites
+    rims, rows = [], []
+    for mesh in train.meshes:
+        ends = train.ends(mesh)
+        if train.carrier(mesh) != carrier or satellite not in ends:
+            continue
+        if mesh.kind not in (MeshKind.EXTERNAL, MeshKind.INTERNAL):
+            return None
+        own, other = (mesh.first, mesh.second)[:: 1 if ends[0] == satellite else -1]
+        rims.append(sizes[own])
+        sign = 1 if mesh.kind is MeshKind.EXTERNAL else -1
+        rows.append((sizes[own], sign * sizes[other]))
+    distance = abs(motion.axes.heights.get(satellite, Fraction(0)))
+    if len(rows) != 2 or not distance or any(rim.denominator != 1 for rim in rims):
+        return None
+    (own_1, central_1), (own_3, central_3) = rows
+    both = abs(central_1 * own_3 - central_3 * own_1)
+    whole = both / math.gcd(own_1.numerator, own_3.numerator)
+    return whole, max(rims), distance
+
+
+def _assembles(whole: Fraction, count: int) -> bool:
+    return (whole / count).denominator == 1
+
+
+def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
+    """Neighbouring satellites do not touch with their tips, one module high."""
+    return count == 1 or math.sin(math.pi / count) > float((size + 2) / distance)
+
+
+# Teeth -------------------------------------------------------------------------------------------
+
+
+def _teeth(motion: Motion) -> Iterator[Condition]:
+    train, sizes = motion.train, motion.axes.sizes
+    if not train.toothed:
+        return
+    rings: set[str] = set()
+    for mesh in train.meshes:
+        if mesh.kind is MeshKind.INTERNAL:
+            small, ring = sorted((mesh.first, mesh.second), key=lambda label: sizes[label])
+            rings.add(ring)
+            less = sizes[ring] - sizes[small]
+            said = {"ring": ring, "wheel": small, "less": _shown(less), "least": str(RING_LESS)}
+            yield Condition("interference", less >= RING_LESS, said)
+    spur = {
+        label
+        for mesh in train.meshes
+        if mesh.kind in (MeshKind.EXTERNAL, MeshKind.INTERNAL, MeshKind.RACK)
+        for label in (mesh.first, mesh.second)
+    }
+    for label, wheel in train.wheels.items():
+        if label in rings or label not in spur:
+            continue
+        least = LEAST_TEETH * (1 - wheel.shift)
+        if sizes[label] < least:
+            said = {"wheel": label, "z": _shown(sizes[label]), "least": _shown(least)}
+            yield Condition("undercutting", False, said)

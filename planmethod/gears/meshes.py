@@ -1,0 +1,218 @@
+"""Wheels and meshes of a problem file, and which labels are one body (колёса и зацепления)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from planmethod.gears.model import Mesh, MeshKind, Wheel
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    is_number,
+    read_keys,
+    read_length,
+    read_member,
+    read_number,
+    read_table,
+    read_whole,
+    read_word,
+    report_unknown,
+    show,
+)
+from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
+
+WHEEL_LIMIT = 60
+TEETH_LIMIT = 10_000
+_NAME = "A wheel is a number, perhaps with primes, a carrier a letter: 2, 2', H."
+
+
+def fraction(number: float) -> Fraction:
+    """Return a number of a file exactly as it is written there."""
+    return Fraction(repr(number))
+
+
+@dataclass
+class Draft:
+    """What is read so far of a train (черновик)."""
+
+    module: Fraction | None
+    wheels: dict[str, Wheel] = field(default_factory=dict)
+    racks: list[str] = field(default_factory=list)
+    carriers: list[str] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
+    toothed: bool = True
+
+    def labels(self) -> tuple[str, ...]:
+        """All names that stand for a body: wheels, numbers of them, racks, carriers, others."""
+        numbers = [wheel.number for wheel in self.wheels.values()]
+        return tuple(
+            dict.fromkeys([*self.wheels, *numbers, *self.racks, *self.carriers, *self.names])
+        )
+
+    def bodies(self, groups: Sequence[Sequence[str]]) -> dict[str, str]:
+        """Return the body of every label; a body is called by its carrier, or its first label."""
+        body = {label: label.rstrip("'") for label in self.labels()}
+        for group in groups:
+            taken = {body[label] for label in group}
+            for label, old in body.items():
+                if old in taken:
+                    body[label] = body[group[0]]
+        for carrier in self.carriers:
+            old = body[carrier]
+            if old not in self.carriers:
+                body.update({label: carrier for label, name in body.items() if name == old})
+        return body
+
+
+def read_label(
+    faults: Faults, path: str, value: object, known: Sequence[str] | None = None
+) -> str | None:
+    """Read the label of a wheel or a carrier: ``2'``, ``H``, or a whole number."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        value = str(value) if abs(value) < 10**9 else "too many digits"
+    text = fold(value) if isinstance(value, str) and looks_latin(value) else value
+    if isinstance(text, str):
+        text = text.replace("′", "'").replace("’", "'")
+    if not isinstance(text, str) or not is_label(text):
+        faults.add(path, f"expected the label of a wheel, got {show(value)}", _NAME)
+        return None
+    if known is not None and text not in known:
+        report_unknown(faults, path, text, known, noun="wheel")
+        return None
+    return text
+
+
+def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[str, ...]:
+    """Read a list of labels."""
+    if not isinstance(value, list) or len(value) > limit:
+        faults.add(path, f"expected a list of labels, got {show(value)}", 'For example: ["3"]')
+        return ()
+    found = [read_label(faults, f"{path}[{i}]", label) for i, label in enumerate(value)]
+    return tuple(dict.fromkeys(label for label in found if label is not None))
+
+
+def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Draft) -> None:
+    """Read ``wheels``: teeth by label, or a table."""
+    table = read_table(faults, "gears.wheels", value, "wheels = { 1 = 20, 2 = 36 }") or {}
+    if len(table) > WHEEL_LIMIT:
+        faults.add("gears.wheels", f"{len(table)} wheels, the limit is {WHEEL_LIMIT}")
+        return
+    bodies = [entry for entry in table.values() if isinstance(entry, dict)]
+    draft.toothed = not (bodies and len(bodies) == len(table) and all("r" in b for b in bodies))
+    for key, entry in table.items():
+        path = joined("gears.wheels", segment(key))
+        label = read_label(faults, path, key)
+        if label is None:
+            continue
+        if label in draft.wheels:
+            faults.add(path, f"wheel {label} is given twice")
+        wheel = _read_wheel(faults, path, label, entry, draft)
+        if label in unknown:
+            if wheel.size is not None:
+                faults.add(path, f"wheel {label} has a size, and is listed in unknown")
+        elif wheel.size is None:
+            hint = "Give its teeth, or list it in unknown."
+            faults.add(path, f"wheel {label} has no teeth", hint)
+        draft.wheels[label] = wheel
+    for label in unknown:
+        draft.wheels.setdefault(label, Wheel(label, None))
+
+
+def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Draft) -> Wheel:
+    if is_number(entry):
+        teeth = read_whole(faults, path, entry, 1, TEETH_LIMIT)
+        return Wheel(label, Fraction(teeth or 1))
+    table = read_table(faults, path, entry, "{ r = 0.07 }") or {}
+    given = read_keys(faults, path, table, keys.WHEEL)
+    size: Fraction | None = None
+    if "z" in given and "r" in given:
+        faults.add(path, "z and r are both given", "Keep one of them.")
+    elif "z" in given:
+        size = Fraction(read_whole(faults, f"{path}.z", given["z"], 1, TEETH_LIMIT) or 1)
+    elif "r" in given:
+        radius = read_length(faults, f"{path}.r", given["r"])
+        size = Fraction(1) if radius is None else fraction(radius)
+        if draft.toothed and draft.module is None:
+            hint = "Give module = ... (mm), or every wheel by its radius."
+            faults.add(f"{path}.r", "a radius beside teeth needs the module", hint)
+        elif draft.toothed and draft.module is not None:
+            size = 2 * size / draft.module
+    shift = read_number(faults, f"{path}.x", given.get("x", 0), "a shift", low=-5, high=5)
+    return Wheel(label, size, fraction(shift or 0.0), _read_axis(faults, path, given.get("axis")))
+
+
+def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, float] | None:
+    if value is None:
+        return None
+    numbers = value if isinstance(value, list) else []
+    if len(numbers) != 3 or not all(is_number(n) and abs(n) <= 1e6 for n in numbers):
+        faults.add(f"{path}.axis", f"expected [x, y, z], got {show(value)}")
+        return None
+    x, y, z = map(float, numbers)
+    if not any((x, y, z)):
+        faults.add(f"{path}.axis", "the axis has no direction")
+        return None
+    return x, y, z
+
+
+def read_meshes(faults: Faults, value: object, draft: Draft) -> tuple[Mesh, ...]:
+    """Read ``meshes``: pairs of wheels with what kind they are and who carries their axes."""
+    example = '{ of = [1, 2], kind = "external" }'
+    if not isinstance(value, list) or not 1 <= len(value) <= WHEEL_LIMIT:
+        told = f"expected 1 to {WHEEL_LIMIT} meshes, got {show(value)}"
+        faults.add("gears.meshes", told, f"For example: [{example}]")
+        return ()
+    found: list[Mesh] = []
+    for index, entry in enumerate(value):
+        path = f"gears.meshes[{index}]"
+        table = read_table(faults, path, entry, example)
+        mesh = None if table is None else _read_mesh(faults, path, table, draft)
+        if mesh is not None:
+            if {mesh.first, mesh.second} in [{m.first, m.second} for m in found]:
+                faults.add(path, f"the mesh {mesh.name} is given twice")
+            found.append(mesh)
+    meshing = {label for mesh in found for label in (mesh.first, mesh.second)}
+    for label in draft.wheels:
+        if label not in meshing and len(found) == len(value):
+            faults.add(f"gears.wheels.{segment(label)}", f"wheel {label} meshes with none")
+    return tuple(found)
+
+
+def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | None:
+    given = read_keys(faults, path, table, keys.MESH)
+    of = given.get("of")
+    if not isinstance(of, list) or len(of) != 2:
+        faults.add(f"{path}.of", f"expected two wheels, got {show(of)}", "For example: [1, 2]")
+        return None
+    kind = read_member(faults, f"{path}.kind", given.get("kind", "external"), MeshKind)
+    rack = kind is MeshKind.RACK
+    wheels = tuple(draft.wheels)
+    first = read_label(faults, f"{path}.of[0]", of[0], wheels)
+    second = read_label(faults, f"{path}.of[1]", of[1], None if rack else wheels)
+    carrier = None
+    if "carrier" in given:
+        carrier = read_label(faults, f"{path}.carrier", given["carrier"])
+    eta = None
+    if "eta" in given:
+        eta = read_number(
+            faults, f"{path}.eta", given["eta"], "an efficiency", low=0.01, high=1, hint="0.98"
+        )
+    hand = read_word(faults, f"{path}.hand", given.get("hand", "right"), ("right", "left"))
+    if None in (kind, first, second, hand) or first is None or second is None or kind is None:
+        return None
+    if first.rstrip("'") == second.rstrip("'"):
+        faults.add(f"{path}.of", f"{first} and {second} are one body, and mesh with each other")
+        return None
+    if rack:
+        if second in wheels:
+            hint = "The second of a rack is the rack; it has no teeth to count."
+            faults.add(f"{path}.of[1]", f"{second} is a wheel", hint)
+        elif second not in draft.racks:
+            draft.racks.append(second)
+    if carrier is not None and carrier not in draft.carriers:
+        draft.carriers.append(carrier)
+    loss = None if eta is None else fraction(eta)
+    return Mesh(first, second, kind, carrier, loss, hand == "left")

@@ -1,0 +1,171 @@
+"""A gear train as a problem file states it: wheels, meshes, what turns together (модель)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+
+from planmethod.problem.model import Published
+
+
+class MeshKind(Enum):
+    """How two wheels drive each other (вид передачи)."""
+
+    EXTERNAL = "external"
+    INTERNAL = "internal"
+    BEVEL = "bevel"
+    RACK = "rack"
+    BELT = "belt"
+    CROSSED = "crossed belt"
+    CHAIN = "chain"
+    WORM = "worm"
+
+
+PARALLEL = (MeshKind.EXTERNAL, MeshKind.INTERNAL)
+"""Meshes whose axes are parallel and at a distance that the wheels give."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wheel:
+    """A rim of teeth on a body (зубчатый венец).
+
+    Attributes
+    ----------
+    size : Fraction or None
+        Number of teeth, or the radius in half modules (in metres where no wheel has teeth); None
+        where coaxiality is to tell it.
+    shift : Fraction
+        Shift x of the rack that cuts it, in modules.
+    axis : tuple of float or None
+        Of a bevel wheel: direction of its axis from the apex towards the wheel.
+    """
+
+    label: str
+    size: Fraction | None
+    shift: Fraction = Fraction(0)
+    axis: tuple[float, float, float] | None = None
+
+    @property
+    def number(self) -> str:
+        """The label without primes: rims of one number are one body."""
+        return self.label.rstrip("'")
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Two wheels in mesh (зацепление).
+
+    Attributes
+    ----------
+    first, second : str
+        Labels of the wheels; of a rack the second is the rack.
+    carrier : str or None
+        Body that carries the axes; None for the frame.
+    eta : Fraction or None
+        Efficiency of the stage.
+    left : bool
+        The worm is left-handed.
+    """
+
+    first: str
+    second: str
+    kind: MeshKind
+    carrier: str | None = None
+    eta: Fraction | None = None
+    left: bool = False
+
+    @property
+    def name(self) -> str:
+        """As the picture calls it: ``2'-3``."""
+        return f"{self.first}-{self.second}"
+
+
+@dataclass(frozen=True, slots=True)
+class PictureSettings:
+    """Scales of the pictures of velocities (масштабы картин скоростей).
+
+    Attributes
+    ----------
+    mu_l : Fraction, m/mm
+    longest_mm : Fraction, mm
+        Longest segment of the picture of linear velocities.
+    pole_mm : Fraction, mm
+        Distance of the pole of the rays.
+    """
+
+    mu_l: Fraction = Fraction(1, 1000)
+    longest_mm: Fraction = Fraction(60)
+    pole_mm: Fraction = Fraction(40)
+
+
+@dataclass(frozen=True, slots=True)
+class Train:
+    """A gear train (зубчатый механизм).
+
+    Attributes
+    ----------
+    body_of : mapping
+        Body of every label, carrier and number; a body is called by its carrier, or first label.
+    bodies : tuple of str
+        All bodies, in file order.
+    racks : frozenset of str
+        Bodies that move straight.
+    inputs : mapping
+        Speeds of bodies, in `unit`.
+    unit : str
+        ``n`` for rev/min, ``omega`` for 1/s.
+    module : Fraction or None, m
+    toothed : bool
+        Sizes are teeth (or half modules), not metres.
+    satellites : mapping
+        Number of satellites on a carrier, by carrier.
+    """
+
+    wheels: Mapping[str, Wheel]
+    meshes: tuple[Mesh, ...]
+    body_of: Mapping[str, str]
+    bodies: tuple[str, ...]
+    carriers: tuple[str, ...]
+    racks: frozenset[str]
+    fixed: frozenset[str]
+    inputs: Mapping[str, Fraction]
+    unit: str
+    module: Fraction | None
+    toothed: bool
+    unknown: tuple[str, ...]
+    coaxial: tuple[tuple[str, ...], ...]
+    satellites: Mapping[str, int]
+    output: str | None
+    ask: tuple[str, ...]
+    picture: PictureSettings
+
+    @property
+    def unit_m(self) -> Fraction:
+        """Metres of a unit of size; without a module, that of 2 mm stands for any."""
+        if not self.toothed:
+            return Fraction(1)
+        return Fraction(1, 1000) if self.module is None else self.module / 2
+
+    def ends(self, mesh: Mesh) -> tuple[str, str]:
+        """Bodies of the two wheels of a mesh."""
+        return self.body_of[mesh.first], self.body_of[mesh.second]
+
+    def carrier(self, mesh: Mesh) -> str | None:
+        """Body that carries the axes of a mesh."""
+        return None if mesh.carrier is None else self.body_of[mesh.carrier]
+
+
+@dataclass(frozen=True, slots=True)
+class GearProblem:
+    """A problem of a gear train, with what all kinds of problem have (задача о передаче)."""
+
+    name: str
+    source_file: str
+    title: str
+    source: str
+    stamp: Mapping[str, str]
+    train: Train
+    published: tuple[Published, ...]
+    variant: str | None = None

@@ -1,0 +1,180 @@
+"""Speeds of all bodies from the mesh equations, mobility and kind (частоты вращения)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.gears.axes import Axes, find_axes
+from planmethod.gears.linear import Row, solve
+from planmethod.gears.model import GearProblem, Mesh, MeshKind, Train
+from planmethod.gears.roles import Roles, find_roles
+
+
+class TrainKind(Enum):
+    """What a train is called (вид зубчатого механизма)."""
+
+    ORDINARY = "ordinary"
+    PLANETARY = "planetary"
+    DIFFERENTIAL = "differential"
+    CLOSED = "closed differential"
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """Mobility of a train, counted with one satellite of each set (структура).
+
+    Attributes
+    ----------
+    moving, lower, higher : int
+        Moving bodies, lower and higher pairs; a belt or a chain couples as a higher pair does.
+    mobility : int
+        Free speeds that the mesh equations leave.
+    """
+
+    kind: TrainKind
+    moving: int
+    lower: int
+    higher: int
+    mobility: int
+
+    @property
+    def formula(self) -> int:
+        """W by the formula of Chebyshev."""
+        return 3 * self.moving - 2 * self.lower - self.higher
+
+    @property
+    def redundant(self) -> int:
+        """Constraints that repeat others in the plane: mobility less that formula."""
+        return self.mobility - self.formula
+
+    @property
+    def spatial(self) -> int:
+        """Constraints that repeat others in space, teeth touching along lines."""
+        return self.mobility - (6 * self.moving - 5 * self.lower - 2 * self.higher)
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A solved train (решённый механизм).
+
+    Attributes
+    ----------
+    speeds : mapping
+        By body, in the unit of the inputs; of a rack its speed in sizes per turn unit.
+    """
+
+    train: Train
+    roles: Roles
+    axes: Axes
+    structure: Structure
+    speeds: Mapping[str, Fraction]
+
+    def speed(self, label: str, carrier: str | None = None) -> Fraction:
+        """Speed of a label's body, or relative to a carrier."""
+        body = self.train.body_of[label]
+        if carrier is None or body in self.roles.across:
+            return self.speeds[body]
+        return self.speeds[body] - self.speeds[self.train.body_of[carrier]]
+
+
+def analyse(problem: GearProblem) -> tuple[Roles, Axes, Structure]:
+    """Find roles, axes and mobility of a train; its inputs are not looked at.
+
+    Raises
+    ------
+    ProblemError
+        The train is not coaxial, teeth are not whole, or nothing can move.
+    """
+    train = problem.train
+    roles, faults = find_roles(train)
+    axes, more = (None, []) if faults else find_axes(train, roles)
+    if axes is None:
+        raise ProblemError(problem.source_file, [*faults, *more])
+    moving = [body for body in train.bodies if body not in train.fixed]
+    rank = solve(moving, _rows(train, roles, axes)).rank
+    mobility = len(moving) - rank
+    if mobility < 1:
+        told = f"nothing can move: {len(moving)} moving bodies, {rank} independent meshes"
+        raise ProblemError(problem.source_file, [Fault("gears.fixed", told, "Free a body.")])
+    structure = Structure(
+        _kind(train, roles, mobility), len(moving), len(moving), len(train.meshes), mobility
+    )
+    return roles, axes, structure
+
+
+def solve_motion(problem: GearProblem) -> Motion:
+    """Find the speed of every body.
+
+    Raises
+    ------
+    ProblemError
+        As `analyse`, and where inputs are too few, too many, or contradict each other.
+    """
+    roles, axes, structure = analyse(problem)
+    train = problem.train
+    given = {body: speed for body, speed in train.inputs.items() if body not in train.fixed}
+    path, count = f"gears.{train.unit}", structure.mobility
+    if len(given) > count:
+        told = f"over-determined: W = {count}, and {len(given)} speeds are given"
+        raise ProblemError(problem.source_file, [Fault(path, told, f"Keep {count}.")])
+    moving = [body for body in train.bodies if body not in train.fixed]
+    rows = _rows(train, roles, axes)
+    rows += [({body: Fraction(1)}, speed) for body, speed in given.items()]
+    found = solve(moving, rows)
+    if not found.consistent:
+        told = "over-determined: the speeds given contradict each other"
+        raise ProblemError(problem.source_file, [Fault(path, told, "Give others.")])
+    if found.free:
+        told = f"undetermined: W = {count}, and {len(given)} speeds are given; "
+        told += f"the speed of {found.free[0]} does not follow"
+        hint = "For ratios alone, give one wheel the speed 1: n = { 1 = 1 }."
+        raise ProblemError(problem.source_file, [Fault(path, told, hint)])
+    zero = dict.fromkeys(train.fixed, Fraction(0))
+    return Motion(train, roles, axes, structure, {**found.values, **zero})
+
+
+def mesh_row(train: Train, roles: Roles, axes: Axes, mesh: Mesh) -> dict[str, Fraction]:
+    """Coefficients of the speeds in the equation of a mesh, seen from its carrier.
+
+    ``(w_a - w_c) z_a + (w_b - w_c) z_b = 0`` for an external mesh.
+    """
+    one, other = train.ends(mesh)
+    first = axes.sizes[mesh.first]
+    second = Fraction(1) if mesh.kind is MeshKind.RACK else axes.sizes[mesh.second]
+    sign = {MeshKind.EXTERNAL: 1, MeshKind.CROSSED: 1, MeshKind.BEVEL: 0}.get(mesh.kind, -1)
+    if mesh.kind is MeshKind.WORM and mesh.left:
+        sign = 1
+    if mesh.kind is MeshKind.BEVEL:
+        sign = -roles.senses[mesh]
+    row = {one: first, other: sign * second}
+    carrier = train.carrier(mesh)
+    if carrier is not None:
+        own = sum((row[body] for body in (one, other) if body not in roles.across), Fraction(0))
+        row[carrier] = row.get(carrier, Fraction(0)) - own
+    return row
+
+
+def _rows(train: Train, roles: Roles, axes: Axes) -> list[Row[str]]:
+    """Equations of the meshes in the speeds of the moving bodies."""
+    return [
+        (
+            {b: v for b, v in mesh_row(train, roles, axes, m).items() if b not in train.fixed},
+            Fraction(0),
+        )
+        for m in train.meshes
+    ]
+
+
+def _kind(train: Train, roles: Roles, mobility: int) -> TrainKind:
+    """Tell the kind as the textbook does: a fixed central wheel, W, what is closed."""
+    turning = [carrier for carrier in train.carriers if carrier not in train.fixed]
+    if not turning:
+        return TrainKind.ORDINARY
+    if mobility > 1:
+        return TrainKind.DIFFERENTIAL
+    held = [any(body in train.fixed for body in roles.central[c]) for c in turning]
+    return TrainKind.PLANETARY if all(held) else TrainKind.CLOSED

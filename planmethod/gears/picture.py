@@ -1,0 +1,88 @@
+"""Pictures of velocities: contact points and rays, exactly (картины скоростей).
+
+Heights are from the main axis upwards, segments are positive to the right: v_x = -omega y. The ray
+of a body is parallel to its line, at the pole distance from which segments of speeds are read.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from planmethod.gears.model import PARALLEL, MeshKind
+from planmethod.gears.motion import Motion
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A point of the picture of linear velocities (точка картины): its height and segment, mm."""
+
+    name: str
+    height_mm: Fraction
+    speed_mm: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """Both pictures (картины линейных и угловых скоростей).
+
+    Attributes
+    ----------
+    mu_l : Fraction, m/mm
+    speed_per_mm : Fraction
+        Speed times height of a millimetre: unit of the speeds times metre. ``mu_v`` follows.
+    rays : tuple of (label, segment)
+        Positive for bodies that turn counter-clockwise.
+    """
+
+    mu_l: Fraction
+    speed_per_mm: Fraction
+    contacts: tuple[Contact, ...]
+    rays: tuple[tuple[str, Fraction], ...]
+
+
+def draw(motion: Motion) -> Picture | None:
+    """Return the pictures; None where axes are not parallel at known distances, or all stand."""
+    train, axes = motion.train, motion.axes
+    bodies = {body for mesh in train.meshes for body in train.ends(mesh)}
+    if any(mesh.kind not in PARALLEL for mesh in train.meshes) or not bodies <= set(axes.heights):
+        return None
+    settings = train.picture
+    points: list[tuple[str, Fraction, Fraction]] = []
+    for mesh in train.meshes:
+        one, other = train.ends(mesh)
+        up = 1 if axes.heights[other] > axes.heights[one] else -1
+        if mesh.kind is MeshKind.INTERNAL and axes.sizes[mesh.first] < axes.sizes[mesh.second]:
+            up = -up
+        height = axes.heights[one] + up * axes.sizes[mesh.first]
+        points.append((f"pitch {mesh.name}", height, _at(motion, one, height)))
+    for body, height in axes.heights.items():
+        if height and body in bodies:
+            speed = _of_axis(motion, body)
+            points.append((f"axis {body}", height, speed))
+    most = max(abs(speed) for _, _, speed in points)
+    if not most:
+        return None
+    mm = train.unit_m / settings.mu_l
+    scale = settings.longest_mm / most
+    contacts = tuple(Contact(name, height * mm, speed * scale) for name, height, speed in points)
+    labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
+    per = settings.pole_mm * scale / mm
+    rays = tuple((label, motion.speed(label) * per) for label in labels)
+    return Picture(settings.mu_l, train.unit_m / scale, contacts, rays)
+
+
+def _at(motion: Motion, body: str, height: Fraction) -> Fraction:
+    """Speed to the right of a body's point at a height of the line of centres."""
+    centre = motion.axes.heights[body]
+    return _of_axis(motion, body) - motion.speeds[body] * (height - centre)
+
+
+def _of_axis(motion: Motion, body: str) -> Fraction:
+    """Speed to the right of a body's axis: that of its carrier there."""
+    train, heights = motion.train, motion.axes.heights
+    for mesh in train.meshes:
+        carrier = train.carrier(mesh)
+        if carrier is not None and body in train.ends(mesh):
+            return -motion.speeds[carrier] * (heights[body] - heights[carrier])
+    return Fraction(0)

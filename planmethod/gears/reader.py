@@ -1,0 +1,244 @@
+"""Read a problem of a gear train: every fault at once (чтение файла задачи)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from planmethod.errors import ProblemError
+from planmethod.gears.asked import AskedError, parse
+from planmethod.gears.meshes import (
+    Draft,
+    fraction,
+    read_label,
+    read_labels,
+    read_meshes,
+    read_wheels,
+)
+from planmethod.gears.model import GearProblem, PictureSettings, Train
+from planmethod.problem import keys
+from planmethod.problem.extras import NOTE_LIMIT, read_heading
+from planmethod.problem.fields import (
+    Faults,
+    read_keys,
+    read_number,
+    read_table,
+    read_text,
+    read_whole,
+    report_unknown,
+    show,
+)
+from planmethod.problem.model import Published
+from planmethod.problem.names import fold, is_label, joined, segment
+from planmethod.problem.reader import varied
+from planmethod.problem.sheet import read_stamp
+
+ASK_LIMIT = 100
+GROUP_LIMIT = 60
+TOP = ("title", "source", "stamp", "sheet", "published", "variants", "gears")
+"""Tables of the file that a gear train may have."""
+
+
+def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
+    """Read a file with ``[gears]``.
+
+    Raises
+    ------
+    ProblemError
+        With every fault of the file: path, what was expected, what was found, the next action.
+    """
+    path = Path(path)
+    table, faults = varied(path, variant)
+    given = read_keys(faults, "", table, TOP)
+    title, source = (read_heading(faults, given, key) for key in ("title", "source"))
+    stamp = read_stamp(faults, given.get("stamp", {}))
+    body = read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
+    train = None if body is None else _read_train(faults, body)
+    published = _read_published(faults, given.get("published", {}), train)
+    if faults or train is None:
+        raise ProblemError(str(path), faults.found)
+    return GearProblem(
+        path.stem, str(path), title, source, stamp, train, published, variant=variant
+    )
+
+
+def _read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
+    given = read_keys(faults, "gears", table, keys.GEARS)
+    module = None
+    if "module" in given:
+        told = read_number(
+            faults, "gears.module", given["module"], "a module in mm", low=0.01, high=1000
+        )
+        module = None if told is None else fraction(told) / 1000
+    draft = Draft(module)
+    for key, example in (("wheels", "{ 1 = 20, 2 = 36 }"), ("meshes", "[{ of = [1, 2] }]")):
+        if key not in given:
+            faults.add(f"gears.{key}", "missing", f"For example: {key} = {example}")
+    unknown = read_labels(faults, "gears.unknown", given.get("unknown", []), GROUP_LIMIT)
+    read_wheels(faults, given.get("wheels", {}), unknown, draft)
+    meshes = read_meshes(faults, given.get("meshes", []), draft)
+    told_bodies = given.get("bodies", [])
+    draft.names = _further_names(told_bodies)
+    known = draft.labels()
+    groups = _read_groups(faults, "gears.bodies", told_bodies, known)
+    coaxial = _read_groups(faults, "gears.coaxial", given.get("coaxial", []), known)
+    body_of = draft.bodies(groups)
+    fixed = _known(faults, "gears.fixed", given.get("fixed", []), known)
+    unit, inputs = _read_inputs(faults, given, known)
+    for label in fixed:
+        if body_of.get(label) in {body_of.get(name) for name, speed in inputs.items() if speed}:
+            faults.add("gears.fixed", f"{label} is fixed, and a speed of it is given")
+    satellites = _read_satellites(faults, given.get("satellites", {}), draft)
+    output = None
+    if "output" in given:
+        output = read_label(faults, "gears.output", given["output"], known)
+    picture = _read_picture(faults, given.get("picture", {}))
+    ask = _read_ask(faults, given.get("ask", []), known)
+    if faults:
+        return None
+    speeds: dict[str, Fraction] = {}
+    for label, speed in inputs.items():
+        if speeds.setdefault(body_of[label], speed) != speed:
+            faults.add(f"gears.{unit}", f"{label} is given another speed than its own body")
+    return Train(
+        wheels=draft.wheels,
+        meshes=meshes,
+        body_of=body_of,
+        bodies=tuple(dict.fromkeys(body_of.values())),
+        carriers=tuple(dict.fromkeys(body_of[c] for c in draft.carriers)),
+        racks=frozenset(body_of[rack] for rack in draft.racks),
+        fixed=frozenset(body_of[label] for label in fixed),
+        inputs=speeds,
+        unit=unit,
+        module=module,
+        toothed=draft.toothed,
+        unknown=unknown,
+        coaxial=tuple(tuple(body_of[label] for label in group) for group in coaxial),
+        satellites={body_of[c]: k for c, k in satellites.items()},
+        output=None if output is None else body_of[output],
+        ask=ask,
+        picture=picture,
+    )
+
+
+def _known(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> tuple[str, ...]:
+    found = read_labels(faults, path, value, GROUP_LIMIT)
+    for index, label in enumerate(found):
+        if label not in known:
+            report_unknown(faults, f"{path}[{index}]", label, known, noun="wheel")
+    return tuple(label for label in found if label in known)
+
+
+def _further_names(value: object) -> list[str]:
+    """Return letters that only ``bodies`` has: a shaft or a carrier with a name of its own."""
+    groups = (
+        [group for group in value if isinstance(group, list)] if isinstance(value, list) else []
+    )
+    names = [name for group in groups[:GROUP_LIMIT] for name in group[:GROUP_LIMIT]]
+    kept = [fold(name) for name in names if isinstance(name, str) and is_label(fold(name))]
+    return [name for name in dict.fromkeys(kept) if name[0].isalpha()]
+
+
+def _read_groups(
+    faults: Faults, path: str, value: object, known: tuple[str, ...]
+) -> list[tuple[str, ...]]:
+    if not isinstance(value, list) or len(value) > GROUP_LIMIT:
+        faults.add(path, f"expected a list of lists, got {show(value)}", '[["3", "H"]]')
+        return []
+    return [_known(faults, f"{path}[{i}]", group, known) for i, group in enumerate(value)]
+
+
+def _read_inputs(
+    faults: Faults, given: Mapping[str, Any], known: tuple[str, ...]
+) -> tuple[str, dict[str, Fraction]]:
+    if "n" in given and "omega" in given:
+        faults.add("gears.omega", "n and omega are both given", "Keep one of them.")
+    unit = "omega" if "omega" in given else "n"
+    found: dict[str, Fraction] = {}
+    table = read_table(faults, f"gears.{unit}", given.get(unit, {}), "n = { 1 = 2400 }") or {}
+    for key, value in table.items():
+        path = joined("gears", unit, segment(key))
+        label = read_label(faults, path, key, known)
+        speed = read_number(faults, path, value, "a speed", low=-1e6, high=1e6)
+        if label is not None and speed is not None:
+            found[label] = fraction(speed)
+    return unit, found
+
+
+def _read_satellites(faults: Faults, value: object, draft: Draft) -> dict[str, int]:
+    """Read the number of satellites: of every carrier alike, or by carrier."""
+    carriers = tuple(draft.carriers)
+    if not isinstance(value, Mapping):
+        count = read_whole(faults, "gears.satellites", value, 1, 100)
+        return {} if count is None else dict.fromkeys(carriers, count)
+    found: dict[str, int] = {}
+    for key, number in value.items():
+        path = joined("gears.satellites", segment(key))
+        label = read_label(faults, path, key, carriers)
+        count = read_whole(faults, path, number, 1, 100)
+        if label is not None and count is not None:
+            found[label] = count
+    return found
+
+
+def _read_picture(faults: Faults, value: object) -> PictureSettings:
+    table = read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
+    told: dict[str, Fraction] = {}
+    for key, number in read_keys(faults, "gears.picture", table, keys.PICTURE).items():
+        what = "a scale in m/mm" if key == "mu_l" else "a length in mm"
+        low, high = (1e-9, 1e6) if key == "mu_l" else (1.0, 1e4)
+        found = read_number(faults, f"gears.picture.{key}", number, what, low=low, high=high)
+        if found is not None:
+            told[key] = fraction(found)
+    return PictureSettings(**told)
+
+
+def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[str, ...]:
+    if not isinstance(value, list) or len(value) > ASK_LIMIT:
+        faults.add("gears.ask", f"expected a list of names, got {show(value)}", '["U_1_5", "n_5"]')
+        return ()
+    found: list[str] = []
+    for index, name in enumerate(value):
+        text = read_text(faults, f"gears.ask[{index}]", name, limit=80)
+        if text is not None and _can_be_asked(faults, f"gears.ask[{index}]", text, known):
+            found.append(text)
+    return tuple(found)
+
+
+def _can_be_asked(faults: Faults, path: str, text: str, known: tuple[str, ...]) -> bool:
+    try:
+        parse(text, known)
+    except AskedError as error:
+        faults.add(path, str(error), "For example: W, U_1_5, U_1_4^H, n_5, omega_H, z_5, a_w_1_2.")
+        return False
+    return True
+
+
+def _read_published(faults: Faults, value: object, train: Train | None) -> tuple[Published, ...]:
+    """Read what the source prints; ``what`` is a name that can be asked."""
+    entries = read_table(faults, "published", value, '[published."n_5"] value = -375') or {}
+    if len(entries) > keys.PUBLISHED_LIMIT:
+        faults.add("published", f"{len(entries)} values, the limit is {keys.PUBLISHED_LIMIT}")
+        return ()
+    found: list[Published] = []
+    for name, entry in entries.items():
+        path = f"published.{segment(name)}"
+        body = read_table(faults, path, entry, 'value = -375, what = "n_5"')
+        if read_text(faults, path, name, limit=80) is None or body is None:
+            continue
+        given = read_keys(faults, path, body, ("value", "unit", "what", "note"))
+        number = read_number(
+            faults, f"{path}.value", given.get("value"), "a number", low=-1e12, high=1e12
+        )
+        unit, what, note = (
+            read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
+            for key in ("unit", "what", "note")
+        )
+        what = what or name
+        if train is not None:
+            _can_be_asked(faults, f"{path}.what", what, tuple(train.body_of))
+        if number is not None:
+            found.append(Published(name, number, unit=unit, what=what, note=note))
+    return tuple(found)

@@ -1,0 +1,165 @@
+"""What JSON says of a train (запись для JSON)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from planmethod.gears.answers import Answer, answer, rack_speed
+from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.model import GearProblem
+from planmethod.gears.motion import Motion, analyse, solve_motion
+from planmethod.gears.picture import draw
+from planmethod.note.wording import language
+
+
+def record(problem: GearProblem, lang: str) -> dict[str, Any]:
+    """Return one object for a problem: floats, and exact fractions as ``-375/1``.
+
+    Raises
+    ------
+    ProblemError
+        The train cannot be, or its inputs do not fit.
+    """
+    motion = solve_motion(problem)
+    words = language(lang).gears
+    train = motion.train
+    sizes = {label: _number(size) for label, size in motion.axes.sizes.items()}
+    told: dict[str, Any] = {
+        "mobility": motion.structure.mobility,
+        "kind": motion.structure.kind.value,
+        "redundant": motion.structure.spatial,
+        "teeth": sizes if train.toothed else {},
+        "radii_m": {} if train.toothed else sizes,
+        "unit": "1/min" if train.unit == "n" else "1/s",
+        "bodies": {label: _body(motion, label) for label in train.body_of},
+        "asked": {name: _answer(answer(motion, name), words.reasons) for name in train.ask},
+        "conditions": [
+            {
+                "name": one.name,
+                "holds": one.holds,
+                "text": sentence(one, language(lang)),
+            }
+            for one in conditions(motion)
+        ],
+        "picture": _picture(motion),
+    }
+    if told["picture"] is None:
+        told["picture_reason"] = words.no_picture
+    told["published"] = [
+        {"name": one.name, "printed": one.value, "note": one.note, "unit": one.unit}
+        | _answer(answer(motion, one.what), words.reasons)
+        for one in problem.published
+    ]
+    return {**_head(problem), "gears": told}
+
+
+def structure_record(problem: GearProblem) -> dict[str, Any]:
+    """Return the structure of a train.
+
+    Raises
+    ------
+    ProblemError
+    """
+    roles, _, found = analyse(problem)
+    told = {
+        "kind": found.kind.value,
+        "mobility": found.mobility,
+        "moving_links": found.moving,
+        "lower_pairs": found.lower,
+        "higher_pairs": found.higher,
+        "chebyshev": found.formula,
+        "redundant_in_plane": found.redundant,
+        "redundant": found.spatial,
+        "carriers": {
+            carrier: {
+                "central": list(roles.central[carrier]),
+                "satellites": list(roles.satellites[carrier]),
+            }
+            for carrier in problem.train.carriers
+        },
+        "across": sorted(roles.across),
+    }
+    return {**_head(problem), "structure": told}
+
+
+def _head(problem: GearProblem) -> dict[str, Any]:
+    return {
+        "schema": 1,
+        "problem": problem.name,
+        "variant": problem.variant,
+        "title": problem.title,
+        "source": problem.source,
+    }
+
+
+def shown(value: Fraction) -> str:
+    """Return a fraction as JSON has it: ``-375/1``."""
+    return f"{value.numerator}/{value.denominator}"
+
+
+def _number(value: Fraction) -> int | float:
+    return value.numerator if value.denominator == 1 else float(value)
+
+
+def _body(motion: Motion, label: str) -> dict[str, Any]:
+    """Speeds of a body, and relative to the carrier of its meshes."""
+    speed, train = motion.speed(label), motion.train
+    body = train.body_of[label]
+    if body in train.racks:
+        metres = rack_speed(motion, label)
+        return {"n": None, "omega": None, "v": metres, "exact": shown(speed)}
+    told = {**_speeds(train.unit, speed), "exact": shown(speed)}
+    told["body"] = body
+    relative = {
+        carrier: shown(motion.speed(label, carrier))
+        for carrier in train.carriers
+        if body in (*motion.roles.central[carrier], *motion.roles.satellites[carrier])
+    }
+    if relative:
+        told["relative"] = relative
+    if body in motion.roles.across:
+        told["about_own_axis"] = True
+    return told
+
+
+def _speeds(unit: str, speed: Fraction) -> dict[str, float]:
+    if unit == "n":
+        return {"n": float(speed), "omega": float(speed) * math.pi / 30}
+    return {"n": float(speed) * 30 / math.pi, "omega": float(speed)}
+
+
+def _answer(found: Answer, reasons: Mapping[str, str]) -> dict[str, Any]:
+    told: dict[str, Any] = {
+        "value": found.value,
+        "exact": None if found.exact is None else shown(found.exact),
+    }
+    if found.value is None:
+        told["reason"] = reasons[found.reason].format(label=found.label)
+    return told
+
+
+def _picture(motion: Motion) -> dict[str, Any] | None:
+    picture = draw(motion)
+    if picture is None:
+        return None
+    turn = math.pi / 30 if motion.train.unit == "n" else 1.0
+    pole = motion.train.picture.pole_mm
+    mu_v = float(picture.speed_per_mm) * turn
+    return {
+        "mu_l": float(picture.mu_l),
+        "mu_v": mu_v,
+        "mu_omega": mu_v / float(picture.mu_l * pole),
+        "pole_mm": float(pole),
+        "contacts": [
+            {
+                "name": one.name,
+                "height_mm": float(one.height_mm),
+                "speed_mm": float(one.speed_mm),
+            }
+            for one in picture.contacts
+        ],
+        "rays": [{"label": label, "segment_mm": float(segment)} for label, segment in picture.rays],
+    }

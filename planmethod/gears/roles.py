@@ -1,0 +1,146 @@
+"""What bodies are in a train: central wheels, satellites; the senses of bevel wheels (роли)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from planmethod.errors import Fault
+from planmethod.gears.model import Mesh, MeshKind, Train
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Roles:
+    """Who turns about what (роли звеньев).
+
+    Attributes
+    ----------
+    central, satellites : mapping
+        Central wheels and satellites, by carrier.
+    senses : mapping
+        Of a bevel mesh: +1 where both wheels turn in the positive senses of their axes, else -1.
+    across : frozenset of str
+        Bodies whose axis is not parallel to the main one: speeds of them are relative to their
+        carrier, about the own axis.
+    """
+
+    central: Mapping[str, tuple[str, ...]]
+    satellites: Mapping[str, tuple[str, ...]]
+    senses: Mapping[Mesh, int]
+    across: frozenset[str]
+
+
+def find_roles(train: Train) -> tuple[Roles, list[Fault]]:
+    """Tell central wheels from satellites, and give bevel wheels their senses.
+
+    A wheel that meshes on a carrier is central if it is fixed, is an input, is coupled to something
+    else (another carrier, a mesh of the frame), is a ring, is told to be coaxial with a central
+    body, or meshes only once there; the others are satellites.
+    """
+    faults: list[Fault] = []
+    central: dict[str, tuple[str, ...]] = {}
+    satellites: dict[str, tuple[str, ...]] = {}
+    for carrier in train.carriers:
+        middle, around = _split(train, carrier)
+        central[carrier], satellites[carrier] = tuple(middle), tuple(around)
+        if not around:
+            told = f"no wheel on the carrier {carrier} is a satellite"
+            faults.append(Fault("gears.meshes", told, "Name the carrier of each mesh, and check."))
+    senses, across = _bevels(train, satellites, faults)
+    return Roles(central, satellites, senses, across), faults
+
+
+def _split(train: Train, carrier: str) -> tuple[list[str], list[str]]:
+    own = [mesh for mesh in train.meshes if train.carrier(mesh) == carrier]
+    ends = [body for mesh in own for body in train.ends(mesh)]
+    elsewhere = {
+        body for mesh in train.meshes if mesh not in own for body in train.ends(mesh)
+    } | set(train.carriers)
+    sure = {b for b in ends if b in train.fixed or b in train.inputs or b in elsewhere}
+    sure |= {b for mesh in own if (b := _ring(train, mesh)) is not None}
+    for group in train.coaxial:
+        if carrier in group or sure & set(group):
+            sure |= set(group) & set(ends)
+    once = {body for body in ends if ends.count(body) == 1}
+    for mesh in own:  # a satellite that meshes only once
+        one, other = train.ends(mesh)
+        if {one, other} <= sure | once:
+            once -= {next((body for body in (other, one) if body not in sure), "")}
+    middle = [body for body in dict.fromkeys(ends) if body in sure | once]
+    return middle, [body for body in dict.fromkeys(ends) if body not in middle]
+
+
+def _ring(train: Train, mesh: Mesh) -> str | None:
+    """Body of the wheel with internal teeth, where its size is known."""
+    sizes = [train.wheels[label].size for label in (mesh.first, mesh.second)]
+    one, other = sizes if mesh.kind is MeshKind.INTERNAL else (None, None)
+    if one is None or other is None:
+        return None
+    return train.ends(mesh)[0 if one > other else 1]
+
+
+# Bevel wheels ------------------------------------------------------------------------------------
+
+
+def _bevels(
+    train: Train, satellites: Mapping[str, tuple[str, ...]], faults: list[Fault]
+) -> tuple[dict[Mesh, int], frozenset[str]]:
+    """Give every bevel mesh its sense, by the directions of the axes from the apex.
+
+    The contact point P has one velocity, seen from the carrier: with axes that point from the
+    apex to the wheels, the wheels turn in opposite senses of them. Where no axes are given, the
+    first wheel in mesh with a satellite lies below it on the main axis, the next above.
+    """
+    around = {body for bodies in satellites.values() for body in bodies}
+    across: dict[str, bool] = {}
+    above: dict[tuple[str, str], bool] = {}
+    senses: dict[Mesh, int] = {}
+    for mesh in train.meshes:
+        if mesh.kind is not MeshKind.BEVEL:
+            continue
+        one, other = train.ends(mesh)
+        turned = _is_across(train, mesh, (one, other), across, around)
+        across.setdefault(one, turned)
+        across.setdefault(other, not turned)
+        if across[one] == across[other]:
+            told = f"the axes of {mesh.first} and {mesh.second} are parallel, they cannot be bevel"
+            faults.append(Fault("gears.meshes", told))
+            continue
+        axial, crossing = (other, one) if across[one] else (one, other)
+        below = not any(c == crossing and up is False for (_, c), up in above.items())
+        above.setdefault((axial, crossing), not below)
+        senses[mesh] = -1 if above[axial, crossing] else 1
+        given = [train.wheels[label].axis for label in (mesh.first, mesh.second)]
+        label = mesh.second if across[one] else mesh.first
+        axis = train.wheels[label].axis
+        if axis is not None:
+            senses[mesh] = _side(axis)
+        across_axis = given[0] if across[one] else given[1]
+        if across_axis is not None:
+            x, y, _ = across_axis
+            senses[mesh] *= 1 if (x, y) > (0, 0) else -1
+    return senses, frozenset(body for body, is_across in across.items() if is_across)
+
+
+def _is_across(
+    train: Train,
+    mesh: Mesh,
+    ends: tuple[str, str],
+    across: Mapping[str, bool],
+    around: set[str],
+) -> bool:
+    """Whether the first wheel of a bevel mesh is the one across the main axis."""
+    axes = [train.wheels[label].axis for label in (mesh.first, mesh.second)]
+    for body, axis, flip in zip(ends, axes, (False, True), strict=True):
+        if body in across:
+            return across[body] != flip
+        if axis is not None:
+            return (axis[0] != 0 or axis[1] != 0) != flip
+    return ends[0] in around and ends[1] not in around
+
+
+def _side(axis: Vector) -> int:
+    """Return the sense of a wheel on the main axis: +1 for one below the apex."""
+    return 1 if axis[2] < 0 else -1

@@ -1,0 +1,216 @@
+"""What the terminal shows of a train: tables of structure, speeds, pictures (таблицы)."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+from planmethod.gears.answers import answer, rack_speed
+from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.model import GearProblem, Mesh, MeshKind
+from planmethod.gears.motion import Motion, Structure, TrainKind, analyse, mesh_row, solve_motion
+from planmethod.gears.picture import draw
+from planmethod.gears.roles import Roles
+from planmethod.note.numbers import MINUS
+from planmethod.note.plaintext import found, heading, spoken, table, wrap
+from planmethod.note.wording import Language, language
+
+
+def solved_text(problem: GearProblem, lang: str) -> str:
+    """Tell structure, equations, speeds, what is asked, conditions, pictures, printed values.
+
+    Raises
+    ------
+    ProblemError
+    """
+    motion = solve_motion(problem)
+    words = language(lang)
+    say = words.gears
+    lines = heading(say.title.format(title=problem.title), "═")
+    lines += _structure(problem, motion.roles, motion.structure, words)
+    lines += ["", say.equations]
+    for mesh in motion.train.meshes:
+        lines += wrap(_equation(motion, mesh, words), rest="  ")
+    lines += ["", say.wheels, *_wheels(motion, words)]
+    lines += ["", say.speeds, *_speeds(motion, words)]
+    if motion.train.ask:
+        lines += ["", say.asked, *_asked(motion, words)]
+    judged = conditions(motion)
+    if judged:
+        lines += ["", say.checked]
+    for one in judged:
+        lines += wrap(f"{sentence(one, words)}: {say.holds[one.holds]}", rest="  ")
+    lines += ["", say.picture, *_picture(motion, words)]
+    if problem.published:
+        lines += ["", say.published, *_published(problem, motion, words)]
+    return "\n".join(lines)
+
+
+def structure_text(problem: GearProblem, lang: str) -> str:
+    """Tell the structure of a train.
+
+    Raises
+    ------
+    ProblemError
+    """
+    roles, _, structure = analyse(problem)
+    words = language(lang)
+    lines = heading(words.gears.title.format(title=problem.title), "═")
+    return "\n".join([*lines, *_structure(problem, roles, structure, words)])
+
+
+def _structure(problem: GearProblem, roles: Roles, found: Structure, words: Language) -> list[str]:
+    say, train = words.gears, problem.train
+    lines = ["", say.structure, say.kind.format(kind=say.kinds[found.kind.value])]
+    formula = str(found.formula).replace("-", MINUS)
+    texts = [
+        say.chebyshev.format(n=found.moving, low=found.lower, high=found.higher, w=formula),
+        say.by_meshes.format(rank=found.moving - found.mobility, w=found.mobility),
+        say.redundant.format(plane=found.redundant, space=found.spatial),
+    ]
+    for carrier in train.carriers:
+        central, around = roles.central[carrier], roles.satellites[carrier]
+        said = {"central": ", ".join(central) or "—", "satellites": ", ".join(around)}
+        texts.append(say.carrier.format(carrier=carrier, **said))
+    if found.kind is TrainKind.CLOSED:
+        names = [mesh.name for mesh in train.meshes if train.carrier(mesh) is None]
+        if names:
+            texts.append(say.closing.format(meshes=", ".join(names)))
+    for text in texts:
+        lines += wrap(text, rest="  ")
+    return lines
+
+
+def _shown(value: Fraction) -> str:
+    """Return a fraction, whole numbers without a denominator."""
+    return str(value).replace("-", MINUS)
+
+
+def _equation(motion: Motion, mesh: Mesh, words: Language) -> str:
+    """Return the equation of a mesh with its ratio: ``(n_1 − n_H)·20 = −(n_2 − n_H)·40``."""
+    train = motion.train
+    row = mesh_row(train, motion.roles, motion.axes, mesh)
+    one, other = train.ends(mesh)
+    letter = "n" if train.unit == "n" else "ω"
+
+    def speed(label: str, body: str) -> str:
+        if body in train.racks:
+            return f"v_{label}"
+        if mesh.carrier is None or body in motion.roles.across:
+            return f"{letter}_{label}"
+        return f"({letter}_{label} − {letter}_{mesh.carrier})"
+
+    sign = MINUS if row[other] > 0 else ""
+    size = "" if mesh.kind is MeshKind.RACK else f"·{_shown(abs(row[other]))}"
+    left = f"{speed(mesh.first, one)}·{_shown(row[one])}"
+    hat = "" if mesh.carrier is None else f"^{mesh.carrier}"
+    ratio = words.gears.stage.format(
+        hat=hat, one=mesh.first, other=mesh.second, value=_shown(-row[other] / row[one])
+    )
+    equation = f"{left} = {sign}{speed(mesh.second, other)}{size}"
+    return words.gears.equation.format(name=mesh.name, equation=equation, stage=ratio)
+
+
+def _wheels(motion: Motion, words: Language) -> list[str]:
+    train, say = motion.train, words.gears
+    said = {"letter": "z" if train.toothed else "r, " + say.units["m"]}
+    said["unit"] = say.units["m/2" if train.toothed else "m"]
+    rows = []
+    for label, size in motion.axes.sizes.items():
+        height = motion.axes.heights.get(train.body_of[label])
+        mark = "*" if label in train.unknown else ""
+        shown = [_size(x, words) if x is not None else "—" for x in (size, height)]
+        rows.append([label + mark, *shown])
+    return table([head.format(**said) for head in say.columns_wheels], rows)
+
+
+def _size(value: Fraction, words: Language) -> str:
+    if value.denominator == 1:
+        return _shown(value)
+    return found(float(value), words.note)
+
+
+def _speeds(motion: Motion, words: Language) -> list[str]:
+    train, say = motion.train, words.gears
+    turns = train.unit == "n"
+    said = {"letter": "n" if turns else "ω", "other": "ω" if turns else "n"}
+    units = ("1/min", "1/s") if turns else ("1/s", "1/min")
+    said["unit"], said["other_unit"] = (say.units[unit] for unit in units)
+    factor = math.pi / 30 if turns else 30 / math.pi
+    rows, notes = [], []
+    for label in dict.fromkeys(label.rstrip("'") for label in train.body_of):
+        body, speed = train.body_of[label], motion.speed(label)
+        if body in train.racks:
+            metres = rack_speed(motion, label)
+            shown = "—" if metres is None else f"{found(metres, words.note)} {say.units['m/s']}"
+            rows.append([f"{label} ({say.rack})", shown, "—", "—", ""])
+            continue
+        relative = [
+            say.relative.format(
+                letter=said["letter"], carrier=c, value=_shown(motion.speed(label, c))
+            )
+            for c in train.carriers
+            if body in (*motion.roles.central[c], *motion.roles.satellites[c])
+        ]
+        other = found(float(speed) * factor, words.note)
+        value = found(float(speed), words.note)
+        rows.append([label, value, _shown(speed), other, "; ".join(relative)])
+        if body in motion.roles.across:
+            notes += wrap(say.across.format(label=label), rest="  ")
+    return table([head.format(**said) for head in say.columns_speeds], rows) + notes
+
+
+def _asked(motion: Motion, words: Language) -> list[str]:
+    say, rows, notes = words.gears, [], []
+    for name in motion.train.ask:
+        one = answer(motion, name)
+        if one.value is None:
+            reason = say.reasons[one.reason].format(label=one.label)
+            notes += wrap(f"{name}: {reason}", rest="  ")
+            continue
+        exact = "" if one.exact is None else _shown(one.exact)
+        unit = say.units[one.unit] if one.unit else ""
+        whole = one.exact is not None and one.exact.denominator == 1
+        value = exact if whole else found(one.value, words.note)
+        rows.append([name, value, exact, unit])
+    return [*(table(list(say.columns_asked), rows) if rows else []), *notes]
+
+
+def _picture(motion: Motion, words: Language) -> list[str]:
+    say, picture = words.gears, draw(motion)
+    if picture is None:
+        return wrap(say.no_picture, rest="  ")
+    turn = math.pi / 30 if motion.train.unit == "n" else 1.0
+    pole = motion.train.picture.pole_mm
+    mu_v = float(picture.speed_per_mm) * turn
+    scales = say.scales.format(
+        mu_l=found(float(picture.mu_l), words.note),
+        mu_v=found(mu_v, words.note),
+        pole=found(float(pole), words.note),
+        mu_omega=found(mu_v / float(picture.mu_l * pole), words.note),
+    )
+    points = []
+    for one in picture.contacts:
+        kind, _, name = one.name.partition(" ")
+        both = (one.height_mm, one.speed_mm)
+        shown = (found(float(mm), words.note) for mm in both)
+        points.append([say.points[kind].format(name=name), *shown])
+    rays = [[label, found(float(segment), words.note)] for label, segment in picture.rays]
+    return [
+        *wrap(scales, rest="  "),
+        *table(list(say.columns_contacts), points),
+        "",
+        *table(list(say.columns_rays), rays),
+    ]
+
+
+def _published(problem: GearProblem, motion: Motion, words: Language) -> list[str]:
+    say, rows, notes = words.gears, [], []
+    for one in problem.published:
+        exact = answer(motion, one.what).value
+        off = "" if not exact else found(100 * (one.value / exact - 1), words.note)
+        printed = spoken(f"{one.value:g}", words.note)
+        rows.append([one.name, printed, "—" if exact is None else found(exact, words.note), off])
+        if one.note:
+            notes += wrap(f"{one.name}: {one.note}", rest="  ")
+    return table(list(say.columns_published), rows) + notes

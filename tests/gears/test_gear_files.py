@@ -1,0 +1,219 @@
+"""The worked examples, faults of files, and what the command line promises."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from cases import each
+from click.testing import CliRunner
+from worked import PROBLEMS, ROOT
+
+from planmethod.cli import cli
+from planmethod.errors import ExitCode
+from planmethod.gears.asked import AskedError, parse
+from planmethod.kinds import KINDS, kind_of
+
+FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
+SCHEMA = json.loads((ROOT / "planmethod/problem/schema.json").read_text("utf-8"))
+
+SPEEDS = {
+    "gears-ex1": "1=330 2=-110 3=50 4=-25 5=-10",
+    "gears-ex2": "1=50 2=-75 H=-75 5=-375 4=125 3=0",
+    "gears-ex4": "1=-410 2=2605/3 H=180 3=-6640/9 3'=-6640/9 4=81230/153",
+    "gears-ex6": "1=1 2=-67/158 H=4/79 3=-11/79 4=88/553 5=4/79",
+    "planetary-k10": "1=10 2=25 4=4 5=4 3=-10 6=6",
+}
+ASKED = {
+    "gears-ex1": "U_1_5=-33 U_1_3=33/5 U_1_2=-3 z_5=100 z_2'=20",
+    "gears-ex2": "U_1_5=-2/15 U_H_5=1/5 n_5=-375 z_3=80",
+    "gears-ex4": "n_4=81230/153 U_4_H=8123/2754 z_4=68 W=2 U_1_4^H=-153/91",
+    "gears-ex6": "U_1_H=79/4 W=1 U_1_3^H=-5 U_3'_5=-11/4",
+    "planetary-k10": "omega_2=25 omega_4=4 omega_6=6",
+}
+CONTACTS = {  # name: height, segment
+    "gears-ex1": "1-2:16,-60 2'-3:44,-25 3'-4:20,-125/11 4-5:100,125/11 axis 2:64,0 axis 4:60,0",
+    "gears-ex2": "1-2:-20,-12 5-4:20,60 4-3:80,0 axis 1:-50,0 axis 4:50,30",
+    "gears-ex4": "1-2:28,154980/8123 2-3:76,-407700/8123 3'-4:68,-60 axis 2:52,-126360/8123 "
+    "axis 3:94,-228420/8123",
+    "gears-ex6": "1-2:20,-60 2-3:100,3300/79 3'-4:40,1320/79 4-5:110,-1320/79 axis 2:60,-720/79 "
+    "axis 4:75,0",
+    "planetary-k10": "1-2:70,-60 2-3:30,180/7 5-6:60,-144/7 axis 2:50,-120/7 axis 6:20,0",
+}
+RAYS = {
+    "gears-ex1": "1=150 2=-50 3=250/11 4=-125/11 5=-50/11",
+    "gears-ex2": "1=16 H=-24 5=-120 4=40 3=0 2=-24",
+    "gears-ex4": "1=-221400/8123 2=468900/8123 H=97200/8123 3=-398400/8123 4=600/17",
+    "gears-ex6": "1=120 2=-4020/79 H=480/79 3=-1320/79 4=10560/553 5=480/79",
+    "planetary-k10": "1=240/7 2=600/7 4=96/7 5=96/7 3=-240/7 6=144/7",
+}
+
+
+def number(text: str) -> float:
+    above, _, below = text.partition("/")
+    return int(above) / int(below or 1)
+
+
+def whole(text: str) -> dict[str, str]:
+    return dict(part.split("=") for part in text.split())
+
+
+def run(*args: str) -> Any:
+    return CliRunner().invoke(cli, args)
+
+
+def gears(path: Path, *args: str) -> dict[str, Any]:
+    done = run("solve", str(path), "--json", *args)
+    assert done.exit_code == ExitCode.DONE, done.output
+    told: dict[str, Any] = json.loads(done.stdout)["gears"]
+    return told
+
+
+@each("path", FILES)
+def test_worked_examples_are_exact(path: Path) -> None:
+    told = gears(path)
+    for label, value in whole(SPEEDS[path.stem]).items():
+        exact = value if "/" in value else f"{value}/1"
+        assert told["bodies"][label]["exact"] == exact
+        unit = "omega" if path.stem == "planetary-k10" else "n"
+        assert told["bodies"][label][unit] == number(value)
+    for name, value in whole(ASKED[path.stem]).items():
+        assert told["asked"][name]["exact"] == (value if "/" in value else f"{value}/1")
+    assert all(one["name"] and isinstance(one["holds"], bool) for one in told["conditions"])
+
+
+@each("path", FILES)
+def test_pictures_are_those_of_the_worked_examples(path: Path) -> None:
+    picture = gears(path)["picture"]
+    text = CONTACTS[path.stem].replace("axis ", "axis_")
+    wanted = [part.split(":") for part in text.split()]
+    names = [n.replace("_", " ") if "axis" in n else f"pitch {n}" for n, _ in wanted]
+    assert sorted(one["name"] for one in picture["contacts"]) == sorted(names)
+    found = {one["name"]: (one["height_mm"], one["speed_mm"]) for one in picture["contacts"]}
+    for name, (_, values) in zip(names, wanted, strict=True):
+        assert found[name] == pytest.approx([number(v) for v in values.split(",")])
+    rays = {one["label"]: one["segment_mm"] for one in picture["rays"]}
+    assert rays == pytest.approx({k: number(v) for k, v in whole(RAYS[path.stem]).items()})
+    assert picture["mu_l"] == 0.001
+
+
+@each("path", FILES)
+def test_files_are_those_of_the_schema_and_told_in_both_languages(path: Path) -> None:
+    jsonschema.validate(tomllib.loads(path.read_text("utf-8")), SCHEMA)
+    for lang in ("ru", "en"):
+        done = run("solve", str(path), "--lang", lang)
+        assert done.exit_code == ExitCode.DONE, done.output
+    assert run("structure", str(path)).exit_code == ExitCode.DONE
+    told = json.loads(run("structure", str(path), "--json").stdout)["structure"]
+    assert told["chebyshev"] == told["mobility"]
+
+
+def test_errors_of_the_sources_stand_beside_the_exact_values() -> None:
+    printed = {
+        (path.stem, one["name"]): (one["printed"], one["exact"])
+        for path in FILES
+        for one in gears(path)["published"]
+        if one["note"]
+    }
+    assert printed["gears-ex2", "n_5"] == (-384.6, "-375/1")
+    assert printed["gears-ex4", "n_4"] == (531.2, "81230/153")
+    assert printed["gears-ex6", "U_1_H"] == (-7.75, "79/4")
+    assert printed["planetary-k10", "omega_2"] == (24, "25/1")
+
+
+def test_a_ratio_to_what_stands_is_null_with_a_reason(tmp_path: Path) -> None:
+    text = FILES[1].read_text("utf-8").replace('"U_1_5"', '"U_1_5", "U_1_3"')
+    path = tmp_path / "zero.toml"
+    path.write_text(text, encoding="utf-8")
+    told = gears(path, "--lang", "en")["asked"]["U_1_3"]
+    assert told["value"] is None
+    assert told["exact"] is None
+    assert "stands still" in told["reason"]
+    assert "stands still" in run("solve", str(path), "--lang", "en").stdout
+
+
+def test_variants_are_solved_each_and_keep_no_printed_values(tmp_path: Path) -> None:
+    path = tmp_path / "train.toml"
+    text = FILES[1].read_text("utf-8") + '\n[variants.Б]\n"gears.n" = { 1 = 100 }\n'
+    path.write_text(text, encoding="utf-8")
+    done = run("solve", str(path), "--all-variants", "--json")
+    told = json.loads(done.stdout)
+    assert (told["variant"], told["gears"]["bodies"]["5"]["exact"]) == ("Б", "-750/1")
+    assert told["gears"]["published"] == []
+    assert run("solve", str(path), "--variant", "В").exit_code == ExitCode.PROBLEM
+
+
+SET = """
+wheels = { 1 = 20, 2 = 40, 3 = 100 }
+meshes = [{ of = [1, 2], carrier = "H" }, { of = [2, 3], kind = "internal", carrier = "H" }]
+fixed = ["3"]
+n = { 1 = 6 }
+"""
+ROW = "wheels = { 1 = 20, 2 = 36 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
+
+
+@each(
+    "text, said",
+    [
+        (SET.replace("100", "101"), "not coaxial: the axis of 2 is 60 from the main axis by"),
+        (
+            SET.replace("2 = 40, 3 = 100", "3 = 101") + 'unknown = ["2"]',
+            "gives wheel 2 81/2 = 40.5 teeth, not whole",
+        ),
+        (SET.replace("{ 1 = 6 }", "{ 1 = 6, H = 1 }"), "over-determined: W = 1, and 2 speeds"),
+        (SET.replace('["3"]', "[]"), "undetermined: W = 2, and 1 speeds are given"),
+        (SET.replace('["3"]', '["3", "1"]'), "1 is fixed, and a speed of it is given"),
+        (SET.replace('["3"]', '["3", "H"]').replace("n =", "# n ="), "nothing can move"),
+        (ROW + 'fixed = ["4"]', "gears.fixed[0]: unknown wheel '4'"),
+        (ROW + 'ask = ["U_1_7"]', "gears.ask[0]: the train has no '7'"),
+        (ROW + "omega = { 1 = 1 }", "n and omega are both given"),
+        (ROW + "modul = 3", "gears.modul: unknown key. Did you mean 'module'?"),
+        (ROW.replace("36", "3.5"), "gears.wheels.2: expected a whole number"),
+        (ROW.replace("36", "{ r = 0.05 }"), "a radius beside teeth needs the module"),
+        (ROW.replace("[1, 2]", '[1, "1\'"]'), "unknown wheel '1''"),
+        (ROW.replace("[1, 2]", "[1, 1]"), "1 and 1 are one body"),
+        (ROW.replace("] }", '], kind = "externl" }'), "Did you mean 'external'?"),
+        (ROW.replace("36", "36, 5 = 20"), "wheel 5 meshes with none"),
+        (ROW.replace("n =", "# n ="), "undetermined: W = 1, and 0 speeds"),
+        (ROW + 'unknown = ["2"]', "wheel 2 has a size, and is listed in unknown"),
+        (ROW.replace(", 2 = 36", "") + 'unknown = ["2"]', "does not tell the teeth of 2"),
+        (ROW + "coaxial = [[1, 2]]", "1 and 2 mesh, and would turn about one axis"),
+        ("wheels = 3\nmeshes = 4", "gears.wheels: expected a table"),
+        ("", "gears.wheels: missing"),
+        (ROW + "[published.x]\nvalue = 1", "published.x.what: unknown quantity 'x'"),
+    ],
+)
+def test_a_train_that_cannot_be_says_why(text: str, said: str, tmp_path: Path) -> None:
+    path = tmp_path / "faulty.toml"
+    path.write_text(f"[gears]\n{text}\n", encoding="utf-8")
+    done = run("solve", str(path), "--json")
+    assert done.exit_code == ExitCode.PROBLEM, done.output
+    assert said in done.stderr, done.stderr
+    assert not done.stdout
+
+
+def test_options_of_linkages_are_refused() -> None:
+    done = run("solve", str(FILES[0]), "--csv")
+    assert done.exit_code == ExitCode.USAGE
+    assert "--csv is for linkages" in done.stderr
+    assert run("sheet", str(FILES[0])).exit_code == ExitCode.PROBLEM
+
+
+def test_a_kind_is_told_by_its_table_and_links_make_a_linkage(tmp_path: Path) -> None:
+    assert {kind_of(path) for path in FILES} == {KINDS[0]}
+    both = tmp_path / "both.toml"
+    both.write_text("[gears]\n[links]\n")
+    assert kind_of(both) is None
+
+
+def test_names_that_are_asked() -> None:
+    known = ("1", "5", "15", "H", "2'")
+    assert parse("U_15", ("1", "5")).labels == ("1", "5")
+    assert parse("U_1_2'^H", known).carrier == "H"
+    for text, said in [("U_1555", "2 labels"), ("W_1", "unknown"), ("z_1^H", "not taken")]:
+        with pytest.raises(AskedError, match=said):
+            parse(text, known)
