@@ -7,12 +7,12 @@ wrong one that follows from an earlier one is not held against him twice.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 
 from planmethod.check.explain import Fact
-from planmethod.check.model import Verdict, Work, Written
+from planmethod.check.model import Verdict, Written
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sense import is_right
 from planmethod.check.sheet import Own, Sheet, scalar
@@ -388,17 +388,3 @@ def _way(sheet: Sheet, one: Examined, trace: Trace) -> bool | None:
     if one.written.sense is not None:
         return is_right(sheet, one.item.question, one.written.sense, trace)
     return scalar(one.item.question.take(trace)) * one.value > 0
-
-
-def resolved(
-    task: Task, work: Work
-) -> tuple[dict[Written, Item], Mapping[Written, UnansweredError]]:
-    """Return what every readable answer of a work is of, and those that nobody knows."""
-    items: dict[Written, Item] = {}
-    unknown: dict[Written, UnansweredError] = {}
-    for written in work.answers:
-        try:
-            items[written] = task.find(written)
-        except UnansweredError as error:
-            unknown[written] = error
-    return items, unknown
