@@ -9,6 +9,7 @@ from __future__ import annotations
 import unicodedata
 
 from planmethod.problem.names import LOOKALIKES
+from planmethod.problem.selector import Selector
 
 GREEK = {"ω": "omega", "ε": "epsilon", "φ": "phi", "Φ": "inertia", "ϕ": "phi", "έ": "epsilon"}
 SHORT = {"eps": "epsilon", "om": "omega", "w": "omega", "fi": "phi"}
@@ -25,3 +26,41 @@ def plain(text: str) -> str:
         if folded.lower().startswith(short) and rest.isdigit():
             return whole + rest
     return folded.lower()
+
+
+def called(selector: Selector) -> tuple[str, str]:
+    """Return what a quantity is called, ``v_B3``, and its symbol in rich text, ``v_{B3}``."""
+    kind, names = selector.kind, selector.names
+    own = f"{kind.replace(' ', '_')}_{'_'.join(names)}" if names else kind
+    letters = {
+        "omega": "ω",
+        "epsilon": "ε",
+        "phi": "φ",
+        "vs": "v",
+        "an": "a^{n}",
+        "at": "a^{τ}",
+        "ak": "a^{k}",
+        "ar": "a^{r}",
+        "Ft": "F^{τ}",
+        "Fn": "F^{n}",
+        "weight": "G",
+        "inertia": "Φ",
+        "inertia couple": "M_Φ",
+        "length": "l",
+        "load": "",
+    }
+    if selector.over is not None:
+        over_own, over_symbol = called(selector.over)
+        one_own, one_symbol = called(Selector(kind, names))
+        return f"{one_own}/{over_own}", f"{one_symbol}/{over_symbol}"
+    if kind.startswith("segment"):
+        return own, "".join(name.lower() for name in names)
+    if kind.startswith("arm"):
+        return own, "h_{" + ",".join(names) + "}"
+    if kind.startswith("angle"):
+        return own, "α_{" + ",".join(names) + "}"
+    letter = letters.get(kind, kind)
+    if kind == "load":
+        return own, names[0]
+    joined = "".join(names) if all(len(n) < 3 for n in names) else ",".join(names)
+    return own, f"{letter}_{{{joined}}}" if names else letter

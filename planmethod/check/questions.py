@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from planmethod.check.letters import plain
+from planmethod.check.letters import called, plain
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
@@ -370,44 +370,6 @@ class Questions:
         for letter in ("p", "π"):
             found.setdefault(plain(letter), drawn.pole)
         return found
-
-
-def called(selector: Selector) -> tuple[str, str]:
-    """Return what a quantity is called, ``v_B3``, and its symbol in rich text, ``v_{B3}``."""
-    kind, names = selector.kind, selector.names
-    own = f"{kind.replace(' ', '_')}_{'_'.join(names)}" if names else kind
-    letters = {
-        "omega": "ω",
-        "epsilon": "ε",
-        "phi": "φ",
-        "vs": "v",
-        "an": "a^{n}",
-        "at": "a^{τ}",
-        "ak": "a^{k}",
-        "ar": "a^{r}",
-        "Ft": "F^{τ}",
-        "Fn": "F^{n}",
-        "weight": "G",
-        "inertia": "Φ",
-        "inertia couple": "M_Φ",
-        "length": "l",
-        "load": "",
-    }
-    if selector.over is not None:
-        over_own, over_symbol = called(selector.over)
-        one_own, one_symbol = called(Selector(kind, names))
-        return f"{one_own}/{over_own}", f"{one_symbol}/{over_symbol}"
-    if kind.startswith("segment"):
-        return own, "".join(name.lower() for name in names)
-    if kind.startswith("arm"):
-        return own, "h_{" + ",".join(names) + "}"
-    if kind.startswith("angle"):
-        return own, "α_{" + ",".join(names) + "}"
-    letter = letters.get(kind, kind)
-    if kind == "load":
-        return own, names[0]
-    joined = "".join(names) if all(len(n) < 3 for n in names) else ",".join(names)
-    return own, f"{letter}_{{{joined}}}" if names else letter
 
 
 def letters_of(text: str, known: Mapping[str, PointName]) -> Ends | None:
