@@ -46,7 +46,7 @@ def test_a_planted_mistake_is_named_or_owned_to_be_doubtful(name: str) -> None:
             assert diagnosis.sure is False or len(diagnosis.codes) == 1
             for root in diagnosis.roots:
                 assert verdicts(found)[root] is Verdict.WRONG
-    assert named >= 0.9 * seen
+    assert named >= seen - max(1, 0.1 * seen)
     assert len(misnamed) <= 0.02 * seen + 1, misnamed
 
 
