@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
 from planmethod.check.questions import Sign
 from planmethod.check.sense import sense_of
+from planmethod.check.sheet import Sheet, scalar
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
-from planmethod.plans.model import FACTS
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 
@@ -71,6 +72,8 @@ def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
             if not visible and explanation.where not in unseen.setdefault(code, []):
                 unseen[code].append(explanation.where)
         for item in here:
+            for code, where in _alike(task, sheet, item, limits[item.id]):
+                unseen.setdefault(code, []).append(where)
             hides = tuple(code for code in codes if code not in shown[item.id])
             entries[item.id] = entry_of(task, item, limits[item.id], hidden=hides)
     return Key(
@@ -80,6 +83,23 @@ def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
         scales,
         {code: tuple(places) for code, places in unseen.items() if places},
     )
+
+
+def _alike(task: Task, sheet: Sheet, item: Item, limit: Limit) -> Iterator[tuple[str, str]]:
+    """Yield the segments of the same plan that are as long, and may be read by mistake: V6, N5."""
+    question, length = item.question, sheet.length(item.question)
+    code = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}.get(
+        question.plan or PlanKind.LEVER
+    )
+    if not length or code is None or question.is_mm or limit.zero:
+        return
+    slack = max(limit.spread, limit.tolerance()) / abs(limit.exact) * length
+    own = segment_of(task, item)
+    for segment in task.solution.construction.segments:
+        if segment.kind is question.plan and segment.name != own and own:
+            drawn = sheet.trace.value.get(segment.length)
+            if drawn is not None and abs(abs(scalar(drawn)) - length) <= slack:
+                yield code, f"{item.label or item.name}: {segment.name}"
 
 
 def _shows(limit: Limit, value: float, *, turned: bool) -> bool:

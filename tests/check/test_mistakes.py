@@ -10,6 +10,7 @@ from planted import exact, explanations, task_of
 from worked import SIX
 
 from planmethod.check.explain import Explanation
+from planmethod.check.key import key_of_task
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.rewrite import substituted
@@ -110,3 +111,10 @@ def test_own_numbers_put_in_are_the_program_with_them_substituted(name: str) -> 
         np.testing.assert_allclose(one, two, rtol=1e-9, atol=1e-9)
     first = min(own, key=lambda name: sheet.order[name])
     assert local[first] == pytest.approx(right[first])
+
+
+def test_the_key_says_which_segments_are_as_long_as_the_right_one() -> None:
+    """44.9 mm of pb₃ and 45.6 mm of bb₃ in the third example: nobody can tell which was read."""
+    hidden = key_of_task(task_of("linkages/ex3")).hidden
+    assert "v_B3: b-b3" in hidden["V6"]
+    assert not any(place.startswith("v_E:") for place in hidden["V6"])
