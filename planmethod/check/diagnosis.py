@@ -18,9 +18,6 @@ from planmethod.check.task import Task
 from planmethod.construct.steps import Name, PointName, makes, operands
 from planmethod.plans.model import FACTS, MOTION
 
-FAR_OFF = 2.0
-"""Spreads that an answer must be off to be sure that a mistake has changed it."""
-
 FEW = 0.3
 """Answers that an exact hand must have given before it is believed to be one."""
 
@@ -69,17 +66,14 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
 
 
 def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> bool:
-    """Tell whether a mistake changes every answer that is far off, and one of the wrong ones."""
-    moved = False
+    """Tell whether a mistake changes a wrong answer at all, its number or its sense."""
     for one in wrong:
         given, right = (e[one.item.question.id] for e in (explanation.values, sheet.exact))
         turned = one.sense_right is False and given * right <= 0
         vector = one.sense_right is False and one.item.question.sign is not Sign.TURN
         if turned or vector or abs(abs(given) - abs(right)) > one.limit.tolerance() / 2:
-            moved = True
-        elif one.off > FAR_OFF * max(one.limit.spread, one.limit.tolerance()):
-            return False
-    return moved
+            return True
+    return False
 
 
 def _numbers(sheet: Sheet, found: list[Examined], facts: list[Fact]) -> Numbers:
