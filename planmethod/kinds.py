@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
+from planmethod.errors import Fault, ProblemError
 from planmethod.problem.source import parse, read_source
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.problem.model import SheetSettings
+    from planmethod.render.ink.drawing import Drawing
 
 
 class KindProblem(Protocol):
@@ -17,6 +24,22 @@ class KindProblem(Protocol):
     @property
     def name(self) -> str:
         """Name of the problem."""
+
+    @property
+    def variant(self) -> str | None:
+        """Which variant it is; None for the main part."""
+
+    @property
+    def title(self) -> str:
+        """Title of the problem."""
+
+    @property
+    def stamp(self) -> Mapping[str, str]:
+        """Texts of the title block."""
+
+    @property
+    def sheet(self) -> SheetSettings:
+        """Paper, lettering and language of its sheets."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,8 +52,10 @@ class Kind:
         The table of the problem file that tells it.
     package : str
         Where its functions are: ``load(path, *, variant)``, ``record(problem, lang)``,
-        ``solved_text(problem, lang)``, and of mechanisms ``structure_record(problem)``,
-        ``structure_text(problem, lang)``. It is imported when one of them is called.
+        ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
+        ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
+        before, total)`` and ``protocol_text(problem, lang, profile)``. It is imported when one of
+        them is called.
     """
 
     table: str
@@ -62,6 +87,47 @@ class Kind:
         if not hasattr(import_module(self.package), "structure_text"):
             return None
         return str(self._function("structure_text")(problem, lang))
+
+    def drawings(
+        self,
+        problem: KindProblem,
+        *,
+        fields: Mapping[str, str],
+        profile: Profile,
+        before: int = 0,
+        total: int | None = None,
+    ) -> list[Drawing]:
+        """Return the sheets; ``before`` of the set of ``total`` go before them.
+
+        Raises
+        ------
+        ProblemError
+            Such problems have no sheets, or these cannot be drawn.
+        """
+        drawn: list[Drawing] = self._asked("drawings", problem)(
+            problem, fields=fields, profile=profile, before=before, total=total
+        )
+        return drawn
+
+    def protocol_text(self, problem: KindProblem, lang: str, profile: Profile) -> str:
+        """Return what ``protocol`` prints.
+
+        Raises
+        ------
+        ProblemError
+            Such problems have no protocol.
+        """
+        return str(self._asked("protocol_text", problem)(problem, lang, profile))
+
+    def _asked(self, name: str, problem: KindProblem) -> Any:
+        """Return a function that not every kind has."""
+        if not hasattr(import_module(self.package), name):
+            what = "sheets" if name == "drawings" else "protocol"
+            fault = Fault(
+                self.table, f"such a problem has no {what}; its numbers: planmethod solve"
+            )
+            raise ProblemError(problem.name, [fault])
+        return self._function(name)
 
     def _function(self, name: str) -> Any:
         return getattr(import_module(self.package), name)

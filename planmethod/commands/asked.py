@@ -6,17 +6,26 @@ import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import click
 
 from planmethod.languages import LANGUAGES
 
 if TYPE_CHECKING:
+    from planmethod.kinds import KindProblem
     from planmethod.problem.config import Config
     from planmethod.problem.model import Problem, SheetSettings
 
 F = TypeVar("F", bound=Callable[..., Any])
+P = TypeVar("P", bound="Problem | KindProblem")
+
+
+class Settled(Protocol):
+    """Gives a problem, of whatever kind, all that is asked of its sheets."""
+
+    def __call__(self, problem: P) -> P:
+        """Return the problem with what is asked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +49,7 @@ class Asked:
     config: Path | None = None
     no_config: bool = False
 
-    def settle(self) -> Callable[[Problem], Problem]:
+    def settle(self) -> Settled:
         """Read the config file, and return what gives a problem all that is asked of its sheets.
 
         The texts of the options are left to the sheets, as they outrank even computed numbers.
@@ -58,7 +67,7 @@ class Asked:
         check_fields(self.fields)
         config, options = self._config(), SheetSettings(**self.sheet)  # type: ignore[arg-type]
 
-        def settled(problem: Problem) -> Problem:
+        def settled(problem: P) -> P:
             return laid_over(config, problem, options)
 
         return settled
@@ -73,12 +82,12 @@ class Asked:
         path = self.config or find_config()
         return Config() if path is None else load_config(path)
 
-    def author(self, problem: Problem) -> str | None:
+    def author(self, problem: Problem | KindProblem) -> str | None:
         """Return whom the files of a problem name as their author."""
         return self.fields.get("author", problem.stamp.get("author")) or None
 
 
-def laid_over(config: Config, problem: Problem, options: SheetSettings) -> Problem:
+def laid_over(config: Config, problem: P, options: SheetSettings) -> P:
     """Return a problem with the options over its settings, and a config file under them.
 
     The title of the problem outranks one of the config file: it is what the sheets show.
@@ -88,7 +97,8 @@ def laid_over(config: Config, problem: Problem, options: SheetSettings) -> Probl
     own = {"title": problem.title} if problem.title else {}
     stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp
     sheet = options.over(problem.sheet.over(config.sheet))
-    return replace(problem, stamp=stamp, sheet=sheet)
+    whole: Any = problem
+    return cast("P", replace(whole, stamp=stamp, sheet=sheet))
 
 
 # Options -----------------------------------------------------------------------------------------

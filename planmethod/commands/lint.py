@@ -20,6 +20,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
     from planmethod.render.sheets.controlled import Controlled
 
@@ -62,7 +63,11 @@ def lint(
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.control_report import control_record, control_text, counted
-    from planmethod.render.sheets.controlled import controlled_kinematics, controlled_structure
+    from planmethod.render.sheets.controlled import (
+        controlled_kinematics,
+        controlled_structure,
+        looked_over,
+    )
 
     if structural and (phi is not None or errors or sigma or layout is not None):
         raise click.UsageError(
@@ -91,14 +96,23 @@ def lint(
                 sigma=sigma,
                 layout=layout,
             )
+        tell(problem, "structure" if structural else "kinematics", sheets, lang)
+
+    def look_other(kind: Kind, problem: KindProblem) -> None:
+        problem = settled(problem)
+        drawings = kind.drawings(problem, fields=asked.fields, profile=drawn_by(profile, ruler))
+        tell(problem, kind.table, looked_over(drawings), problem.sheet.lang or LANGUAGES[0])
+
+    def tell(
+        problem: Problem | KindProblem, kind: str, sheets: list[Controlled], lang: str
+    ) -> None:
         found.extend(sheets)
         if as_json:
-            kind = "structure" if structural else "kinematics"
-            records.append(control_record(problem, kind, sheets, lang))
+            records.append(control_record(problem.name, problem.variant, kind, sheets, lang))
         else:
             click.echo(control_text(stem(problem), sheets, lang))
 
-    code = each(problems, variant, all_variants, look)
+    code = each(problems, variant, all_variants, look, look_other)
     if records:
         import json
 

@@ -130,7 +130,7 @@ def watched(found: list[T]) -> Iterator[T]:
         yield from bar
 
 
-def stem(problem: Problem) -> str:
+def stem(problem: Problem | KindProblem) -> str:
     """Return what the files of a problem are called."""
     return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
 

@@ -18,6 +18,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
 
 
@@ -53,6 +54,12 @@ def protocol(
         if position > count:
             raise click.UsageError(f"--position {position}: {problem.name} has {count}")
         text = narrate(solution, lang=lang, position=position - 1)
+        written(problem, text)
+
+    def tell_other(kind: Kind, problem: KindProblem) -> None:
+        written(problem, kind.protocol_text(problem, lang, drawn_by(profile, ruler)))
+
+    def written(problem: Problem | KindProblem, text: str) -> None:
         put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
 
-    finish(each(problems, variant, all_variants, tell))
+    finish(each(problems, variant, all_variants, tell, tell_other))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import click
 
@@ -24,8 +25,15 @@ from planmethod.options import (
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
     from planmethod.render.ink.drawing import Drawing
+
+
+class _Draw(Protocol):
+    """Draws the sheets of a problem as a part of a set."""
+
+    def __call__(self, *, before: int = 0, total: int | None = None) -> list[Drawing]: ...
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -92,7 +100,15 @@ def sheet(
             layout=layout,
         )
 
-    def written(problem: Problem, drawings: list[Drawing], formats: Iterable[str]) -> None:
+    def drawn_other(
+        kind: Kind, problem: KindProblem, *, before: int = 0, total: int | None = None
+    ) -> list[Drawing]:
+        hand = drawn_by(profile, ruler)
+        return kind.drawings(problem, fields=asked.fields, profile=hand, before=before, total=total)
+
+    def written(
+        problem: Problem | KindProblem, drawings: list[Drawing], formats: Iterable[str]
+    ) -> None:
         author = asked.author(problem)
         write_drawings(
             drawings, out, stem(problem), formats, dpi=dpi, author=author, dxf_text=dxf_text
@@ -105,23 +121,34 @@ def sheet(
             tell_changes(problem, phi)
             written(problem, drawn(problem), formats)
 
-        finish(each(problems, variant, all_variants, draw))
+        def draw_other(kind: Kind, problem: KindProblem) -> None:
+            problem = settled(problem)
+            written(problem, drawn_other(kind, problem), formats)
+
+        finish(each(problems, variant, all_variants, draw, draw_other))
         return
 
-    whole: list[tuple[Problem, list[Drawing]]] = []
+    whole: list[tuple[Problem | KindProblem, _Draw, list[Drawing]]] = []
 
-    def gather(problem: Problem) -> None:
+    def gather(problem: Problem | KindProblem, draw: _Draw) -> None:
+        whole.append((problem, draw, draw(before=sum(len(some) for *_, some in whole))))
+
+    def gather_one(problem: Problem) -> None:
         problem = settled(problem)
         tell_changes(problem, phi)
-        whole.append((problem, drawn(problem, before=sum(len(some) for _, some in whole))))
+        gather(problem, partial(drawn, problem))
 
-    code = each(problems, variant, all_variants, gather)
+    def gather_other(kind: Kind, problem: KindProblem) -> None:
+        problem = settled(problem)
+        gather(problem, partial(drawn_other, kind, problem))
+
+    code = each(problems, variant, all_variants, gather_one, gather_other)
     if whole:
         # The first sheet says how many there are, which is known only now.
-        first, total = whole[0][0], sum(len(some) for _, some in whole)
-        whole[0] = (first, drawn(first, total=total))
-        for problem, drawings in whole:
-            written(problem, drawings, [fmt for fmt in formats if fmt != "pdf"])
-        pages = [drawing for _, drawings in whole for drawing in drawings]
+        first, draw_first, _ = whole[0]
+        whole[0] = (first, draw_first, draw_first(total=sum(len(some) for *_, some in whole)))
+        for one, _, drawings in whole:
+            written(one, drawings, [fmt for fmt in formats if fmt != "pdf"])
+        pages = [drawing for *_, drawings in whole for drawing in drawings]
         write_set(pages, out / one_file, author=asked.author(first))
     finish(code)

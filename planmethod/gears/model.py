@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
-from planmethod.problem.model import Published
+from planmethod.problem.model import Published, SheetSettings
 
 
 class MeshKind(Enum):
@@ -166,6 +166,7 @@ class GearProblem:
     title: str
     source: str
     stamp: Mapping[str, str]
+    sheet: SheetSettings
     train: Train
     published: tuple[Published, ...]
     variant: str | None = None

@@ -33,7 +33,7 @@ from planmethod.problem.fields import (
 from planmethod.problem.model import Published
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
-from planmethod.problem.sheet import read_stamp
+from planmethod.problem.sheet import read_sheet, read_stamp
 
 ASK_LIMIT = 100
 GROUP_LIMIT = 60
@@ -54,13 +54,14 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     given = read_keys(faults, "", table, TOP)
     title, source = (read_heading(faults, given, key) for key in ("title", "source"))
     stamp = read_stamp(faults, given.get("stamp", {}))
+    sheet = read_sheet(faults, given.get("sheet", {}))
     body = read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
     train = None if body is None else _read_train(faults, body)
     published = _read_published(faults, given.get("published", {}), train)
     if faults or train is None:
         raise ProblemError(str(path), faults.found)
     return GearProblem(
-        path.stem, str(path), title, source, stamp, train, published, variant=variant
+        path.stem, str(path), title, source, stamp, sheet, train, published, variant=variant
     )
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from planmethod.note.wording import language
-from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import (
     REMARKS,
     Finding,
@@ -61,13 +60,13 @@ def _lines(finding: Finding, lang: str) -> list[str]:
 
 
 def control_record(
-    problem: Problem, kind: str, sheets: Sequence[Controlled], lang: str = "ru"
+    name: str, variant: str | None, kind: str, sheets: Sequence[Controlled], lang: str = "ru"
 ) -> dict[str, Any]:
     """Return the findings of a problem's sheets as one object for JSON."""
     return {
         "schema": 1,
-        "problem": problem.name,
-        "variant": problem.variant,
+        "problem": name,
+        "variant": variant,
         "kind": kind,
         "errors": counted(sheets, Severity.ERROR),
         "warnings": counted(sheets, Severity.WARNING),

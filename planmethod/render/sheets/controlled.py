@@ -48,7 +48,12 @@ def controlled_structure(
 ) -> list[Controlled]:
     """Draw the structural sheet and look it over."""
     drawing = structure_sheet(problem, analyse(problem.mechanism), paper=paper, fields=fields)
-    return [Controlled(drawing, paper_of(drawing), tuple(inspect(drawing)))]
+    return looked_over([drawing])
+
+
+def looked_over(drawings: Sequence[Drawing]) -> list[Controlled]:
+    """Look sheets over; no other scales are tried."""
+    return [Controlled(one, paper_of(one), tuple(inspect(one))) for one in drawings]
 
 
 def controlled_kinematics(
