@@ -1,10 +1,35 @@
-"""Gear trains: read, solved in fractions, told (зубчатые механизмы).
+"""Gear trains: read, solved in fractions, told, drawn (зубчатые механизмы).
 
-The four functions of a kind of problem (`planmethod.kinds`) stand here.
+The functions of a kind of problem (`planmethod.kinds`) stand here; what draws is imported late, as
+a solution needs no pens.
 """
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from planmethod.gears.reader import load
 from planmethod.gears.record import record, structure_record
 from planmethod.gears.text import solved_text, structure_text
 
-__all__ = ["load", "record", "solved_text", "structure_record", "structure_text"]
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.gears.model import GearProblem
+    from planmethod.render.ink.drawing import Drawing
+
+__all__ = ["drawings", "load", "record", "solved_text", "structure_record", "structure_text"]
+
+
+def drawings(
+    problem: GearProblem,
+    *,
+    fields: Mapping[str, str],
+    profile: Profile,
+    before: int = 0,
+    total: int | None = None,
+) -> list[Drawing]:
+    """Return the sheet of a train."""
+    from planmethod.gears.drawn.sheet import drawings as draw
+
+    return draw(problem, fields=fields, profile=profile, before=before, total=total)

@@ -42,6 +42,8 @@ class Spot:
     ----------
     contact : str
         As `Picture` names it: ``pitch 1-2``, ``axis 2``.
+    letter : str
+        Rich text.
     foot, end : PointName
         Its place on ``yy``, and the end of its velocity.
     bodies : tuple of str
@@ -52,6 +54,7 @@ class Spot:
     """
 
     contact: str
+    letter: str
     foot: PointName
     end: PointName
     bodies: tuple[str, ...]
@@ -112,9 +115,9 @@ class Construction:
 
     def label(self, body: str) -> str:
         """Return what a line of a body is called: all the numbers of the body."""
-        train = self.motion.train
-        labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
-        return ", ".join(label for label in labels if train.body_of[label] == body)
+        body_of = self.motion.train.body_of
+        labels = dict.fromkeys(label.rstrip("'") for label in body_of)
+        return ", ".join(label for label in labels if body_of[label] == body)
 
     def numbers(self) -> dict[str, Number]:
         """Return the data as floats."""
@@ -350,7 +353,7 @@ class _Drawing:
         foot, letter, read = self.feet[height], self._letter(name), None
         if end != foot and f"laid {letter}" not in self.data:
             read = self.builder.measure_along(f"read {letter}", foot, end, self.base)
-        return Spot(name, foot, end, bodies, height, self.speeds[name], read)
+        return Spot(name, letter, foot, end, bodies, height, self.speeds[name], read)
 
     # Rays ----------------------------------------------------------------------------------------
 
