@@ -16,9 +16,19 @@ from planmethod.gears.text import solved_text, structure_text
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.gears.model import GearProblem
+    from planmethod.note.audit.audit import Audited
     from planmethod.render.ink.drawing import Drawing
 
-__all__ = ["drawings", "load", "record", "solved_text", "structure_record", "structure_text"]
+__all__ = [
+    "audited",
+    "drawings",
+    "load",
+    "protocol_text",
+    "record",
+    "solved_text",
+    "structure_record",
+    "structure_text",
+]
 
 
 def drawings(
@@ -33,3 +43,17 @@ def drawings(
     from planmethod.gears.drawn.sheet import drawings as draw
 
     return draw(problem, fields=fields, profile=profile, before=before, total=total)
+
+
+def protocol_text(problem: GearProblem, lang: str, profile: Profile) -> str:
+    """Tell the construction of the pictures."""
+    from planmethod.gears.protocol import protocol_text as tell
+
+    return tell(problem, lang, profile)
+
+
+def audited(problem: GearProblem, ruler: float) -> list[Audited]:
+    """Return what the source prints beside the exact and the read value."""
+    from planmethod.gears.audit import audited as compare
+
+    return compare(problem, ruler)

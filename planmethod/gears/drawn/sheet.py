@@ -11,10 +11,7 @@ from math import pi
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import LayoutError
-from planmethod.gears.answers import Answer, answer
 from planmethod.gears.arrangement import Scheme, arrange
-from planmethod.gears.asked import parse
-from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import Construction, Reading, construct, read
 from planmethod.gears.drawn.front import front
 from planmethod.gears.drawn.side import Side
@@ -22,18 +19,8 @@ from planmethod.gears.drawn.velocities import angular, angular_spans, linear, li
 from planmethod.gears.model import GearProblem, PictureSettings
 from planmethod.gears.motion import Motion, solve_motion
 from planmethod.gears.picture import Picture, draw
-from planmethod.gears.symbols import (
-    fraction_text,
-    indexed,
-    speed_letter,
-    speed_unit,
-    symbol,
-    unit_of,
-)
-from planmethod.gears.text import equation_of
+from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES
-from planmethod.note.numbers import MINUS, raised
-from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language, language
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
@@ -76,6 +63,9 @@ POLES = (40, 30, 25, 20, 15, 10)
 
 LETTER, TITLE, TEXT, ROW = 5.0, 5.0, 3.5, 7.0
 """Heights of letters on views, of titles, of texts; of the rows of tables, mm."""
+
+SHARES = (1.2, 2.2, 1.1, 1.1, 0.7, 0.8)
+"""Widths of the columns of the results, in parts."""
 
 GAP = 12.0
 """White between the side view and the picture beside it, mm."""
@@ -260,8 +250,9 @@ class _Sheet:
             box = ink_bounds(lines)
             head = self._head(say.linear, max(box[2] - box[0], 60.0), self._mu_v(drawn.picture))
             room = max(0.0, (head.width - (box[2] - box[0])) / 2)
-            origin = right + GAP + room - box[0]
-            middle = right + GAP / 2
+            end = max(right, heads[0][1] + heads[0][0].width / 2)
+            origin = end + GAP + room - box[0]
+            middle = end + GAP / 2
             items += [*side.projections(origin), *shifted(lines, origin)]
             labels += [_moved(label, origin) for label in named]
             heads.append((head, origin + (box[0] + box[2]) / 2))
@@ -365,7 +356,7 @@ class _Sheet:
         rows = list(results(self.motion, drawn, seen, self.words))
         say = self.words.gears.sheet
         columns = say.columns_results if drawn is not None else say.columns_results[:3]
-        table = _table(columns, [row[: len(columns)] for row in rows], STAMP_WIDTH)
+        table = _table(columns, [row[: len(columns)] for row in rows], STAMP_WIDTH, SHARES)
         title = say.results if drawn is not None else self.words.gears.asked
         blocks: list[Block] = [Line(typeset(title, TEXT)), table]
         if drawn is None:
@@ -378,113 +369,15 @@ def _moved(label: Label, by: float) -> Label:
     return replace(label, anchor=label.anchor + by, along=along)
 
 
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]], width: float) -> Block:
+def _table(
+    heads: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    width: float,
+    shares: Sequence[float] = (),
+) -> Block:
+    shares = shares[: len(heads)] or [1.0] * len(heads)
     columns = [
-        TableColumn(head, tuple(cells), width=width / len(heads))
-        for head, cells in zip(heads, zip(*rows, strict=True), strict=True)
+        TableColumn(head, tuple(cells), width=width * share / sum(shares))
+        for head, cells, share in zip(heads, zip(*rows, strict=True), shares, strict=True)
     ]
     return table_block(columns, TEXT, width=width, units="none", row_height=ROW)
-
-
-# What the texts say, for the protocol too ----------------------------------------------------------
-
-
-def given(motion: Motion, words: Language) -> list[str]:
-    """Return what is given of a train, as rich text (дано)."""
-    train, say, told = motion.train, words.say, words.gears.sheet
-    facts = []
-    for label, size in motion.axes.sizes.items():
-        letter = f"z_{{{label}}}" if train.toothed else f"r_{{{label}}}"
-        value = say.given(float(size)) + ("" if train.toothed else f" {words.gears.units['m']}")
-        by = told.by_coaxiality if label in train.unknown else "{symbol} = {value}"
-        facts.append(by.format(symbol=letter, value=value))
-    unit = raised(words.gears.units[speed_unit(train)])
-    for body, speed in train.inputs.items():
-        value = say.given(float(speed))
-        facts.append(f"{speed_letter(train)}_{{{body}}} = {value} {unit}")
-    if train.module is not None:
-        facts.append(told.module.format(value=say.given(float(train.module * 1000))))
-    if train.fixed:
-        facts.append(told.fixed.format(labels=", ".join(sorted(train.fixed))))
-    return facts
-
-
-def calculation(motion: Motion, words: Language) -> list[str]:
-    """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
-    train, say, found = motion.train, words.gears, motion.structure
-    formula = str(found.formula).replace("-", MINUS)
-    lines = [
-        say.kind.format(kind=say.kinds[found.kind.value]),
-        indexed(
-            say.chebyshev.format(n=found.moving, low=found.lower, high=found.higher, w=formula)
-        ).partition(" (")[0],
-    ]
-    for mesh in train.meshes:
-        lines.append(";  ".join(equation_of(motion, mesh)))
-    letter, known = speed_letter(train), tuple(train.body_of)
-    for name in dict.fromkeys(train.ask):
-        asked, one = parse(name, known), answer(motion, name)
-        if asked.kind != "U":
-            continue
-        if one.value is None:
-            told = say.reasons[one.reason].format(label=one.label)
-            lines.append(f"{symbol(name, known)}: {told}")
-            continue
-        hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
-        letters = "/".join(f"{letter}{hat}_{{{label}}}" for label in asked.labels)
-        value = fraction_text(one.exact)
-        decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
-        lines.append(f"{symbol(name, known)} = {letters} = {value}{decimal}")
-    rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
-    lines += ["; ".join(rest)] if rest else []
-    lines += [
-        indexed(sentence(one, words)) + f": {say.holds[one.holds]}" for one in conditions(motion)
-    ]
-    return lines
-
-
-def _plain(name: str, motion: Motion, words: Language) -> Iterator[str]:
-    """Yield a quantity that is neither a ratio nor a speed, with its value."""
-    known = tuple(motion.train.body_of)
-    if parse(name, known).kind in ("U", "n", "omega"):
-        return
-    one = answer(motion, name)
-    if one.value is None:
-        yield f"{symbol(name, known)}: {words.gears.reasons[one.reason].format(label=one.label)}"
-        return
-    value = words.say.short(one.value, 4)
-    yield f"{symbol(name, known)} = {value} {unit_of(one, words)}".rstrip()
-
-
-def results(
-    motion: Motion,
-    drawn: Construction | None,
-    seen: Reading | None,
-    words: Language,
-) -> Iterator[tuple[str, ...]]:
-    """Yield rows: symbol with unit, fraction, decimal, read off, sigma, difference in per cent."""
-    train, say = motion.train, words.say
-    known = tuple(train.body_of)
-    labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
-    speeds = [f"{'v' if train.body_of[x] in train.racks else train.unit}_{x}" for x in labels]
-    found = {} if drawn is None else {one.name: one for one in drawn.found}
-    for name in dict.fromkeys([*speeds, *train.ask]):
-        if drawn is not None and name not in found:
-            continue
-        one: Answer = answer(motion, name)
-        unit = unit_of(one, words)
-        head = symbol(name, known) + (f", {unit}" if unit else "")
-        if one.value is None:
-            yield head, "—", "—", "—", "—", "—"
-            continue
-        exact = say.found(one.value) if one.exact is None or one.exact.denominator != 1 else (
-            say.given(one.value)
-        )  # fmt: skip
-        row = (head, fraction_text(one.exact), exact)
-        if name not in found or seen is None:
-            yield (*row, "—", "—", "—")
-            continue
-        value = float(seen.read.value[found[name].read])
-        sigma = seen.sigma[found[name].read]
-        off = "—" if not one.value else say.number(f"{100 * (value / one.value - 1) + 0.0:.2f}")
-        yield (*row, say.found(value), say.number(sigma_text(sigma)), off)
