@@ -13,12 +13,20 @@ from enum import Enum
 from functools import cached_property
 from itertools import combinations, permutations
 
-from planmethod.gears.model import PARALLEL, MeshKind
+from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
-from planmethod.gears.picture import carrier_of
 
 MOST_ORDERS = 24
 """Orders of the columns that the search begins from."""
+
+WORM = 6.0
+"""Radius of a worm, mm: it does not follow from its starts."""
+
+BELT = 1.3
+"""Distance of the axes of a belt, by the sum of the radii."""
+
+OVER_CONE = 12.0
+"""Between two level bevel wheels one above another, mm."""
 
 _EPS = 1e-6
 
@@ -37,6 +45,7 @@ class Part(Enum):
     RIMS = "rims"
     WEB = "web"
     ARM = "arm"
+    APEX = "apex"  # where the axis of a bevel wheel across the others meets them
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,13 +74,67 @@ class Rim:
 
 
 @dataclass(frozen=True, slots=True)
+class Cone:
+    """A bevel mesh of a wheel across (коническое зацепление).
+
+    Attributes
+    ----------
+    rim : Rim
+        The wheel on the level axis.
+    label : str
+        That of the wheel across, ``radius`` its radius, mm.
+    side : int
+        On which side of the apex the level wheel stands: -1 left.
+    """
+
+    rim: Rim
+    label: str
+    radius: float
+    side: int
+
+
+@dataclass(frozen=True, slots=True)
+class Across:
+    """A body whose axis stands across the others, in the paper (поперечное звено)."""
+
+    body: str
+    carrier: str | None
+    cones: tuple[Cone, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Worm:
+    """A worm mesh (червячная передача).
+
+    Attributes
+    ----------
+    rim : Rim
+        What stands on a level axis.
+    label : str
+        The other one, seen along its axis; ``radius`` is its radius, mm.
+    is_level : bool
+        The worm is what stands level.
+    """
+
+    rim: Rim
+    label: str
+    radius: float
+    is_level: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Station:
-    """A place along the axes: the rims of a column, a web of a ring, or the arm of a carrier."""
+    """A place along the axes: the rims of a column, a web of a ring, an arm, an apex.
+
+    ``offset`` is its place from the apex of its column, mm.
+    """
 
     part: Part
     column: int
     rims: tuple[Rim, ...] = ()
     body: str = ""
+    offset: float = 0.0
+    across: Across | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,14 +163,125 @@ class Scheme:
 
     @cached_property
     def heights(self) -> Mapping[str, float]:
-        """Heights of the axes."""
-        return {body: float(h) * self.mm for body, h in self.motion.axes.heights.items()}
+        """Heights of the level axes; where the train does not tell them, as the drawing likes."""
+        train, axes = self.motion.train, self.motion.axes
+        line = axes.axis_of
+        known = {line[body]: float(height) * self.mm for body, height in axes.heights.items()}
+        left = list(train.meshes)
+        while True:
+            mesh = next((m for m in left if self._new_line(m, known) is not None), None)
+            if mesh is None:
+                break
+            left.remove(mesh)
+            new, height = self._new_line(mesh, known) or ("", 0.0)
+            known[new] = height
+        level = [b for b in train.bodies if b not in self.motion.roles.across | train.racks]
+        return {body: known[line[body]] for body in level if line[body] in known}
+
+    def _new_line(self, mesh: Mesh, known: Mapping[str, float]) -> tuple[str, float] | None:
+        """Return the axis that a mesh tells the height of, and the height."""
+        line, across = self.motion.axes.axis_of, self.motion.roles.across
+        ends = list(self.motion.train.ends(mesh))
+        if mesh.kind is MeshKind.BEVEL:  # over the other level wheels of the body across
+            (turned,) = [body for body in ends if body in across]
+            rims = [(cone_body, radius) for cone_body, _, radius in self._cones(turned)]
+            told = [(known[line[b]], r) for b, r in rims if line[b] in known]
+            for body, radius in rims:
+                if line[body] not in known and told:
+                    return line[body], max(h + r for h, r in told) + radius + OVER_CONE
+            return None
+        if mesh.kind is MeshKind.WORM:
+            level = mesh.second if self._is_last(mesh.first) else mesh.first
+            body = self.motion.train.body_of[level]
+            return None if line[body] in known else (line[body], 0.0)
+        if mesh.kind is MeshKind.RACK:
+            return None
+        radii = [self.radius(label) for label in (mesh.first, mesh.second)]
+        apart = sum(radii) if mesh.kind is MeshKind.EXTERNAL else abs(radii[0] - radii[1])
+        apart = apart if mesh.kind in PARALLEL else BELT * sum(radii)
+        for one, other in (ends, ends[::-1]):
+            if line[one] in known and line[other] not in known:
+                return line[other], known[line[one]] + apart
+        return None
+
+    def radius(self, label: str) -> float:
+        """Return the radius of a wheel, mm."""
+        return float(self.motion.axes.sizes[label]) * self.mm
+
+    def _cones(self, turned: str) -> Iterator[tuple[str, Mesh, float]]:
+        """Yield the level bodies that a body across meshes with, and their radii."""
+        train = self.motion.train
+        for mesh in train.meshes:
+            if mesh.kind is MeshKind.BEVEL and turned in train.ends(mesh):
+                one, other = train.ends(mesh)
+                level, label = (other, mesh.second) if one == turned else (one, mesh.first)
+                yield level, mesh, self.radius(label)
+
+    @cached_property
+    def across(self) -> tuple[Across, ...]:
+        """Bodies across, with their bevel meshes."""
+        found = []
+        for turned in sorted(self.motion.roles.across):
+            cones, carrier = [], None
+            for body, mesh, radius in self._cones(turned):
+                carrier = self.motion.train.carrier(mesh)
+                first = self.motion.train.ends(mesh)[0] == turned
+                own, other = (mesh.first, mesh.second)[:: 1 if first else -1]
+                rim = Rim(other, body, self.heights[body], radius, ring=False, ways=(1,))
+                side = -self.motion.roles.senses[mesh]
+                cones.append(Cone(rim, own, self.radius(own), side))
+            found.append(Across(turned, carrier, tuple(cones)))
+        return tuple(found)
+
+    @cached_property
+    def worms(self) -> tuple[Worm, ...]:
+        """Worm meshes."""
+        train, sizes, found = self.motion.train, self.motion.axes.sizes, []
+        for mesh in train.meshes:
+            if mesh.kind is MeshKind.WORM:
+                wheel = max((mesh.first, mesh.second), key=lambda label: sizes[label])
+                radii = {
+                    label: self.radius(label) if label == wheel else WORM
+                    for label in (mesh.first, mesh.second)
+                }
+                level = mesh.second if self._is_last(mesh.first) else mesh.first
+                other = mesh.first if level == mesh.second else mesh.second
+                body = train.body_of[level]
+                rim = Rim(level, body, self.heights.get(body, 0.0), radii[level], False, (-1,))
+                found.append(Worm(rim, other, radii[other], level != wheel))
+        return tuple(found)
+
+    def _is_last(self, label: str) -> bool:
+        """Whether a body meshes only once."""
+        train = self.motion.train
+        return sum(train.body_of[label] in train.ends(mesh) for mesh in train.meshes) == 1
+
+    @cached_property
+    def undrawn(self) -> tuple[str, ...]:
+        """Meshes that cannot be drawn with all level axes in one plane, by kind."""
+        train, turned = self.motion.train, self.motion.roles.across
+        found = []
+        for mesh in train.meshes:
+            ends = train.ends(mesh)
+            level = [body for body in ends if body not in turned | train.racks]
+            if mesh.kind is MeshKind.WORM:
+                fits = any(map(self._is_last, (mesh.first, mesh.second))) and len(level) == 2
+            else:
+                count = 1 if mesh.kind in (MeshKind.BEVEL, MeshKind.RACK) else 2
+                fits = len(level) == count and all(body in self.heights for body in level)
+            found += [] if fits else [mesh.kind.value]
+        return tuple(dict.fromkeys(found))
 
     @cached_property
     def over(self) -> Mapping[str, str]:
-        """Carriers of the bodies whose axes go round."""
-        found = {body: carrier_of(self.motion, body) for body in self.heights}
-        return {body: carrier for body, carrier in found.items() if carrier is not None}
+        """Carriers of the bodies whose level axes go round."""
+        heights = self.heights
+        return {
+            body: carrier
+            for carrier, bodies in self.motion.roles.satellites.items()
+            for body in bodies
+            if body in heights and carrier in heights and heights[body] != heights[carrier]
+        }
 
     @cached_property
     def columns(self) -> tuple[tuple[Rim, ...], ...]:
@@ -116,37 +290,42 @@ class Scheme:
         A wheel stands in a further column where it would lie on another one in the first.
         """
         columns: list[dict[str, Rim]] = []
-        for one, other in self._meshing():
+        for rims in self._meshing():
             for column in columns:
-                if (one.label in column or other.label in column) and _fits(column, one, other):
+                if any(rim.label in column for rim in rims) and _fits(column, *rims):
                     break
             else:
                 columns.append(column := {})
-            for rim in (one, other):
+            for rim in rims:
                 column[rim.label] = _joined(column.get(rim.label), rim)
         return tuple(tuple(column.values()) for column in columns)
 
-    def _meshing(self) -> Iterator[tuple[Rim, Rim]]:
-        train, sizes = self.motion.train, self.motion.axes.sizes
+    def _meshing(self) -> Iterator[tuple[Rim, ...]]:
+        train = self.motion.train
         for mesh in train.meshes:
-            if mesh.kind not in PARALLEL:
+            if mesh.kind is MeshKind.BEVEL:
                 continue
-            labels = (mesh.first, mesh.second)
-            radii = [float(sizes[label]) * self.mm for label in labels]
-            ends = train.ends(mesh)
-            up = 1 if self.heights[ends[1]] > self.heights[ends[0]] else -1
-            internal = mesh.kind is MeshKind.INTERNAL
-            ways = [up, -up]
-            if internal:
+            if mesh.kind is MeshKind.WORM:
+                both = (mesh.first, mesh.second)
+                yield tuple(worm.rim for worm in self.worms if worm.label in both)
+                continue
+            labels = [mesh.first] if mesh.kind is MeshKind.RACK else [mesh.first, mesh.second]
+            radii = [self.radius(label) for label in labels]
+            bodies = [train.body_of[label] for label in labels]
+            if len(labels) == 1:
+                yield (Rim(labels[0], bodies[0], self.heights[bodies[0]], radii[0], False, (-1,)),)
+                continue
+            up = 1 if self.heights[bodies[1]] > self.heights[bodies[0]] else -1
+            ways, ring = [up, -up], -1
+            if mesh.kind is MeshKind.INTERNAL:
                 ring = 0 if radii[0] > radii[1] else 1
                 ways = [up, up] if ring == 0 else [-up, -up]
-            rims = [
-                Rim(label, body, self.heights[body], radius, internal and k == ring, (way,))
+            yield tuple(
+                Rim(label, body, self.heights[body], radius, k == ring, (way,))
                 for k, (label, body, radius, way) in enumerate(
-                    zip(labels, ends, radii, ways, strict=True)
+                    zip(labels, bodies, radii, ways, strict=True)
                 )
-            ]
-            yield rims[0], rims[1]
+            )
 
 
 def _joined(before: Rim | None, rim: Rim) -> Rim:
@@ -162,7 +341,7 @@ def _fits(column: Mapping[str, Rim], *rims: Rim) -> bool:
     for (a, b), (c, d) in combinations(spans, 2):
         if min(b, d) - max(a, c) > _EPS or (a, b) == (c, d):
             return False
-        point, (low, high) = ((a, (c, d)) if b - a < _EPS else (c, (a, b)))
+        point, (low, high) = (a, (c, d)) if b - a < _EPS else (c, (a, b))
         if (b - a < _EPS or d - c < _EPS) and low + _EPS < point < high - _EPS:
             return False
     return True
@@ -187,7 +366,7 @@ class Arrangement:
         found: dict[str, set[int]] = {}
         over, fixed = self.scheme.over, self.scheme.motion.train.fixed
         for number, station in enumerate(self.stations):
-            if station.part is not Part.RIMS:
+            if station.part is not Part.RIMS and station.body:
                 found.setdefault(station.body, set()).add(number)
             for rim in station.rims if station.part is Part.RIMS else ():
                 if not rim.ring:
@@ -214,6 +393,9 @@ class Arrangement:
                     if other.part is Part.RIMS and other.column == station.column
                 )
                 spans.append({number, rims})
+            if station.part is Part.APEX:
+                own = [k for k, s in enumerate(self.stations) if s.column == station.column]
+                spans.append(set(own))
             if station.part is Part.ARM:
                 carried = {b for b, c in self.scheme.over.items() if c == station.body}
                 own = [
@@ -234,23 +416,23 @@ class Arrangement:
                 continue
             low, high = numbers[0], numbers[-1]
             free = [gap for gap in range(-1, last + 1) if gap not in self.blocked]
-            left_first = body in train.inputs or body != self.scheme.motion.train.output
 
-            def far(gap: int, low: int = low, high: int = high, left: bool = left_first) -> float:
-                inside = low <= gap < high
-                outside = max(low - 1 - gap, gap - high, 0)
-                ends = gap == (-1 if left else last)
-                others = sum(
-                    1 for other in self.at if other != body and self._is_passed(other, body, gap)
-                )
-                return outside + 3 * others + (0.0 if ends else 0.2) + (0.1 if inside else 0.0)
-
-            gap = min(free, key=far)
+            ends = -1 if body in train.inputs or body != train.output else last
+            far = {gap: self._far(body, gap) + 0.2 * (gap != ends) for gap in free}
+            gap = min(free, key=far.__getitem__)
             passed = max(low - 1 - gap, gap - high, 0)
             rank = 0.5 if low <= gap < high else 0.7 - 0.02 * passed if gap < low else 0.3
             rank = 0.3 + 0.02 * passed if gap >= high else rank
             found[body] = Stub(body, gap, rank)
         return found
+
+    def _far(self, body: str, gap: int) -> float:
+        """Return how bad it is for a body to come out in a gap."""
+        low, high = self.at[body][0], self.at[body][-1]
+        outside = max(low - 1 - gap, gap - high, 0)
+        others = (other for other in self.at if other != body)
+        passed = sum(self._is_passed(other, body, gap) for other in others)
+        return outside + 3 * passed + 0.1 * (low <= gap < high)
 
     def _is_passed(self, other: str, body: str, gap: int) -> bool:
         """Whether a body that comes out in a gap would pass through another one of its axis."""
@@ -296,6 +478,11 @@ class Arrangement:
                     for way in ring.ways:
                         ends = sorted((ring.centre, ring.centre + way * ring.radius))
                         yield number, ends[0], ends[1], ring.body
+                case Part.APEX:
+                    assert station.across is not None
+                    tops = [cone.rim.centre + cone.rim.radius for cone in station.across.cones]
+                    feet = [cone.rim.centre for cone in station.across.cones]
+                    yield number, min(feet), max(tops), station.body or station.across.body
                 case Part.RIMS:
                     for rim in station.rims:
                         yield from ((number, a, b, rim.body) for a, b in rim.spans() if b > a)
@@ -341,10 +528,15 @@ class _Plan:
     order: tuple[int, ...]
     webs: tuple[tuple[int, Rim, int], ...] = field(default=())
     arms: tuple[tuple[str, int, int], ...] = field(default=())
+    turns: tuple[int, ...] = ()
 
     def stations(self, scheme: Scheme) -> tuple[Station, ...]:
         stations: list[Station] = []
         for column in self.order:
+            if column >= len(scheme.columns):
+                across = scheme.across[column - len(scheme.columns)]
+                stations += _apex(column, across, self.turns[column - len(scheme.columns)])
+                continue
             left: list[Station] = []
             right: list[Station] = []
             for carrier, at, side in self.arms:
@@ -367,6 +559,8 @@ class _Plan:
             order = list(self.order)
             order.insert(j, order.pop(i))
             yield replace(self, order=tuple(order))
+        for k, turn in enumerate(self.turns):
+            yield replace(self, turns=(*self.turns[:k], -turn, *self.turns[k + 1 :]))
         for k, (at, ring, side) in enumerate(self.webs):
             yield replace(self, webs=_put(self.webs, k, (at, ring, -side)))
         for k, (carrier, at, side) in enumerate(self.arms):
@@ -374,6 +568,16 @@ class _Plan:
                 for turned in (side, -side):
                     if (column, turned) != (at, side):
                         yield replace(self, arms=_put(self.arms, k, (carrier, column, turned)))
+
+
+def _apex(column: int, across: Across, turn: int) -> list[Station]:
+    """Return the stations of a body across: level wheels on both sides of the apex."""
+    stations = [
+        Station(Part.RIMS, column, (cone.rim,), offset=cone.side * turn * cone.radius)
+        for cone in across.cones
+    ]
+    stations.append(Station(Part.APEX, column, (), across.carrier or "", across=across))
+    return sorted(stations, key=lambda station: station.offset)
 
 
 def _put(whole: tuple, k: int, one: tuple) -> tuple:  # type: ignore[type-arg]
@@ -410,8 +614,10 @@ def arrange(scheme: Scheme) -> Arrangement:
             tried[plan] = Arrangement(scheme, plan.stations(scheme))
         return tried[plan]
 
-    for order, _ in zip(permutations(range(len(columns))), range(MOST_ORDERS), strict=False):
-        plan = _Plan(order, webs, arms)
+    blocks = range(len(columns) + len(scheme.across))
+    turns = (1,) * len(scheme.across)
+    for order, _ in zip(permutations(blocks), range(MOST_ORDERS), strict=False):
+        plan = _Plan(order, webs, arms, turns)
         while True:
             better = min(plan.others(scheme), key=lambda one: made(one).cost, default=plan)
             if made(better).cost >= made(plan).cost - _EPS:

@@ -377,7 +377,7 @@ class _Drawing:
     def _scale(
         self, starts: Sequence[str], inputs: Sequence[str], segments: Mapping[str, NumberName]
     ) -> NumberName:
-        """Return the scale of the rays: chosen, or from the input where another body is laid off."""
+        """Return the scale of the rays: chosen, or by the input where another body is laid off."""
         quick = [body for body in inputs if self.motion.speeds[body]]
         if len(starts) == self._mobility() == 1 and quick and starts[0] not in inputs:
             speed = self._known("input", self.motion.speeds[quick[0]])

@@ -98,9 +98,9 @@ class _Teller:
                 self._start(spot, origin)
             case LayOff(out, _, _, length):
                 height = float(self.drawn.data[length])
-                spot = next(s for s in self.drawn.spots if s.foot == out or out in s.letter + "'")
                 what = ", ".join(self._what(s) for s in self.drawn.spots if s.foot == out)
-                self._item("foot", point=out, what=what or self._what(spot), height=self._mm(height))
+                what = what or self._axis_at(height)
+                self._item("foot", point=out, what=what, height=self._mm(height))
             case Join(out, one, other):
                 body = self.drawn.label(self.bodies[out])
                 self._item("line", one=one, other=other, body=body)
@@ -114,6 +114,13 @@ class _Teller:
     def _what(self, spot: Spot) -> str:
         kind, _, name = spot.contact.partition(" ")
         return self.say.steps["pitch" if kind == "pitch" else "own"].format(name=name)
+
+    def _axis_at(self, height: float) -> str:
+        """Return whose fixed axis is at a height that no contact has."""
+        axes = self.motion.axes.heights
+        scale = float(self.motion.train.unit_m / self.drawn.picture.mu_l)
+        own = [b for b in self.drawn.lines if abs(float(axes[b]) * scale - height) < 1e-6]
+        return self.say.steps["own"].format(name=", ".join(own))
 
     def _start(self, spot: Spot, origin: PointName) -> None:
         body = next((b for b in self.drawn.starts if b in spot.bodies), spot.bodies[0])
@@ -175,12 +182,14 @@ class _Teller:
             other = "1/s" if one.name.startswith("omega") else "1/min"
             shown = "" if ratio else raised(self.words.gears.units[other])
             lines.append(
-                self.say.steps["found"].format(
+                self.say.steps["found"]
+                .format(
                     formula=_plain(f"{symbol(one.name, known)} = {formula}"),
                     read=self.notation.number(rounded_to(value, sigma)),
                     unit=shown,
                     exact=self.notation.found(float(one.exact)),
                     sigma=self.notation.number(sigma_text(sigma)),
-                ).replace("  ", " ")
+                )
+                .replace("  ", " ")
             )
         self.out.item(lines)

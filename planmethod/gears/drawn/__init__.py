@@ -1,1 +1,1 @@
-"""What is drawn of gear trains: views of the scheme, pictures of velocities, the sheet (чертежи)."""
+"""What is drawn of gear trains: the scheme, pictures of velocities, the sheet (чертежи)."""

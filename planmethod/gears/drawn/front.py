@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator
-from math import radians
+from collections.abc import Iterator, Mapping
+from math import asin, cos, radians, sin
 
 from planmethod.gears.arrangement import Rim, Scheme
-from planmethod.render.ink.drawing import Arc, Item, Pen
+from planmethod.gears.model import MeshKind
+from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import SIZES, link, revolute, turn_arrow
 from planmethod.render.symbols.axes import axis_line, centre_lines, pitch_circle
+from planmethod.render.symbols.gears import rack_front
 
 ARROW_INSIDE = 3.0
 """From a pitch circle to the arrow of its sense, mm."""
 
 SWEEP = 14.0
 """Length of such an arrow, mm."""
+
+RACK_BEYOND = 8.0
+"""How far a rack goes beyond its wheel, mm."""
 
 _ANGLES = (205.0, 330.0, 155.0, 25.0, 240.0, 300.0, 180.0, 0.0)
 """Where the arrows stand, degrees, one wheel after another: off the line of centres."""
@@ -47,13 +52,37 @@ def front(scheme: Scheme, height: float) -> Picture:
             Label(typeset(carrier, height), (ends[0] + ends[1]) / 2, prefer=1, gap=1.2,
                   name=f"front {carrier} {body}", manner=BUSY)
         )  # fmt: skip
+    items += _straight(scheme, rims)
     levels = {round(rim.centre, 6) for rim in rims.values()}
-    ends = [rim.centre + way * (_rim(rim) + 4.0) for rim in rims.values() for way in (1, -1)]
-    items += axis_line(1j * min(ends), 1j * max(ends), *(1j * level for level in levels))
+    beyond = [rim.centre + way * (_rim(rim) + 4.0) for rim in rims.values() for way in (1, -1)]
+    items += axis_line(1j * min(beyond), 1j * max(beyond), *(1j * level for level in levels))
     for level in sorted(levels):
         items += revolute(1j * level)
     unique = {label.inscription.markup: label for label in labels}
     return lettered(items, list(unique.values()))
+
+
+def _straight(scheme: Scheme, rims: Mapping[str, Rim]) -> Iterator[Item]:
+    """Yield belts and chains from circle to circle, and racks."""
+    for mesh in scheme.motion.train.meshes:
+        one, other = rims.get(mesh.first), rims.get(mesh.second)
+        if mesh.kind is MeshKind.RACK and one is not None:
+            at, half = 1j * (one.centre - one.radius), one.radius + RACK_BEYOND
+            yield from rack_front(at - half, at + half)
+        if mesh.kind not in (MeshKind.BELT, MeshKind.CROSSED, MeshKind.CHAIN):
+            continue
+        if one is None or other is None:
+            continue
+        apart = other.centre - one.centre
+        crossed = -1 if mesh.kind is MeshKind.CROSSED else 1
+        lean = asin((one.radius - crossed * other.radius) / apart)
+        for side in (1, -1):
+            out = complex(side * cos(lean), sin(lean))
+            ends = (
+                1j * one.centre + out * one.radius,
+                1j * other.centre + out * crossed * other.radius,
+            )
+            yield Stroke(ends, Pen.THIN, tag="belt")
 
 
 def _wheel(rim: Rim) -> Iterator[Item]:

@@ -30,7 +30,7 @@ from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.layout.block import Block, Column, Line, Row, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.block import Picture as Drawn
 from planmethod.render.layout.cuttings import Group, Part
 from planmethod.render.layout.equations import formula_block
@@ -148,7 +148,7 @@ def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
         picture = draw(motion, tried)
         if picture is None:
             break
-        ends = [0, *(segment for _, segment in picture.rays)]
+        ends = [Fraction(0), *(segment for _, segment in picture.rays)]
         if max(ends) - min(ends) <= WIDEST:
             return tried.pole_mm
     return Fraction(POLES[-1])
@@ -156,8 +156,11 @@ def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
 
 def _extent(motion: Motion) -> float:
     """Return how high the scheme is, in sizes."""
-    rims = [rim for column in Scheme(motion, 1.0).columns for rim in column]
-    return max(r.centre + r.radius for r in rims) - min(r.centre - r.radius for r in rims)
+    scheme = Scheme(motion, 1.0)
+    rims = [rim for column in scheme.columns for rim in column] if not scheme.undrawn else []
+    rims += [] if scheme.undrawn else [cone.rim for one in scheme.across for cone in one.cones]
+    ends = [rim.centre + way * rim.radius for rim in rims for way in (1, -1)]
+    return max(ends) - min(ends) if ends else 100.0
 
 
 @dataclass(frozen=True)
@@ -209,17 +212,17 @@ class _Sheet:
         scheme = Scheme(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
         strip, last = Part(self._strip(scheme, drawn, seen)), Part(self._results(drawn, seen))
         for view, width in product(self._fronts(), WIDTHS):
-            front_view = Part(view)
+            views = [strip] if view is None else [strip, Part(view)]
             texts = [Part(self._told(width), text=True)]
             if drawn is None or seen is None:
-                yield (strip, front_view, *texts, last)
+                yield (*views, *texts, last)
                 continue
             texts.append(Part(self._segments(drawn, seen), text=True))
             rays = Part(self._angular(drawn, seen))
-            yield (strip, front_view, rays, *texts, last)
-            yield (strip, front_view, *texts, rays, last)
-            yield (strip, *texts, front_view, rays, last)
-            yield (strip, rays, front_view, *texts, last)
+            yield (*views, rays, *texts, last)
+            yield (*views, *texts, rays, last)
+            yield (strip, *texts, *views[1:], rays, last)
+            yield (strip, rays, *views[1:], *texts, last)
 
     # Views ---------------------------------------------------------------------------------------
 
@@ -232,15 +235,17 @@ class _Sheet:
         say = self.words.say
         return self.words.gears.sheet.inscriptions[key].format(value=say.short(value, 4), **more)
 
-    def _strip(
-        self, scheme: Scheme, drawn: Construction | None, seen: Reading | None
-    ) -> _Viewed:
+    def _strip(self, scheme: Scheme, drawn: Construction | None, seen: Reading | None) -> _Viewed:
         """Return the side view and, at the same heights, the picture of linear velocities."""
+        say = self.words.gears.sheet
+        if scheme.undrawn:
+            kinds = ", ".join(say.kinds[kind] for kind in scheme.undrawn)
+            text = paragraph(say.no_scheme.format(kinds=kinds), TEXT, STAMP_WIDTH)
+            return _Viewed(text, ())
         spots = () if drawn is None else drawn.spots
         side = Side(arrange(scheme), {spot.contact: spot.letter for spot in spots})
         items, labels = side.items(), list(side.labels(LETTER))
         left, _, right, _ = ink_bounds(items)
-        say = self.words.gears.sheet
         mu_l = self._scale("mu_l", float(self.settings.mu_l))
         heads = [(self._head(say.scheme, max(right - left, 50.0), mu_l), (left + right) / 2)]
         middle = right
@@ -280,8 +285,14 @@ class _Sheet:
     def _mu_v(self, picture: Picture) -> str:
         return self._scale("mu_v", self._per_mm(picture))
 
-    def _fronts(self) -> Iterator[_Viewed]:
-        """Yield the view along the axes at the scale of the side view, then at a coarser one."""
+    def _fronts(self) -> Iterator[_Viewed | None]:
+        """Yield the view along the axes at the scale of the side view, then at a coarser one.
+
+        None where no axes are parallel.
+        """
+        if self._is_turned():
+            yield None
+            return
         extent = _extent(self.motion) * float(self.motion.train.unit_m)
         own = float(self.settings.mu_l)
         coarse = series_near(extent / MOST_FRONT, up=True)
@@ -290,6 +301,10 @@ class _Sheet:
             title = self.words.gears.sheet.front
             scales = [self._scale("mu_l", mu_l)]
             yield self._titled(front(scheme, LETTER), title, "position", "μ_{l}", mu_l, scales)
+
+    def _is_turned(self) -> bool:
+        scheme = Scheme(self.motion, 1.0)
+        return bool(scheme.undrawn) or not scheme.columns
 
     def _titled(
         self,
@@ -340,8 +355,8 @@ class _Sheet:
         for spot in drawn.spots:
             length = float(spot.speed)
             shown = (float(spot.height), length)
-            ruled = "—" if spot.read is None else say.ruled(float(seen.read.value[spot.read]))
-            rows.append((f"{spot.foot}{spot.letter}", *map(self._mm, shown), ruled))
+            told = "—" if spot.read is None else say.ruled(float(seen.read.value[spot.read]))
+            rows.append((f"{spot.foot}{spot.letter}", *map(self._mm, shown), told))
         for body, name in drawn.segments.items():
             exact, ruled = (float(trace.value[name]) for trace in (seen.exact, seen.read))
             rows.append((f"o({drawn.label(body)})", "—", self._mm(exact), say.ruled(ruled)))

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
-from planmethod.gears.arrangement import Arrangement, Part, Rim, Stub
-from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.gears.arrangement import Across, Arrangement, Part, Rim, Stub, Worm
+from planmethod.gears.model import PARALLEL, MeshKind
+from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.symbols import SIZES, before_links, ground_line, guide_plates
-from planmethod.render.symbols.axes import axis_line
+from planmethod.render.symbols import SIZES, before_links, ground_line, guide_plates, revolute, unit
+from planmethod.render.symbols.axes import axis_line, centre_lines
 from planmethod.render.symbols.gears import (
     PITCH_POINT,
     bell_profile,
     ring_profile,
     wheel_profile,
 )
-
 
 STEP, NEAR = 14.0, 10.0
 """Between two columns; between a column and its own web or arm, mm."""
@@ -70,6 +70,8 @@ class Side:
             return SLOT * stubs
         one, other = stations[gap], stations[gap + 1]
         own = one.column == other.column
+        if own and (one.part is Part.APEX or other.part is Part.APEX or one.offset):
+            return other.offset - one.offset
         return max(NEAR if own else STEP, SLOT * stubs + 3.0)
 
     @cached_property
@@ -118,7 +120,9 @@ class Side:
         """Return the lines."""
         shafts = [item for body in self.arrangement.reach for item in self._shaft(body)]
         stations = [item for k in range(len(self.places)) for item in self._station(k)]
-        return before_links([*self._axes(), *stations, *shafts, *self._wide(), *self._dots()])
+        return before_links(
+            [*self._axes(), *stations, *shafts, *self._wide(), *self._others(), *self._dots()]
+        )
 
     def _axes(self) -> Iterator[Item]:
         """Yield the axes where no shaft is on them."""
@@ -151,6 +155,10 @@ class Side:
 
     def _station(self, number: int) -> Iterator[Item]:
         station, x = self.arrangement.stations[number], self.places[number]
+        if station.across is not None:
+            yield from self._across(station.across, x)
+        if self._is_conic(number):
+            return  # drawn with what it meshes with
         if station.part is Part.ARM:
             yield from self._arm(station.body, x)
         elif station.part is Part.WEB:
@@ -167,6 +175,8 @@ class Side:
                 )
         for rim in station.rims if station.part is Part.RIMS else ():
             at = complex(x, rim.centre)
+            if any(worm.is_level and worm.rim == rim for worm in self.arrangement.scheme.worms):
+                continue
             if not rim.ring:
                 ways = self._halves(number, rim)
                 bore, tag = self._bore(rim.body), f"link {rim.body}"
@@ -174,6 +184,109 @@ class Side:
             elif rim.body in self.arrangement.scheme.motion.train.fixed:
                 for way in rim.ways:
                     yield from ring_profile(at, rim.radius, stem=4.0, way=way)
+
+    def _is_conic(self, number: int) -> bool:
+        column = self.arrangement.stations[number].column
+        return column >= len(self.arrangement.scheme.columns)
+
+    def _across(self, across: Across, x: float) -> Iterator[Item]:
+        """Yield a body across, and the level bevel wheels that it meshes with."""
+        column = next(s for s in self.arrangement.stations if s.across == across).column
+        tag, levels = f"link {across.body}", []
+        for station, at in zip(self.arrangement.stations, self.places, strict=True):
+            if station.column != column or station.part is not Part.RIMS:
+                continue
+            (rim,) = station.rims
+            cone = next(c for c in across.cones if c.rim == rim)
+            side = 1 if at > x else -1
+            apex = complex(x, rim.centre)
+            along = unit(complex(side * cone.radius, rim.radius))
+            out = complex(along.imag * side, -along.real * side) * SIZES.mesh / 2
+            touch = complex(at, rim.centre + rim.radius)
+            bar = along * SIZES.teeth / 2
+            bore = self._bore(rim.body)
+            own = f"link {rim.body}"
+            for way in (1, -1):
+                level = [
+                    apex + _mirrored(z - apex, way) for z in (touch + out - bar, touch + out + bar)
+                ]
+                foot = complex((touch + out).real, rim.centre + way * bore)
+                yield Stroke(tuple(level), tag=own)
+                yield Stroke((foot, apex + _mirrored(touch + out - apex, way)), tag=own)
+                if abs(foot.real - at) > 0.01 and not bore:
+                    yield Stroke((complex(at, rim.centre), foot), tag=own)
+            height = (touch - out).imag
+            levels.append(height)
+            hub = WALL if across.carrier else 0.0
+            for way in (1, -1):
+                near = [touch - out + z - apex for z in (-bar, bar)]
+                both = tuple(apex + complex(way * z.real, z.imag) for z in near)
+                yield Stroke(both, tag=tag)
+                rim_end = complex(x + way * abs((touch - out).real - x), height)
+                yield Stroke((complex(x + way * hub, height), rim_end), tag=tag)
+        low, high = min(levels), max(levels)
+        if across.carrier:
+            for way in (1, -1):
+                hub_x = x + way * WALL
+                yield Stroke((complex(hub_x, low - BUSH), complex(hub_x, high + BUSH)), tag=tag)
+            start = self._height(across.carrier) + self._bore(across.carrier)
+            pin = (complex(x, start), complex(x, high + BUSH + 1.5))
+            yield Stroke(pin, tag=f"link {across.carrier}")
+        else:
+            top = complex(x, high + SLOT / 2 + 2.0)
+            yield Stroke((complex(x, low), top + 1j * SLOT / 2), tag=tag)
+            yield from guide_plates(top, angle=90, length=SIZES.bearing, width=SIZES.shaft)
+
+    def _others(self) -> Iterator[Item]:
+        """Yield belts, racks, and worms seen along their axes."""
+        scheme = self.arrangement.scheme
+        for mesh in scheme.motion.train.meshes:
+            if mesh.kind in (MeshKind.BELT, MeshKind.CROSSED, MeshKind.CHAIN):
+                column = self._column_with(mesh.first, mesh.second)
+                rims = {rim.label: rim for rim in scheme.columns[column]}
+                one, other = rims[mesh.first], rims[mesh.second]
+                levels = [r.centre + w * r.radius for r in (one, other) for w in (1, -1)]
+                for shift in (-1.5, 1.5):
+                    x = self._column(column) + shift
+                    yield Stroke((complex(x, min(levels)), complex(x, max(levels))), Pen.THIN)
+            if mesh.kind is MeshKind.RACK:
+                column = self._column_with(mesh.first)
+                rim = next(r for r in scheme.columns[column] if r.label == mesh.first)
+                at = complex(self._column(column), rim.centre - rim.radius - SIZES.mesh / 2)
+                half, tag = SIZES.teeth / 2, f"link {mesh.second}"
+                low = at - 4j
+                yield Stroke((at - half, at + half, low + half, low - half), closed=True, tag=tag)
+                yield from ground_line(low - half - 2.0, low + half + 2.0)
+        for worm in scheme.worms:
+            at, tag = self._worm(worm), f"link {worm.label}"
+            yield Arc(at, worm.radius, pen=Pen.MAIN if worm.is_level else Pen.THIN, tag=tag)
+            yield from centre_lines(at, worm.radius)
+            if worm.is_level:
+                yield from revolute(at)
+                yield from self._thread(worm.rim)
+
+    def _worm(self, worm: Worm) -> complex:
+        """Return where the axis of a worm, or of its wheel, stands across the paper."""
+        column = self._column_with(worm.rim.label)
+        return complex(self._column(column), worm.rim.centre - worm.rim.radius - worm.radius)
+
+    def _thread(self, rim: Rim) -> Iterator[Item]:
+        """Yield a worm from the side: its outline with the turns of its thread."""
+        at = complex(self._column(self._column_with(rim.label)), rim.centre)
+        half = complex(rim.radius + 1.0, rim.radius - SIZES.mesh / 2)
+        corners = (half, half.conjugate(), -half, -half.conjugate())
+        yield Stroke(tuple(at + corner for corner in corners), closed=True, tag=f"link {rim.body}")
+        for turn in (-0.7, -0.2, 0.3):
+            low, high = complex(turn, -1), complex(turn + 0.4, 1)
+            ends = (complex(z.real * half.real, z.imag * half.imag) for z in (low, high))
+            yield Stroke(tuple(at + z for z in ends), Pen.THIN)
+
+    def _column_with(self, *labels: str) -> int:
+        return next(
+            k
+            for k, column in enumerate(self.arrangement.scheme.columns)
+            if set(labels) <= {rim.label for rim in column}
+        )
 
     def _column(self, column: int) -> float:
         return next(
@@ -235,6 +348,8 @@ class Side:
         """Points of contact, and axes above and below the main one, by their names."""
         found: dict[str, complex] = {}
         for mesh in self.arrangement.scheme.motion.train.meshes:
+            if mesh.kind not in PARALLEL:
+                continue
             for station, x in zip(self.arrangement.stations, self.places, strict=True):
                 rims = {rim.label: rim for rim in station.rims if station.part is Part.RIMS}
                 if mesh.first in rims and mesh.second in rims:
@@ -260,6 +375,8 @@ class Side:
         for number, (station, x) in enumerate(
             zip(self.arrangement.stations, self.places, strict=True)
         ):
+            if station.across is not None:
+                yield from self._across_labels(station.across, x, height)
             if station.part is Part.ARM:
                 foot = self._height(station.body)
                 near = min(self.arrangement.arms(station.body), key=lambda h: abs(h - foot))
@@ -275,10 +392,31 @@ class Side:
                 if rim.ring:
                     at = complex(x, rim.centre + way * (rim.radius + SIZES.mesh / 2))
                 yield self._label(rim.label, at, 1j * way if rim.ring else 1, height)
+        train = self.arrangement.scheme.motion.train
+        for mesh in train.meshes:
+            if mesh.kind is MeshKind.RACK:
+                column = self._column_with(mesh.first)
+                rim = next(
+                    r for r in self.arrangement.scheme.columns[column] if r.label == mesh.first
+                )
+                at = complex(self._column(column), rim.centre - rim.radius - 3.0)
+                yield self._label(mesh.second, at + SIZES.teeth / 2, 1, height)
+        for worm in self.arrangement.scheme.worms:
+            yield self._label(worm.label, self._worm(worm) + worm.radius, 1, height)
         for name, at in self.points.items():
-            if name.startswith("pitch "):
+            if name in self.letters and name.startswith("pitch "):
                 letter = typeset(self.letters[name].rstrip("'").upper(), height)
                 yield Label(letter, at, prefer=1 + 0.2j, gap=1.4, name=f"at {name}", manner=BUSY)
+
+    def _across_labels(self, across: Across, x: float, height: float) -> Iterator[Label]:
+        for label in dict.fromkeys(cone.label for cone in across.cones):
+            cone = next(c for c in across.cones if c.label == label)
+            at = complex(x + 0.5 * cone.radius, cone.rim.centre + cone.rim.radius)
+            yield self._label(label, at, 1j, height)
+        if across.carrier:
+            low = self._height(across.carrier)
+            top = min(cone.rim.centre + cone.rim.radius for cone in across.cones)
+            yield self._label(across.carrier, complex(x, (low + top) / 2), 1, height)
 
     def _label(self, text: str, at: complex, prefer: complex, height: float) -> Label:
         return Label(
@@ -293,3 +431,8 @@ class Side:
             if round(at.imag, 3) not in seen:
                 seen.add(round(at.imag, 3))
                 yield Stroke((at, complex(x, at.imag)), Pen.THIN, tag="projection")
+
+
+def _mirrored(vector: complex, way: int) -> complex:
+    """Return a vector, or its mirror image in the level."""
+    return vector if way > 0 else vector.conjugate()

@@ -12,6 +12,8 @@ class GearSheetWording:
 
     Attributes
     ----------
+    kinds : mapping
+        Names of meshes, by kind.
     inscriptions : mapping
         Inscriptions of scales, by scale.
     steps : mapping
@@ -32,6 +34,7 @@ class GearSheetWording:
     columns_results: tuple[str, ...]
     columns_segments: tuple[str, ...]
     no_scheme: str
+    kinds: Mapping[str, str]
     protocol: str
     given: str
     source: str

@@ -124,9 +124,7 @@ def wheel_profile(
     return items
 
 
-def ring_profile(
-    centre: complex, radius: float, *, stem: float = 6.0, way: int = 1
-) -> list[Item]:
+def ring_profile(centre: complex, radius: float, *, stem: float = 6.0, way: int = 1) -> list[Item]:
     """Return the upper half of a fixed wheel with inner teeth, from the side (неподвижное колесо).
 
     Its cross-bar stands half a mesh outside the pitch radius; from there a stem of ``stem`` mm goes

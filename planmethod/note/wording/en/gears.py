@@ -1,7 +1,7 @@
 """Words of gear trains in English (зубчатые механизмы по-английски)."""
 
-from planmethod.note.wording.gear_model import GearWording
 from planmethod.note.wording.en.gearsheet import GEAR_SHEET
+from planmethod.note.wording.gear_model import GearWording
 
 GEARS = GearWording(
     sheet=GEAR_SHEET,

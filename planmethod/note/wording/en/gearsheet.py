@@ -23,6 +23,16 @@ GEAR_SHEET = GearSheetWording(
     columns_segments=("Segment", "y, mm", "Exact", "Read"),
     no_scheme="The scheme is not drawn: the train has {kinds} meshes, whose axes do not stand in "
     "one plane with the others.",
+    kinds={
+        "external": "external",
+        "internal": "internal",
+        "bevel": "bevel",
+        "rack": "rack",
+        "belt": "belt",
+        "crossed belt": "crossed belt",
+        "chain": "chain",
+        "worm": "worm",
+    },
     protocol="Protocol of the pictures of velocities. {title}",
     given="Given",
     source="Source: {source}",
