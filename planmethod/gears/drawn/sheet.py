@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
 from math import pi
+from typing import NamedTuple
 
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import series_near
@@ -61,8 +62,6 @@ WIDTHS = (STAMP_WIDTH - 10.0, 140.0)
 
 POLES = (40, 30, 25, 20, 15, 10)
 
-LETTER, TITLE, TEXT, ROW = 5.0, 5.0, 3.5, 7.0
-"""Heights of letters on views, of titles, of texts; of the rows of tables, mm."""
 
 SHARES = (1.2, 2.2, 1.1, 1.1, 0.7, 0.8)
 """Widths of the columns of the results, in parts."""
@@ -105,10 +104,10 @@ def drawings(
     texts = merged(default, problem.stamp, furniture.numbers(1, 1), fields)
     asked = problem.sheet.paper and paper_format(problem.sheet.paper).name
     with using(lettering(problem.sheet.lettering or "B")):
-        for name, settings in _tries(motion, asked):
+        for name, settings, sizes in _tries(motion, asked):
             fmt = paper_format(name)
             items, inner, stamp, taken = sheet_frame(fmt, texts, furniture)
-            sheet = _Sheet(motion, settings, profile, words)
+            sheet = _Sheet(motion, settings, profile, words, sizes)
             for parts in sheet.orders():
                 corners = pack(Group(parts), inner, stamp, taken)
                 if corners is None:
@@ -125,20 +124,21 @@ def drawings(
     )
 
 
-def _tries(motion: Motion, asked: str | None) -> Iterator[tuple[str, PictureSettings]]:
+def _tries(motion: Motion, asked: str | None) -> Iterator[tuple[str, PictureSettings, _Sizes]]:
     """Yield papers and scales in turn: first the scale of the file, where the scheme suits it."""
     train, settings = motion.train, motion.train.picture
     extent = _extent(motion) * float(train.unit_m)
     papers = (asked,) if asked else PAPERS
     if LEAST <= extent / float(settings.mu_l) <= MOST:
-        yield from ((name, settings) for name in papers if name != PAPERS[-1] or asked)
-    for name in papers:
+        kept = (name for name in papers if name != PAPERS[-1] or asked)
+        yield from ((name, settings, _Sizes()) for name in kept)
+    for sizes, name in product((_Sizes(), DENSE) if asked else (_Sizes(),), papers):
         for target in TARGETS:
             if not asked and (target < LEAST_TARGET or (name == "A3" and target > MOST_A3)):
                 continue
             mu_l = Fraction(repr(series_near(extent / target, up=True)))
             tried = replace(settings, mu_l=mu_l)
-            yield name, replace(tried, pole_mm=_pole(motion, tried))
+            yield name, replace(tried, pole_mm=_pole(motion, tried)), sizes
 
 
 def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
@@ -161,6 +161,19 @@ def _extent(motion: Motion) -> float:
     rims += [] if scheme.undrawn else [cone.rim for one in scheme.across for cone in one.cones]
     ends = [rim.centre + way * rim.radius for rim in rims for way in (1, -1)]
     return max(ends) - min(ends) if ends else 100.0
+
+
+class _Sizes(NamedTuple):
+    """Heights of letters on views, of titles, of texts; of the rows of tables, mm."""
+
+    letter: float = 5.0
+    title: float = 5.0
+    text: float = 3.5
+    row: float = 7.0
+
+
+DENSE = _Sizes(3.5, 3.5, 2.5, 5.5)
+"""Where the format was asked for and nothing larger fits."""
 
 
 @dataclass(frozen=True)
@@ -203,6 +216,7 @@ class _Sheet:
     settings: PictureSettings
     profile: Profile
     words: Language
+    sizes: _Sizes
 
     def orders(self) -> Iterator[tuple[Part, ...]]:
         """Yield the blocks in orders of reading; the last stands on the title block."""
@@ -227,8 +241,8 @@ class _Sheet:
     # Views ---------------------------------------------------------------------------------------
 
     def _head(self, title: str, width: float, *scales: str) -> Block:
-        lines: list[Block] = [paragraph(title, TITLE, width, align="centre")]
-        lines += [Line(typeset(scale, TEXT)) for scale in scales]
+        lines: list[Block] = [paragraph(title, self.sizes.title, width, align="centre")]
+        lines += [Line(typeset(scale, self.sizes.text)) for scale in scales]
         return Column(lines, gap=2.5, align="centre")
 
     def _scale(self, key: str, value: float, **more: str) -> str:
@@ -240,18 +254,18 @@ class _Sheet:
         say = self.words.gears.sheet
         if scheme.undrawn:
             kinds = ", ".join(say.kinds[kind] for kind in scheme.undrawn)
-            text = paragraph(say.no_scheme.format(kinds=kinds), TEXT, STAMP_WIDTH)
+            text = paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
             return _Viewed(text, ())
         spots = () if drawn is None else drawn.spots
         side = Side(arrange(scheme), {spot.contact: spot.letter for spot in spots})
-        items, labels = side.items(), list(side.labels(LETTER))
+        items, labels = side.items(), list(side.labels(self.sizes.letter))
         left, _, right, _ = ink_bounds(items)
         mu_l = self._scale("mu_l", float(self.settings.mu_l))
         heads = [(self._head(say.scheme, max(right - left, 50.0), mu_l), (left + right) / 2)]
         middle = right
         origin = 0.0
         if drawn is not None and seen is not None:
-            lines, named = linear(drawn, seen)
+            lines, named = linear(drawn, seen, self.sizes.letter)
             box = ink_bounds(lines)
             head = self._head(say.linear, max(box[2] - box[0], 60.0), self._mu_v(drawn.picture))
             room = max(0.0, (head.width - (box[2] - box[0])) / 2)
@@ -300,7 +314,9 @@ class _Sheet:
             scheme = Scheme(self.motion, float(self.motion.train.unit_m) / mu_l)
             title = self.words.gears.sheet.front
             scales = [self._scale("mu_l", mu_l)]
-            yield self._titled(front(scheme, LETTER), title, "position", "μ_{l}", mu_l, scales)
+            yield self._titled(
+                front(scheme, self.sizes.letter), title, "position", "μ_{l}", mu_l, scales
+            )
 
     def _is_turned(self) -> bool:
         scheme = Scheme(self.motion, 1.0)
@@ -335,7 +351,7 @@ class _Sheet:
             scales.append(self._scale("mu_n", float(picture.turn_per_mm)))
         spans = list(angular_spans(drawn, seen, 0j))
         title = self.words.gears.sheet.angular
-        view = angular(drawn, seen)
+        view = angular(drawn, seen, self.sizes.letter)
         return self._titled(view, title, "velocity", "μ_{ω}", per_mm, scales, spans)
 
     # Texts ---------------------------------------------------------------------------------------
@@ -344,10 +360,10 @@ class _Sheet:
         """Return what is given and the calculation."""
         facts = (fact.replace(" ", "\u00a0") for fact in given(self.motion, self.words))
         text = self.words.note.given.format(given="; ".join(facts))
-        blocks: list[Block] = [paragraph(text, TEXT, width)]
-        blocks.append(heading(self.words.gears.sheet.calculation, TEXT))
+        blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
+        blocks.append(heading(self.words.gears.sheet.calculation, self.sizes.text))
         lines = calculation(self.motion, self.words)
-        blocks += [formula_block(line, TEXT, width=width) for line in lines]
+        blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 
     def _segments(self, drawn: Construction, seen: Reading) -> Block:
@@ -361,21 +377,24 @@ class _Sheet:
             exact, ruled = (float(trace.value[name]) for trace in (seen.exact, seen.read))
             rows.append((f"o({drawn.label(body)})", "—", self._mm(exact), say.ruled(ruled)))
         columns = self.words.gears.sheet.columns_segments
-        table = _table(columns, rows, 95.0)
-        return Column([Line(typeset(self.words.gears.sheet.segments, TEXT)), table], gap=2.5)
+        table = _table(columns, rows, 27.0 * self.sizes.text, self.sizes)
+        return Column(
+            [Line(typeset(self.words.gears.sheet.segments, self.sizes.text)), table], gap=2.5
+        )
 
     def _mm(self, value: float) -> str:
         return self.words.say.number(f"{value + 0.0:.2f}")
 
     def _results(self, drawn: Construction | None, seen: Reading | None) -> Block:
-        rows = list(results(self.motion, drawn, seen, self.words))
+        whole = list(results(self.motion, drawn, seen, self.words))
         say = self.words.gears.sheet
         columns = say.columns_results if drawn is not None else say.columns_results[:3]
-        table = _table(columns, [row[: len(columns)] for row in rows], STAMP_WIDTH, SHARES)
+        rows = [row[: len(columns)] for row in whole]
+        table = _table(columns, rows, STAMP_WIDTH, self.sizes, SHARES)
         title = say.results if drawn is not None else self.words.gears.asked
-        blocks: list[Block] = [Line(typeset(title, TEXT)), table]
+        blocks: list[Block] = [Line(typeset(title, self.sizes.text)), table]
         if drawn is None:
-            blocks.append(paragraph(self.words.gears.no_picture, TEXT, STAMP_WIDTH))
+            blocks.append(paragraph(self.words.gears.no_picture, self.sizes.text, STAMP_WIDTH))
         return Column(blocks, gap=2.5)
 
 
@@ -388,6 +407,7 @@ def _table(
     heads: Sequence[str],
     rows: Sequence[Sequence[str]],
     width: float,
+    sizes: _Sizes,
     shares: Sequence[float] = (),
 ) -> Block:
     shares = shares[: len(heads)] or [1.0] * len(heads)
@@ -395,4 +415,4 @@ def _table(
         TableColumn(head, tuple(cells), width=width * share / sum(shares))
         for head, cells, share in zip(heads, zip(*rows, strict=True), shares, strict=True)
     ]
-    return table_block(columns, TEXT, width=width, units="none", row_height=ROW)
+    return table_block(columns, sizes.text, width=width, units="none", row_height=sizes.row)
