@@ -284,6 +284,15 @@ class Scheme:
         }
 
     @cached_property
+    def beside(self) -> Mapping[str, frozenset[str]]:
+        """Of every body, the others on its axis."""
+        levels = {body: round(height, 6) for body, height in self.heights.items()}
+        return {
+            body: frozenset(b for b, level in levels.items() if level == own and b != body)
+            for body, own in levels.items()
+        }
+
+    @cached_property
     def columns(self) -> tuple[tuple[Rim, ...], ...]:
         """Wheels by the columns that they mesh in.
 
@@ -411,38 +420,32 @@ class Arrangement:
         """Where each body that turns about a fixed axis comes out to the frame."""
         train, found = self.scheme.motion.train, {}
         last = len(self.stations) - 1
+        free = [gap for gap in range(-1, last + 1) if gap not in self.blocked]
         for body, numbers in self.at.items():
             if body in self.scheme.over:
                 continue
             low, high = numbers[0], numbers[-1]
-            free = [gap for gap in range(-1, last + 1) if gap not in self.blocked]
-
-            ends = -1 if body in train.inputs or body != train.output else last
-            far = {gap: self._far(body, gap) + 0.2 * (gap != ends) for gap in free}
-            gap = min(free, key=far.__getitem__)
-            passed = max(low - 1 - gap, gap - high, 0)
-            rank = 0.5 if low <= gap < high else 0.7 - 0.02 * passed if gap < low else 0.3
-            rank = 0.3 + 0.02 * passed if gap >= high else rank
+            near = [gap for gap in free if low - 1 <= gap <= high]
+            near = near or [max(g for g in free if g < low), min(g for g in free if g > high)]
+            ends = last if body == train.output and body not in train.inputs else -1
+            far = {gap: self._far(body, gap) + 0.2 * (gap != ends) for gap in near}
+            gap = min(near, key=far.__getitem__)
+            passed = 0.02 * max(low - 1 - gap, gap - high, 0)
+            inside = low <= gap < high
+            rank = 0.5 if inside else 0.7 - passed if gap < low else 0.3 + passed
             found[body] = Stub(body, gap, rank)
         return found
 
     def _far(self, body: str, gap: int) -> float:
-        """Return how bad it is for a body to come out in a gap."""
+        """Return how bad it is for a body to come out in a gap: other bodies stand in its way."""
         low, high = self.at[body][0], self.at[body][-1]
-        outside = max(low - 1 - gap, gap - high, 0)
-        others = (other for other in self.at if other != body)
-        passed = sum(self._is_passed(other, body, gap) for other in others)
-        return outside + 3 * passed + 0.1 * (low <= gap < high)
-
-    def _is_passed(self, other: str, body: str, gap: int) -> bool:
-        """Whether a body that comes out in a gap would pass through another one of its axis."""
-        if self._height(other) != self._height(body):
-            return False
-        numbers = (*self.at[body], gap + 0.5)
-        return any(min(numbers) < k < max(numbers) for k in self.at[other])
-
-    def _height(self, body: str) -> float:
-        return round(self.scheme.heights[body], 6)
+        start, end = min(low, gap + 0.5), max(high, gap + 0.5)
+        passed = sum(
+            any(start < k < end for k in self.at[other])
+            for other in self.scheme.beside[body]
+            if other in self.at
+        )
+        return max(low - 1 - gap, gap - high, 0) + 3 * passed + 0.1 * (low <= gap < high)
 
     @cached_property
     def reach(self) -> Mapping[str, tuple[float, float]]:
@@ -457,8 +460,8 @@ class Arrangement:
 
     def inner(self, body: str) -> list[str]:
         """Return the bodies whose shafts pass through a body of the same axis."""
-        same = (other for other in self.reach if self._height(other) == self._height(body))
-        return [other for other in same if other != body and self._is_about(body, other)]
+        same = (other for other in self.scheme.beside[body] if other in self.reach)
+        return [other for other in same if self._is_about(body, other)]
 
     def _is_about(self, body: str, other: str) -> bool:
         """Whether a body can turn about the shaft of another one."""
@@ -505,7 +508,7 @@ class Arrangement:
         cost = 0.0
         for one, other in combinations(self.reach, 2):
             (a, b), (c, d) = self.reach[one], self.reach[other]
-            if self._height(one) != self._height(other) or b < c or d < a:
+            if other not in self.scheme.beside[one] or b < c or d < a:
                 continue
             about = self._is_about(one, other) or self._is_about(other, one)
             cost += _HOLLOW if about else _IMPOSSIBLE
@@ -522,15 +525,16 @@ class Arrangement:
 
 
 @dataclass(frozen=True, slots=True)
-class _Plan:
+class Order:
     """An order that is tried: columns, and on which side of which column webs and arms stand."""
 
     order: tuple[int, ...]
-    webs: tuple[tuple[int, Rim, int], ...] = field(default=())
+    webs: tuple[tuple[int, str, int], ...] = field(default=())
     arms: tuple[tuple[str, int, int], ...] = field(default=())
     turns: tuple[int, ...] = ()
 
     def stations(self, scheme: Scheme) -> tuple[Station, ...]:
+        """Return what stands from left to right."""
         stations: list[Station] = []
         for column in self.order:
             if column >= len(scheme.columns):
@@ -542,27 +546,26 @@ class _Plan:
             for carrier, at, side in self.arms:
                 if at == column:
                     (right if side > 0 else left).append(Station(Part.ARM, column, (), carrier))
-            for at, ring, side in self.webs:
+            for at, label, side in self.webs:
                 if at == column:
+                    ring = next(rim for rim in scheme.columns[column] if rim.label == label)
                     station = Station(Part.WEB, column, (ring,), ring.body)
                     (right if side > 0 else left).append(station)
             rims = Station(Part.RIMS, column, scheme.columns[column])
             stations += [*left[::-1], rims, *right]
         return tuple(stations)
 
-    def others(self, scheme: Scheme) -> Iterator[_Plan]:
+    def others(self, scheme: Scheme) -> Iterator[Order]:
         """Yield the orders that differ in one thing."""
         for i, j in combinations(range(len(self.order)), 2):
-            order = list(self.order)
-            order[i], order[j] = order[j], order[i]
-            yield replace(self, order=tuple(order))
-            order = list(self.order)
-            order.insert(j, order.pop(i))
-            yield replace(self, order=tuple(order))
+            for start, end in ((i, j), (j, i)):
+                order = list(self.order)
+                order.insert(end, order.pop(start))
+                yield replace(self, order=tuple(order))
         for k, turn in enumerate(self.turns):
             yield replace(self, turns=(*self.turns[:k], -turn, *self.turns[k + 1 :]))
-        for k, (at, ring, side) in enumerate(self.webs):
-            yield replace(self, webs=_put(self.webs, k, (at, ring, -side)))
+        for k, (at, label, side) in enumerate(self.webs):
+            yield replace(self, webs=_put(self.webs, k, (at, label, -side)))
         for k, (carrier, at, side) in enumerate(self.arms):
             for column in _columns_of(scheme, carrier):
                 for turned in (side, -side):
@@ -592,11 +595,11 @@ def _columns_of(scheme: Scheme, carrier: str) -> list[int]:
     ]
 
 
-def arrange(scheme: Scheme) -> Arrangement:
+def best_order(scheme: Scheme) -> Order:
     """Look for the best order of the stations: from several orders on, one change after another."""
     train, columns = scheme.motion.train, scheme.columns
     webs = tuple(
-        (number, rim, -1)
+        (number, rim.label, -1)
         for number, column in enumerate(columns)
         for rim in column
         if rim.ring and rim.body not in train.fixed
@@ -606,24 +609,30 @@ def arrange(scheme: Scheme) -> Arrangement:
         for carrier in train.carriers
         if _columns_of(scheme, carrier)
     )
-    best: Arrangement | None = None
-    tried: dict[_Plan, Arrangement] = {}
+    best: Order | None = None
+    costs: dict[Order, float] = {}
 
-    def made(plan: _Plan) -> Arrangement:
-        if plan not in tried:
-            tried[plan] = Arrangement(scheme, plan.stations(scheme))
-        return tried[plan]
+    def cost(order: Order) -> float:
+        if order not in costs:
+            costs[order] = Arrangement(scheme, order.stations(scheme)).cost
+        return costs[order]
 
     blocks = range(len(columns) + len(scheme.across))
     turns = (1,) * len(scheme.across)
-    for order, _ in zip(permutations(blocks), range(MOST_ORDERS), strict=False):
-        plan = _Plan(order, webs, arms, turns)
+    count = MOST_ORDERS // max(1, len(blocks) - 3) ** 2
+    for first, _ in zip(permutations(blocks), range(max(count, 1)), strict=False):
+        order = Order(first, webs, arms, turns)
         while True:
-            better = min(plan.others(scheme), key=lambda one: made(one).cost, default=plan)
-            if made(better).cost >= made(plan).cost - _EPS:
+            better = min(order.others(scheme), key=cost, default=order)
+            if cost(better) >= cost(order) - _EPS:
                 break
-            plan = better
-        if best is None or made(plan).cost < best.cost - _EPS:
-            best = made(plan)
+            order = better
+        if best is None or cost(order) < cost(best) - _EPS:
+            best = order
     assert best is not None
     return best
+
+
+def arrange(scheme: Scheme, order: Order | None = None) -> Arrangement:
+    """Return the stations of a scheme in an order, in the best one where none is given."""
+    return Arrangement(scheme, (order or best_order(scheme)).stations(scheme))

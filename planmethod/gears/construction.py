@@ -23,6 +23,7 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
 from planmethod.construct.steps import LineName, NumberName, PointName
+from planmethod.errors import PlanMethodError
 from planmethod.gears.asked import parse
 from planmethod.gears.motion import Motion
 from planmethod.gears.picture import Picture, carrier_of
@@ -30,8 +31,15 @@ from planmethod.gears.picture import Picture, carrier_of
 LETTERS = "abcdefghklmnqrstuvwxz"
 """Letters of contact points, in the order of the meshes; ``p`` is the pole."""
 
+NEAR = 1e-6
+"""Difference of the construction from the mesh equations that is a fault, not rounding."""
+
 FEET, POLE = PointName("o'"), PointName("p")
 """Foot of the main axis on ``yy``, and the pole of the rays: they may stand anywhere."""
+
+
+class PictureError(PlanMethodError):
+    """The pictures contradict the mesh equations: a fault of the program (самопроверка)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +156,13 @@ class Reading:
 
 
 def read(drawn: Construction, profile: Profile) -> Reading:
-    """Draw the construction, and read it with the ruler of a draughtsman."""
+    """Draw the construction, and read it with the ruler of a draughtsman.
+
+    Raises
+    ------
+    PictureError
+        The construction does not give the fractions of the mesh equations.
+    """
     program, data = drawn.program, drawn.numbers()
     free = frozenset((str(FEET), str(POLE)))
     counted = Counted(profile, free)
@@ -162,6 +176,11 @@ def read(drawn: Construction, profile: Profile) -> Reading:
         slope = as_dual(slopes[name]).slope
         sigma[name] = 0.0 if slope is None else float(np.sqrt((slope**2).sum()))
     exact = evaluate(program, data, Float64())
+    for one in drawn.found:
+        got, due = float(exact.value[one.read]), float(one.exact)
+        if not abs(got - due) <= NEAR * max(1.0, abs(due)):
+            told = f"the pictures give {one.name} = {got:.12g}, the mesh equations {due:.12g}"
+            raise PictureError(f"{told}. Please report the problem file.")
     return Reading(exact, evaluate(program, data, Hand(ruler=profile.ruler)), sigma)
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import LayoutError
-from planmethod.gears.arrangement import Scheme, arrange
+from planmethod.gears.arrangement import Order, Scheme, arrange, best_order
 from planmethod.gears.construction import Construction, Reading, construct, read
 from planmethod.gears.drawn.front import front
 from planmethod.gears.drawn.side import Side
@@ -102,13 +102,20 @@ def drawings(
     furniture = Furniture.of(problem.sheet, before=before, total=total)
     default = {"title": problem.title, "sheets": "1"}
     texts = merged(default, problem.stamp, furniture.numbers(1, 1), fields)
+    plain = Scheme(motion, 1.0)
+    order = None if plain.undrawn else best_order(plain)
+    made: dict[tuple[PictureSettings, _Sizes], list[tuple[Part, ...]]] = {}
     asked = problem.sheet.paper and paper_format(problem.sheet.paper).name
     with using(lettering(problem.sheet.lettering or "B")):
         for name, settings, sizes in _tries(motion, asked):
             fmt = paper_format(name)
             items, inner, stamp, taken = sheet_frame(fmt, texts, furniture)
-            sheet = _Sheet(motion, settings, profile, words, sizes)
-            for parts in sheet.orders():
+            sheet = _Sheet(motion, settings, profile, words, sizes, order)
+            if (settings, sizes) not in made:
+                made[settings, sizes] = list(sheet.orders())
+            for parts in made[settings, sizes]:
+                if not _has_room(parts, inner, stamp):
+                    continue
                 corners = pack(Group(parts), inner, stamp, taken)
                 if corners is None:
                     continue
@@ -139,6 +146,15 @@ def _tries(motion: Motion, asked: str | None) -> Iterator[tuple[str, PictureSett
             mu_l = Fraction(repr(series_near(extent / target, up=True)))
             tried = replace(settings, mu_l=mu_l)
             yield name, replace(tried, pole_mm=_pole(motion, tried)), sizes
+
+
+def _has_room(parts: Sequence[Part], inner: Bounds, stamp: Bounds) -> bool:
+    """Whether blocks could be packed at all: none is too large, nor are they all together."""
+    width, height = inner[2] - inner[0], inner[3] - inner[1]
+    free = width * height - (stamp[2] - stamp[0]) * (stamp[3] - stamp[1])
+    blocks = [part.block for part in parts]
+    fit = all(block.width < width and block.height < height for block in blocks)
+    return fit and sum(block.width * block.height for block in blocks) < free
 
 
 def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
@@ -217,6 +233,7 @@ class _Sheet:
     profile: Profile
     words: Language
     sizes: _Sizes
+    order: Order | None
 
     def orders(self) -> Iterator[tuple[Part, ...]]:
         """Yield the blocks in orders of reading; the last stands on the title block."""
@@ -225,14 +242,17 @@ class _Sheet:
         seen = None if drawn is None else read(drawn, self.profile)
         scheme = Scheme(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
         strip, last = Part(self._strip(scheme, drawn, seen)), Part(self._results(drawn, seen))
+        shown = [] if drawn is None or seen is None else [
+            Part(self._angular(drawn, seen)), Part(self._segments(drawn, seen), text=True)
+        ]  # fmt: skip
         for view, width in product(self._fronts(), WIDTHS):
             views = [strip] if view is None else [strip, Part(view)]
             texts = [Part(self._told(width), text=True)]
-            if drawn is None or seen is None:
+            if not shown:
                 yield (*views, *texts, last)
                 continue
-            texts.append(Part(self._segments(drawn, seen), text=True))
-            rays = Part(self._angular(drawn, seen))
+            rays = shown[0]
+            texts.append(shown[1])
             yield (*views, rays, *texts, last)
             yield (*views, *texts, rays, last)
             yield (strip, *texts, *views[1:], rays, last)
@@ -257,7 +277,7 @@ class _Sheet:
             text = paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
             return _Viewed(text, ())
         spots = () if drawn is None else drawn.spots
-        side = Side(arrange(scheme), {spot.contact: spot.letter for spot in spots})
+        side = Side(arrange(scheme, self.order), {spot.contact: spot.letter for spot in spots})
         items, labels = side.items(), list(side.labels(self.sizes.letter))
         left, _, right, _ = ink_bounds(items)
         mu_l = self._scale("mu_l", float(self.settings.mu_l))
