@@ -19,14 +19,14 @@ from planmethod.gears.motion import Motion
 MOST_ORDERS = 24
 """Orders of the columns that the search begins from."""
 
-WORM = 6.0
-"""Radius of a worm, mm: it does not follow from its starts."""
+WORM = 0.25
+"""Radius of a worm by that of its wheel: it does not follow from its starts."""
 
 BELT = 1.3
 """Distance of the axes of a belt, by the sum of the radii."""
 
-OVER_CONE = 12.0
-"""Between two level bevel wheels one above another, mm."""
+OVER_CONE = 1.2
+"""Distance of two level bevel wheels one above another, by the sum of the radii."""
 
 _EPS = 1e-6
 
@@ -188,7 +188,7 @@ class Scheme:
             told = [(known[line[b]], r) for b, r in rims if line[b] in known]
             for body, radius in rims:
                 if line[body] not in known and told:
-                    return line[body], max(h + r for h, r in told) + radius + OVER_CONE
+                    return line[body], max(h + OVER_CONE * (r + radius) for h, r in told)
             return None
         if mesh.kind is MeshKind.WORM:
             level = mesh.second if self._is_last(mesh.first) else mesh.first
@@ -241,7 +241,7 @@ class Scheme:
             if mesh.kind is MeshKind.WORM:
                 wheel = max((mesh.first, mesh.second), key=lambda label: sizes[label])
                 radii = {
-                    label: self.radius(label) if label == wheel else WORM
+                    label: self.radius(wheel) * (1.0 if label == wheel else WORM)
                     for label in (mesh.first, mesh.second)
                 }
                 level = mesh.second if self._is_last(mesh.first) else mesh.first
@@ -345,10 +345,12 @@ def _joined(before: Rim | None, rim: Rim) -> Rim:
 
 def _fits(column: Mapping[str, Rim], *rims: Rim) -> bool:
     """Whether wheels can stand in a column, none over another."""
+    if any(column[rim.label].ring != rim.ring for rim in rims if rim.label in column):
+        return False  # one wheel has teeth inside and outside
     whole = {**column, **{rim.label: _joined(column.get(rim.label), rim) for rim in rims}}
     spans = [span for rim in whole.values() for span in rim.spans()]
     for (a, b), (c, d) in combinations(spans, 2):
-        if min(b, d) - max(a, c) > _EPS or (a, b) == (c, d):
+        if min(b, d) - max(a, c) > _EPS or abs(a - c) + abs(b - d) < _EPS:
             return False
         point, (low, high) = (a, (c, d)) if b - a < _EPS else (c, (a, b))
         if (b - a < _EPS or d - c < _EPS) and low + _EPS < point < high - _EPS:

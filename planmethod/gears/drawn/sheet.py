@@ -102,7 +102,7 @@ def drawings(
     furniture = Furniture.of(problem.sheet, before=before, total=total)
     default = {"title": problem.title, "sheets": "1"}
     texts = merged(default, problem.stamp, furniture.numbers(1, 1), fields)
-    plain = Scheme(motion, 1.0)
+    plain = Scheme(motion, float(motion.train.unit_m / motion.train.picture.mu_l))
     order = None if plain.undrawn else best_order(plain)
     made: dict[tuple[PictureSettings, _Sizes], list[tuple[Part, ...]]] = {}
     asked = problem.sheet.paper and paper_format(problem.sheet.paper).name
