@@ -122,7 +122,7 @@ def test_a_speed_that_does_not_follow_is_told_to_be_calculated(tmp_path: Path) -
 
 def test_a_construction_that_is_wrong_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = drawn_of(solve_motion(load(FILES[0])))
-    monkeypatch.setitem(drawn.data, "mu", drawn.data["mu"] * 2)  # type: ignore[arg-type]
+    monkeypatch.setitem(drawn.data, "mu", drawn.data["mu"] * 2)
     with pytest.raises(PictureError, match="mesh equations"):
         read(drawn, BOARD)
 
