@@ -18,6 +18,7 @@ from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.synthesis_model import SynthesisWording
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -46,6 +47,8 @@ class Language:
         The moving point.
     gears : GearWording
         Gear trains.
+    synthesis : SynthesisWording
+        Syntheses.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -66,5 +69,6 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    synthesis: SynthesisWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]
