@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import click
+from click.core import ParameterSource
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.output import is_narrow, refuse_unknown, write_drawings, write_new
@@ -17,7 +18,7 @@ from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
 from planmethod.options import drawn_by, dxf_text_option, format_option, hand_options
 
-LEAST, MOST = 1e-6, 1e6
+LEAST, MOST = 1e-6, 1e4
 """Lengths that are taken, m."""
 
 
@@ -120,10 +121,8 @@ def asked_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @dxf_text_option
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @sheet_options
-@click.pass_context
 @guarded
 def synthesize(
-    ctx: click.Context,
     kind: str,
     as_json: bool,
     out: Path | None,
@@ -142,6 +141,7 @@ def synthesize(
     KIND is slotted, slider-crank, crank-rocker, three-positions or three-angles; what each is made
     from: docs/synthesis.md. Lengths are metres, angles degrees.
     """
+    from planmethod.errors import AssemblyError, ProblemError
     from planmethod.languages import LANGUAGES
     from planmethod.note.wording import language
     from planmethod.problem import loads
@@ -165,10 +165,14 @@ def synthesize(
     made = find(kind, wanted)
     words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
     text = problem_text(made, _command(kind, wanted), words)
-    problem = asked.settle()(loads(text, name=out.stem if out else kind))
-    found = checks(made, problem)
+    try:
+        problem = asked.settle()(loads(text, name=out.stem if out else kind))
+    except ProblemError as error:
+        raise AssemblyError(f"Sizes were found that no problem file takes. {error}") from error
+    found = {**checks(made, problem), **made.facts}
     drawing = Drawn(made, drawn_by(profile, ruler))
-    drawn = drawn or ctx.get_parameter_source("formats") is not click.core.ParameterSource.DEFAULT
+    source = click.get_current_context().get_parameter_source("formats")
+    drawn = drawn or source is not ParameterSource.DEFAULT
     # With --json what is printed is one object; the names of files then stand aside.
     aside = contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext()
     is_file = out is not None and out.suffix == ".toml"

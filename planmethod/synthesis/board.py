@@ -30,13 +30,13 @@ class Board(Builder):
         Given points (m) and numbers (m, degrees) by their names; without the scale.
     said : dict
         What is told instead of a step's own sentence; None of what another sentence tells.
-    circles : list of (PointName, PointName)
-        Centres of circles that are shown, and a point on each.
+    circles : list of tuple of PointName
+        Centres of circles that are shown, and points on each: of several the arc over them.
     """
 
     data: dict[str, complex | float] = field(default_factory=dict)
     said: dict[Name, Said | None] = field(default_factory=dict)
-    circles: list[tuple[PointName, PointName]] = field(default_factory=list)
+    circles: list[tuple[PointName, ...]] = field(default_factory=list)
 
     def fixed(self, name: str, place: complex) -> PointName:
         """Mark a given point, m."""
@@ -117,7 +117,7 @@ class Board(Builder):
         ray = self.ray(tail, self.join(tail, head), side.value * (90.0 - angle))
         at = self.meet_lines(centre, ray, self.bisector(tail, head))
         radius = self.measure(f"{centre} {tail}", at, tail)
-        self.circles.append((at, tail))
+        self.circles.append((at, tail, head, PointName("O")))
         self.said |= {radius: None, ray: None}
         ends = {"tail": tail, "head": head, "centre": centre}
         self.said[at] = ("inscribed", {**ends, "angle": angle, "rest": abs(90.0 - angle)})
@@ -129,7 +129,7 @@ class Board(Builder):
         """Find the centre of the circle through three points."""
         one, two, three = points
         at = self.meet_lines(centre, self.bisector(one, two), self.bisector(two, three))
-        self.circles.append((at, one))
+        self.circles.append((at, *points))
         self.said[at] = ("centre", {"centre": centre, "points": ", ".join(points)})
         return at
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import product
-from math import acos, degrees, inf, nan, radians, sin
+from math import acos, degrees, nan, radians, sin
 from typing import Any
 
 import numpy as np
@@ -50,9 +50,9 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ------
     AskedError, AssemblyError
     """
-    asked = {**asked, "rocker": asked["rocker"] or 1.0}
     free = ("", " beta", " line", " centres")
-    chosen(asked, "crank-rocker", *("K_v swing rocker" + one for one in free))
+    chosen({**asked, "rocker": None}, "crank-rocker", *("K_v swing" + one for one in free))
+    asked = {**asked, "rocker": asked["rocker"] or 1.0}
     theta, swing = angle_of_ratio(asked["K_v"]), asked["swing"]
     if not 0.0 < swing < 180.0:
         raise AssemblyError(f"swing = {swing:.10g} deg: a rocker swings by more than 0, less than "
@@ -81,13 +81,18 @@ def _limits(theta: float, swing: float) -> tuple[float, float, float]:
 
 def _limit(asked: Mapping[str, Any], theta: float) -> str:
     """Return why there is no crank."""
+    if theta == 0.0:
+        return (
+            "K_v = 1: O is on the line B'B'' outside of the chord, so OC must be more than the "
+            f"rocker's {asked['rocker']:.10g} m, and a line must meet it there."
+        )
     low, high, beyond = _limits(theta, asked["swing"])
     told = f"{low:.6g} < beta < {high:.6g} deg"
     if beyond < high:
         told += f" or {-high:.6g} < beta < {-beyond:.6g} deg"
     given = {"beta": "--beta", "line": "--line", "centres": "--centres"}
     name = next((text for key, text in given.items() if asked[key] is not None), "this")
-    radius = asked["rocker"] * sin(radians(asked["swing"] / 2)) / (sin(radians(theta)) or inf)
+    radius = asked["rocker"] * sin(radians(asked["swing"] / 2)) / (sin(radians(theta)))
     return (
         f"{name}: no place for O from which B'B'' is seen at theta = {theta:.6g} deg with both "
         f"dead positions on one side of OC. Possible are {told} on the circle of the radius "
@@ -190,6 +195,7 @@ def _built(
         b.found("OC", b.measure("O C", pivot, c))
     out = b.opposite("A'", pivot, far, crank, Way.FORWARD)
     back = b.opposite("A''", pivot, near, crank, Way.BACKWARD)
+    b.circles.append((pivot, out, back))
     try:
         trace = read(b)
     except AssemblyError:
@@ -199,11 +205,11 @@ def _built(
     seen = (np.conj(one - two) * (o - two)).imag * side.value
     lengths = lengths_of(trace, LENGTHS)
     worst = transmission(*lengths.values())
+    short_way, long_way = abs(two - o), abs(one - o)
     tiny = 1e-9 * asked["rocker"]
     on_arc = circle is None or seen > 0.0
-    if not (on_arc and sides[0] * sides[1] > 0.0 and lengths["OA"] > tiny and worst > 1e-6):
-        return None
-    if abs(one - o) < abs(two - o):
+    turns = sides[0] * sides[1] > 0.0 and worst > 1e-6
+    if not (on_arc and turns and short_way > tiny and long_way - short_way > tiny):
         return None
     left = (np.conj(-place(trace, "A'") + 0j) * (one - place(trace, "A'"))).imag > 0.0
     tables = (

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import cmath
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
+from math import tau
 from typing import Any
 
 import numpy as np
@@ -11,7 +15,7 @@ import numpy as np
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
-from planmethod.construct.scale import choose_scale
+from planmethod.construct.scale import choose_scale, series_near
 from planmethod.construct.steps import (
     Given,
     Join,
@@ -28,7 +32,7 @@ from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, 
 from planmethod.solved.errors.spread import Errors
 from planmethod.synthesis.model import Synthesis, place, scaled
 
-BOXES = ((172.0, 200.0), (330.0, 110.0))
+BOXES = ((170.0, 222.0), (330.0, 130.0))
 """Boxes that the points of a construction shall fill on A3: standing and lying, mm."""
 
 FAR = 1.2
@@ -44,10 +48,13 @@ class Drawn:
     synthesis : Synthesis
     profile : Profile
         Who draws it.
+    scale : float, optional, m per mm
+        Its scale, if it is not to be chosen.
     """
 
     synthesis: Synthesis
     profile: Profile
+    scale: float | None = None
 
     @cached_property
     def shown(self) -> tuple[str, ...]:
@@ -70,9 +77,21 @@ class Drawn:
     @cached_property
     def mu(self) -> float:
         """Scale, m per mm: of the two boxes the one that gives the larger drawing."""
-        places = np.array([place(self.synthesis.exact(), p) for p in self.shown])
-        extent = (float(np.ptp(places.real)), float(np.ptp(places.imag)))
-        return min(choose_scale(extent, box) for box in BOXES)
+        if self.scale is not None:
+            return self.scale
+        left, low, right, high = self.extent(self.synthesis.exact())
+        return min(choose_scale((right - left, high - low), box) for box in BOXES)
+
+    def extent(self, exact: Trace) -> tuple[float, float, float, float]:
+        """Return the box around what is shown, arcs with it, in the unit of a reading."""
+        places = np.array([place(exact, p) for p in self.shown])
+        for centre, *points in self.synthesis.board.circles:
+            if {centre, *points} <= {*self.shown}:
+                middle, radius, start, sweep = arc_over(exact, centre, points)
+                turns = start + sweep * np.linspace(0.0, 1.0, 37)
+                places = np.append(places, middle + radius * np.exp(1j * turns))
+        xs, ys = places.real, places.imag
+        return float(xs.min()), float(ys.min()), float(xs.max()), float(ys.max())
 
     @cached_property
     def paper(self) -> Trace:
@@ -103,6 +122,15 @@ class Drawn:
         """Return a length of the mechanism as the ruler has it, m."""
         return float(self.by_hand.value[NumberName(f"l {name}")])
 
+    def coarser(self) -> Drawn:
+        """Return the same at the next scale of the series."""
+        return replace(self, scale=series_near(1.01 * self.mu, up=True))
+
+    def way(self, line: LineName, point: PointName) -> float:
+        """Return how far along a line a point is, mm from the line's own point."""
+        start, course = (complex(value) for value in self.paper.value[line])
+        return float(((place(self.paper, point) - start) / course).real * abs(course))
+
     def on_line(self) -> dict[LineName, list[PointName]]:
         """Return the points that lie on every line that is drawn, and at which it is drawn."""
         found: dict[LineName, list[PointName]] = {}
@@ -122,3 +150,18 @@ class Drawn:
                 case _:
                     pass
         return found
+
+
+def arc_over(
+    trace: Trace, centre: str, points: Sequence[str]
+) -> tuple[complex, float, float, float]:
+    """Return the shortest arc over points of a circle: centre, radius, start and sweep, radians.
+
+    Of one point: the whole circle.
+    """
+    middle = place(trace, centre)
+    turns = sorted(cmath.phase(place(trace, p) - middle) for p in points)
+    gaps = [(after - turn) % tau for turn, after in pairwise([*turns, turns[0]])] or [0.0]
+    k = max(range(len(gaps)), key=gaps.__getitem__)
+    radius = abs(place(trace, points[0]) - middle)
+    return middle, radius, turns[(k + 1) % len(turns)], tau - gaps[k]

@@ -34,7 +34,7 @@ def checks(synthesis: Synthesis, problem: Problem) -> dict[str, Any]:
     Raises
     ------
     PlanMethodError
-        It does not do what was asked: a mistake of ours.
+        It does not do what was asked: rounding is too large, or a mistake of ours.
     """
     way = _Way(synthesis, problem)
     found: dict[str, Any] = {**way.extremes(), **way.angles()}
@@ -45,8 +45,8 @@ def checks(synthesis: Synthesis, problem: Problem) -> dict[str, Any]:
         measured = found[name]
         if measured is None or not abs(measured - value) <= CLOSE * max(abs(value), 1e-6):
             raise PlanMethodError(
-                f"The mechanism that was found has {name} = {measured!r} instead of {value!r}. "
-                "Please report the command."
+                f"The mechanism that was found has {name} = {measured!r} instead of {value!r}: it "
+                "is too near to the limit of what can be assembled. Take other values."
             )
     return found
 
@@ -143,7 +143,7 @@ class _Way:
             middle = (dead[0] + dead[1]) / 2
             extra = grid[0] + (np.array([middle, middle + 180.0]) - grid[0]) % 360.0
             grid = np.sort(np.append(grid, extra))
-        return self._roots(self._rate, grid)
+        return self._roots(self._rate, np.asarray(grid, dtype=float))
 
     def _rate(self, phi: Reals) -> Reals:
         return self._table(phi)[self.rate]
@@ -166,10 +166,9 @@ class _Way:
         at = {p: found[f"{p}.x"] + 1j * found[f"{p}.y"] for p in (tail, head)}
         drives = at[head] - at[tail]
         if not pivot:
-            return 90.0 - np.degrees(np.arctan2(np.abs(drives.imag), np.abs(drives.real)))
+            return _acute(1j * drives)
         arm = at[head] - (place(self.synthesis.exact(), pivot) - self._origin)
-        turned = np.conj(arm) * drives
-        return np.degrees(np.arctan2(np.abs(turned.imag), np.abs(turned.real)))
+        return _acute(np.conj(arm) * drives)
 
     @property
     def _origin(self) -> complex:
@@ -235,3 +234,8 @@ def _narrowed(rate: Callable[[Reals], Reals], low: float, high: float) -> float:
             float(rates[k + 1]),
         )
     return low if one == two else low + (high - low) * one / (one - two)
+
+
+def _acute(vector: npt.NDArray[np.complex128]) -> Reals:
+    """Return the angle between vectors and the x axis, 0 to 90 degrees."""
+    return np.asarray(np.degrees(np.arctan2(np.abs(vector.imag), np.abs(vector.real))), float)

@@ -20,17 +20,13 @@ def synthesis_record(
         The options as they were given.
     """
     made = drawn.synthesis
-    facts = {
-        name: finite_or_none(value) if isinstance(value, float) else value
-        for name, value in made.facts.items()
-    }
     sigma = drawn.sigma
     return {
         "schema": 1,
         "kind": made.kind,
         "given": {name: value for name, value in asked.items() if value is not None},
         "lengths": made.metres(),
-        "checks": {**checks, **facts},
+        "checks": dict(checks),
         "drawing": {
             "mu_l": drawn.mu,
             "read": {name: finite_or_none(drawn.read(name)) for name in made.lengths},

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from itertools import pairwise
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise, product
 from math import radians, tau
-from typing import Any
+from typing import Any, TypeAlias
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
@@ -16,19 +16,26 @@ from planmethod.languages import LANGUAGES
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
+from planmethod.render.control.unused import largest_empty
+from planmethod.render.frame.clearance import is_clear
 from planmethod.render.frame.frame import paper_format, sheet_frame
-from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.layout.block import Block, Column, Line, Picture, heading, paragraph
-from planmethod.render.layout.cuttings import Group, Part
-from planmethod.render.layout.pack import pack
+from planmethod.render.layout.block import (
+    Block,
+    Column,
+    Line,
+    Picture,
+    heading,
+    paragraph,
+)
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.sheets.texts import unbroken
+from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import Viewed
 from planmethod.render.symbols import (
     before_links,
@@ -39,17 +46,26 @@ from planmethod.render.symbols import (
     slider,
     stone,
 )
-from planmethod.synthesis.drawn import Drawn
+from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place
 from planmethod.synthesis.text import Teller, check_rows, given_facts, point_name, size_rows
 
 PAPER = "A3"
 
-COLUMN = 179.0
-"""Width of the texts, over the title block, mm."""
+COLUMN = 175.0
+"""Width of the texts over the title block, mm."""
+
+EDGE, GAP, MOST_GAP = 6.0, 7.0, 22.0
+"""Least white at the frame and between two blocks, and most white between two texts, mm."""
 
 LETTER, TEXT = 5.0, 3.5
 """Heights of the letters of points, and of texts, mm."""
+
+VOID = 0.15
+"""Part of the field that may be one empty rectangle where there is a choice."""
+
+Placed: TypeAlias = list[tuple[Block, complex]]
+"""Blocks and their upper left corners, mm."""
 
 _BEYOND = 9.0  # mm: construction lines go on beyond their points
 _TICK = 5.0  # mm: half of an arc that marks a point
@@ -86,66 +102,142 @@ def synthesis_sheet(
     furniture, fmt = Furniture.of(problem.sheet), paper_format(problem.sheet.paper or PAPER)
     room = furniture.room(fmt)
     with using(lettering(problem.sheet.lettering or "B")):
-        view = _view(drawn, words)
-        for height in (TEXT, 2.5, 0.0):
-            texts_of = _texts(drawn, asked, checks, words, height)
-            blocks = [view, *texts_of]
-            parts = tuple(Part(block, block is not view) for block in blocks)
-            whole = Group((parts[0], *parts[1:]))
-            corners = pack(whole, room.inner, room.stamp, room.taken)
-            if corners is None:
-                continue
-            sheet = Drawing(fmt.width, fmt.height, texts["title"], is_cut_down=height == 0.0)
-            sheet.extend(sheet_frame(fmt, texts, furniture).items)
-            for block, corner in zip(blocks, corners, strict=True):
-                items = block.place(corner)
-                sheet.extend(items)
-                if isinstance(block, Viewed):
-                    sheet.views.append(block.view(items, corner))
-            return sheet
+        scales = 3
+        for k in range(scales):
+            view = _view(drawn, words)
+            for height in (TEXT, 2.5) if k + 1 < scales else (TEXT, 2.5, 0.0):
+                texts_of = _texts(drawn, asked, checks, words, height)
+                made: list[tuple[float, int, Drawing]] = []
+                for placed in _arranged(view, texts_of, room):
+                    sheet = Drawing(fmt.width, fmt.height, texts["title"], is_cut_down=not height)
+                    sheet.extend(sheet_frame(fmt, texts, furniture).items)
+                    for block, corner in placed:
+                        items = block.place(corner)
+                        sheet.extend(items)
+                        if block is view:
+                            sheet.views.append(view.view(items, corner))
+                    made.append((_void(sheet, room), len(made), sheet))
+                    if made[-1][0] < VOID:
+                        break
+                if made:
+                    return min(made)[2]
+            drawn = drawn.coarser()
     raise LayoutError(
         f"{drawn.synthesis.kind}: the construction does not fit {fmt.name}. Take --paper A2."
     )
 
 
+def _void(sheet: Drawing, room: Room) -> float:
+    """Return the part of the field that the largest empty rectangle takes."""
+    left, low, right, high = room.inner
+    x0, y0, x1, y1 = largest_empty(sheet.items, room.inner)
+    return (x1 - x0) * (y1 - y0) / ((right - left) * (high - low))
+
+
+def _arranged(view: Viewed, texts: Sequence[Block], room: Room) -> Iterator[Placed]:
+    """Yield how the blocks of a sheet may stand, the more usual ways first."""
+    for where in ("under", "corner", "right"):
+        yield from _beside(view, texts, room, where)
+    yield from _above(view, texts, room)
+
+
+def _beside(view: Viewed, texts: Sequence[Block], room: Room, where: str) -> Iterator[Placed]:
+    """Put the view on the left, texts on the right.
+
+    ``where`` is the place of what was measured: ``under`` the view, in a ``corner`` that the view
+    leaves free, or on the ``right``.
+    """
+    *told, sizes = texts
+    left, low, _, high = room.inner
+    right, floor = room.stamp[0] + EDGE, room.stamp[3] + EDGE
+    width, foot = room.stamp[0] - GAP - left - EDGE, low + EDGE
+    placed: Placed = [(sizes, complex(right, floor + sizes.height))]
+    measured = told[-1]
+    if where != "right":
+        told.pop()
+    spare = high - EDGE - floor - sizes.height - sum(block.height for block in told)
+    gap = min(MOST_GAP, spare / len(told))
+    if gap < GAP or max(view.width, measured.width) > width:
+        return
+    top = high - EDGE - (spare - gap * len(told)) / 3
+    for block in told:
+        placed.append((block, complex(right, top)))
+        top -= block.height + gap
+    if where == "under":
+        placed.append((measured, complex(left + EDGE, foot + measured.height)))
+        foot += measured.height + GAP
+    spare, loose = high - EDGE - foot - view.height, width - measured.width
+    beside = high - EDGE - foot - measured.height
+    for across, up, aside, level in product((0.5, 0.0, 1.0), (0.5, 0.0), (1.0, 0.0), (0.45, 0.0)):
+        corner = complex(left + EDGE + across * (width - view.width), foot + view.height)
+        corner += 1j * up * spare
+        taken, more = room.taken, []
+        if where == "corner":
+            at = complex(left + EDGE + aside * loose, foot + measured.height + level * beside)
+            more = [(measured, at)]
+            taken += ((at.real, at.imag - measured.height, at.real + measured.width, at.imag),)
+        if spare >= 0.0 and is_clear(view.place(corner), replace(room, taken=taken)):
+            yield [*placed, *more, (view, corner)]
+            if where != "corner":
+                return
+
+
+def _above(view: Viewed, texts: Sequence[Block], room: Room) -> Iterator[Placed]:
+    """Put the view above everything else, the steps beside the title block."""
+    *told, measured, sizes = texts
+    left, low, right, high = room.inner
+    floor, at = room.stamp[3] + EDGE, room.stamp[0] + EDGE
+    steps, tables = Column(told, gap=GAP), Column([measured, sizes], gap=GAP)
+    under = max(floor + tables.height, low + EDGE + steps.height)
+    spare = high - EDGE - view.height - under - GAP
+    wide = max(view.width, steps.width + GAP + room.stamp[2] - room.stamp[0])
+    corner = complex((left + right - view.width) / 2, high - EDGE - spare / 2)
+    fits = spare >= 0.0 and wide <= right - left - 2 * EDGE
+    if fits and is_clear(view.place(corner), room):
+        yield [
+            (view, corner),
+            (steps, complex(left + EDGE, under)),
+            (tables, complex(at, floor + tables.height)),
+        ]
+
+
 def _view(drawn: Drawn, words: Language) -> Viewed:
     """Return the construction with its name and scale."""
     scale = Scale("mu_l", drawn.mu, "m")
-    name = words.synthesis.construction
-    lines: list[Block] = [Line(typeset(name, 5.0), underline=True)]
-
-    lines.append(Line(typeset(scale_inscription(scale, Convention.UNIT_PER_MM, words.say), TEXT)))
-    under = Column(lines, gap=2.5, align="centre")
+    said = scale_inscription(scale, Convention.UNIT_PER_MM, words.say)
+    name = Line(typeset(words.synthesis.construction, LETTER), underline=True)
+    under = Column([name, Line(typeset(said, TEXT))], gap=2.5, align="centre")
     return Viewed(Column([_picture(drawn), under], gap=5.0, align="centre"), "position", scale)
 
 
 def _texts(
     drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language, told: float
 ) -> list[Block]:
-    """Return what is given, the steps in letters ``told`` high (none at 0), and the tables."""
-    said, blocks = words.synthesis, []
-    facts = words.note.given.format(given=unbroken(given_facts(asked, words)))
-    first: list[Block] = [paragraph(facts, TEXT, COLUMN)]
-    blocks.append(Column(first, gap=3.0))
+    """Return what is given, the steps ``told`` mm high (none at 0), measured values, sizes."""
+    said = words.synthesis
+    facts = words.note.given.format(given="; ".join(given_facts(asked, words)))
+    blocks: list[Block] = [paragraph(facts, TEXT, COLUMN)]
     if told:
         steps = [
-            paragraph(f"{k}) {sentence}", told, COLUMN)
+            paragraph(f"{k}) {_kept(sentence)}", told, COLUMN)
             for k, sentence in enumerate(Teller(drawn, words).sentences(), 1)
         ]
-        blocks.append(Column([heading(said.construction, TEXT), *steps], gap=0.6 * told))
+        blocks.append(Column([heading(said.steps_title, TEXT), *steps], gap=0.6 * told))
+    rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
+    measured = paragraph(";\n".join(rows) + ".", TEXT, COLUMN)
+    blocks.append(Column([heading(said.measured, TEXT), measured], gap=3.0))
     columns = zip(said.columns, zip(*size_rows(drawn, words), strict=True), strict=True)
     sizes = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
         TEXT, width=COLUMN, units="none", row_height=6.5,
     )  # fmt: skip
-    measured = paragraph(
-        ";\n".join(f"{name}: {value}" for name, value in check_rows(checks, words)) + ".",
-        TEXT,
-        COLUMN,
-    )
-    blocks.append(Column([heading(said.measured, TEXT), measured], gap=3.0))
     blocks.append(Column([heading(said.lengths, TEXT), sizes], gap=3.0))
     return blocks
+
+
+def _kept(sentence: str) -> str:
+    """Return a sentence whose last word does not stand on a line alone."""
+    return NBSP.join(sentence.rsplit(" ", 1))
 
 
 # The construction --------------------------------------------------------------------------------
@@ -166,10 +258,9 @@ class _Ink:
     box: Bounds = field(init=False)
 
     def __post_init__(self) -> None:
-        at = [self.at(name) for name in self.drawn.shown]
-        xs, ys = [p.real for p in at], [p.imag for p in at]
+        left, low, right, high = self.drawn.extent(self.drawn.paper)
         room = 1.5 * _BEYOND
-        self.box = (min(xs) - room, min(ys) - room, max(xs) + room, max(ys) + room)
+        self.box = (left - room, low - room, right + room, high + room)
 
     def at(self, name: str) -> complex:
         return place(self.drawn.paper, name)
@@ -179,10 +270,12 @@ class _Ink:
         for line, points in self.drawn.on_line().items():
             yield from self._line(line, points)
         circles = self.drawn.synthesis.board.circles
-        for centre, point in circles:
-            middle, radius = self.at(centre), abs(self.at(point) - self.at(centre))
-            yield from self._arc(middle, radius, 0.0, tau)
-        whole = {centre for centre, _ in circles}
+        for centre, *points in circles:
+            middle, radius, start, sweep = arc_over(self.drawn.paper, centre, points)
+            beyond = _BEYOND / radius
+            sweep = min(tau, sweep + 2 * beyond)
+            yield from self._arc(middle, radius, start - beyond, start - beyond + sweep)
+        whole = {centre for centre, *_ in circles}
         for step in self.drawn.synthesis.board.steps:
             if isinstance(step, MeetCircles):
                 centres: tuple[PointName, ...] = (step.centre1, step.centre2)
@@ -204,10 +297,9 @@ class _Ink:
             )
 
     def _line(self, line: LineName, points: Iterable[PointName]) -> Iterator[Item]:
-        start, course = self.drawn.paper.value[line]
-        along = complex(course) / abs(complex(course))
-        start = complex(start)
-        ways = [((self.at(p) - start) / along).real for p in points]
+        start, course = (complex(value) for value in self.drawn.paper.value[line])
+        along = course / abs(course)
+        ways = [self.drawn.way(line, p) for p in points]
         if max(ways) - min(ways) > 1.0:
             ends = (start + along * (min(ways) - _BEYOND), start + along * (max(ways) + _BEYOND))
             yield from self._clipped(ends)

@@ -147,6 +147,7 @@ def _built(
         b.found("e", b.measure("O N", pivot, foot))
     out = b.opposite("A'", pivot, far, crank, Way.FORWARD)
     back = b.opposite("A''", pivot, near, crank, Way.BACKWARD)
+    b.circles.append((pivot, out, back))
     trace = read(b)
     if place(trace, "O").real >= 0.0:
         raise AssemblyError(

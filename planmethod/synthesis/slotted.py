@@ -13,7 +13,7 @@ from typing import Any
 from planmethod.construct.steps import Way
 from planmethod.errors import AssemblyError
 from planmethod.synthesis.board import Board
-from planmethod.synthesis.model import AskedError, Pose, Synthesis, Table, angle_of_ratio, chosen
+from planmethod.synthesis.model import Pose, Synthesis, Table, angle_of_ratio, chosen
 
 TAKES = ("K_v", "swing", "centres", "stroke", "rod")
 
@@ -25,7 +25,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ----------
     asked : mapping
         ``K_v`` or ``swing`` (degrees), ``centres`` O1O3 (m); with ``stroke`` (m) a slider driven by
-        a rod, ``rod`` long or half as long as the slotted link.
+        a rod, ``rod`` long or, when absent, O3B/2 (more for swings near 180 degrees).
 
     Raises
     ------
@@ -51,6 +51,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         b.meet_lines(name, ray, b.perpendicular(o1, ray))
         for name, ray in zip(("A'", "A''"), rays, strict=True)
     ]
+    b.circles.append((o1, *pins))
     crank = b.measure("O1 A", o1, pins[0])
     b.found("O1A", crank)
     # The stone must not leave the slot: its furthest place is on the line of centres.
@@ -78,19 +79,19 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         reach = b.measure("O3 B", o3, ends[0])
         b.found("O3B", reach)
         top = b.meet_line_circle("B", up, o3, reach, Way.FORWARD)
-        b.circles.append((o3, ends[0]))
+        b.circles.append((o3, *ends))
         low = b.meet_lines("E", up, b.perpendicular(ends[0], up))
         middle = b.meet_lines("M", up, b.bisector(low, top))
         b.found("O3M", b.measure("O3 M", o3, middle))
         guide = b.parallel(middle, across)
-        rod = asked["rod"]
-        if rod is None:
-            rod = half / sin(radians(swing / 2)) / 2
-        sagitta = half / sin(radians(swing / 2)) * (1.0 - cos(radians(swing / 2))) / 2
-        if rod <= sagitta:
-            raise AskedError(
-                f"A rod of {rod:.6g} m does not reach the guide: B rises {sagitta:.6g} m above it. "
-                f"Give --rod above {sagitta:.6g}."
+        # Where the rod came to be parallel to the slotted link, the slider would turn back.
+        turn = radians(swing / 2)
+        rise = half / sin(turn) * (1.0 - cos(turn)) / 2
+        rod = asked["rod"] or max(half / sin(turn) / 2, 2.0 * rise / cos(turn))
+        if rod * cos(turn) <= rise:
+            raise AssemblyError(
+                f"rod = {rod:.10g} m: with this stroke and swing it must be longer than "
+                f"{rise / cos(turn):.10g} m, else the slider turns back before the slotted link."
             )
         arm = b.length("BC", rod)
         sliders = [b.meet_line_circle(f"C{end[1:]}", guide, end, arm, Way.FORWARD) for end in ends]

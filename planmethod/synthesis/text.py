@@ -33,7 +33,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.note.narrate.numbered import Steps
 from planmethod.note.numbers import with_unit
-from planmethod.note.plaintext import fixed, given, plain_text, table, wrap
+from planmethod.note.plaintext import NO_BREAK, fixed, given, plain_text, table, wrap
 from planmethod.note.wording import Language
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.model import place
@@ -56,18 +56,30 @@ class Teller:
         self.drawn, self.words, self.note = drawn, words, words.note
         self.board = drawn.synthesis.board
         self.step: dict[Name, Step] = {step.out: step for step in self.board.steps}
-        met = [s for s in self.board.steps if isinstance(s, MeetLines | MeetLineCircle)]
-        self._met = {line for s in met for line in _lines_of(s)}
+        self._on = {
+            line: [point for point in points if not point.startswith("mark ")]
+            for line, points in drawn.on_line().items()
+        }
 
     def sentences(self) -> Iterator[str]:
         """Yield the sentences, as rich text."""
+        waiting = ""  # a reading: what follows from it at once stands beside it
         for step in self.board.steps:
             if step.out in self.board.said:
                 said = self.board.said[step.out]
-                if said is not None:
-                    yield self._own(*said)
-            elif told := self._tell(step):
+                told = "" if said is None else self._own(*said)
+            else:
+                told = self._tell(step)
+            if waiting and told:
+                joined = isinstance(step, Compute)
+                yield f"{waiting[:-1]}; {told}" if joined else waiting
+                waiting, told = "", "" if joined else told
+            if told and isinstance(step, Measure):
+                waiting = told
+            elif told:
                 yield told
+        if waiting:
+            yield waiting
 
     def _own(self, key: str, facts: Mapping[str, str | float]) -> str:
         shown = {
@@ -87,53 +99,43 @@ class Teller:
         return f"{given(value, self.note, 5)} {self.note.units['mm']}"
 
     def _base(self, line: LineName) -> str:
-        """Return what a line is called where another is parallel to it."""
-        step = self.step[line]
-        said = self.board.said.get(line)
-        if said is not None:
-            return self._segment(str(said[1]["tail"]), str(said[1]["head"]))
-        if isinstance(step, Join):
-            return self._segment(step.tail, step.head)
-        if isinstance(step, Parallel | Perpendicular) or (
-            isinstance(step, AtAngle) and step.to is not None
-        ):
-            return self._base(step.to) if step.to is not None else self.note.x_axis
-        return self.note.x_axis
+        """Return what a line is called: by two of its points, in its sense; or the x axis."""
+        points = self._on[line]
+        ways = {point: self.drawn.way(line, point) for point in points}
+        first = points[0]
+        other = max(points[1:], key=lambda point: ways[point] - ways[first], default=None)
+        if other is None:
+            return self.note.x_axis
+        ends = (first, other) if ways[other] >= ways[first] else (other, first)
+        return self._segment(*ends)
 
     def _direction(self, line: LineName) -> str:
         """Return how a line runs: parallel, perpendicular or at an angle to another."""
         step, note = self.step[line], self.note
         if isinstance(step, Join):
-            return note.along.format(base=self._base(line))
-        assert isinstance(step, Parallel | Perpendicular | AtAngle)
+            return note.along.format(base=self._segment(step.tail, step.head))
+        assert isinstance(step, Parallel | Perpendicular | AtAngle), step
         base = note.x_axis if step.to is None else self._base(step.to)
+        angle = 90.0 if isinstance(step, Perpendicular) else 0.0
         if isinstance(step, AtAngle):
-            angle = float(self.board.data[step.angle].real)
-            if step.to is not None and isinstance(self.step[step.to], AtAngle):
-                # What the other line is turned by counts from its own base.
-                other = self.step[step.to]
-                assert isinstance(other, AtAngle)
-                angle += float(self.board.data[other.angle].real)
-        else:
-            angle = 90.0 if isinstance(step, Perpendicular) else 0.0
-            if step.to is not None and isinstance(other := self.step[step.to], AtAngle):
-                angle += float(self.board.data[other.angle].real)
-        angle = math.remainder(angle, 360.0)
+            angle = math.remainder(float(self.board.data[step.angle].real), 360.0)
         if abs(angle) in (0.0, 180.0):
             return note.parallel.format(base=base)
         if abs(angle) == 90.0:
             return note.perpendicular.format(base=base)
         side = (note.to_left if angle > 0 else note.to_right).format(base=base)
-        if base == note.x_axis:
-            side = ""
-            angle %= 360.0
+        if step.to is None:
+            angle, side = angle % 360.0, ""
         return note.at_angle.format(angle=given(abs(angle), note, 6), base=base) + side
 
     def _line(self, line: LineName) -> str:
         """Return a line in the genitive."""
         step, note = self.step[line], self.note
+        if (said := self.board.said.get(line)) is not None:
+            base = self._segment(str(said[1]["tail"]), str(said[1]["head"]))
+            return self.words.synthesis.to_bisector.format(base=base)
         if isinstance(step, Join):
-            return note.line_join.format(base=self._base(line))
+            return note.line_join.format(base=self._segment(step.tail, step.head))
         assert isinstance(step, Parallel | Perpendicular | AtAngle)
         of = note.of_point.format(point=point_name(step.through))
         return note.line_through.format(of=of, direction=self._direction(line))
@@ -195,11 +197,11 @@ class Teller:
         name, say = str(out).removeprefix("l "), self.words.say
         value = say.short(self.drawn.read(name), 4)
         symbol = "e" if name == "e" else f"l_{{{name}}}"
-        made, half = self.step[read], " / 2" if factor == 0.5 else ""
-        sides = self._sides(made)
-        if isinstance(made, Compute):  # half the difference, laid off already
-            half, sides = " / 2", self._sides(self.step[made.powers[0][0]])
-        return f"{symbol} = μ_{{l}}·{sides}{half} = {value} {say.units['m']}."
+        made = self.step[read]
+        if isinstance(made, Compute):  # half the difference, which is laid off as well
+            factor, made = made.factor, self.step[made.powers[0][0]]
+        half = " / 2" if factor == 0.5 else ""
+        return f"{symbol} = μ_{{l}}·{self._sides(made)}{half} = {value} {say.units['m']}."
 
     def _sides(self, made: Step) -> str:
         if isinstance(made, Measure):
@@ -215,10 +217,6 @@ class Teller:
         return f"({''.join(parts)})"
 
 
-def _lines_of(step: MeetLines | MeetLineCircle) -> tuple[LineName, ...]:
-    return (step.first, step.second) if isinstance(step, MeetLines) else (step.line,)
-
-
 def given_facts(asked: Mapping[str, Any], words: Language) -> list[str]:
     """Return what is given, one ``symbol = value unit`` each, as rich text."""
     facts = []
@@ -228,12 +226,12 @@ def given_facts(asked: Mapping[str, Any], words: Language) -> list[str]:
         symbol, unit = words.synthesis.given[name]
         if isinstance(value, tuple):
             rows = value if isinstance(value[0], tuple) else (value,)
-            told = "; ".join("(" + "; ".join(map(words.say.given, row)) + ")" for row in rows)
-            facts.append(f"{symbol}: {told}")
+            told = "; ".join(f"({f';{NO_BREAK}'.join(map(words.say.given, row))})" for row in rows)
+            facts.append(f"{symbol.replace(' ', NO_BREAK)}: {told}")
         else:
             number = words.say.given(value)
             told = with_unit(number, words.say.units[unit]) if unit else number
-            facts.append(f"{symbol} = {told}")
+            facts.append(f"{symbol} = {told}".replace(" ", NO_BREAK))
     return facts
 
 

@@ -36,7 +36,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     ------
     AskedError, AssemblyError
     """
-    chosen({**asked, "centres": asked["centres"] or 1.0}, "three-angles", "angles centres")
+    chosen(asked, "three-angles", "angles", "angles centres")
     rows, frame = asked["angles"], asked["centres"] or 1.0
     if len(rows) != 3 or any(len(row) != 2 for row in rows):
         raise AskedError('--angles takes three pairs a,b, for instance "40,60; 65,75; 90,95".')
@@ -48,7 +48,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
             f"The three equations of Freudenstein depend on one another (condition {size:.3g}): "
             "two pairs are the same, or all of one angle. Give three different pairs."
         )
-    k1, k2, _ = np.linalg.solve(system, np.cos(phi - psi))
+    k1, k2, k3 = np.linalg.solve(system, np.cos(phi - psi))
     for name, value in (("OA", k1), ("CB", k2)):
         if abs(value) < 1e-9:
             raise AssemblyError(
@@ -61,6 +61,8 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     axis = b.ray(o, None, 0.0)
     c = b.lay_off("C", o, axis, b.length("OC", frame))
     arm = b.length("OA", abs(crank))
+    found = {"k1": float(k1), "k2": float(k2), "k3": float(k3)}
+    b.said[arm] = ("freudenstein", {**found, "tail": "O", "head": "A"})
     half_turn = 0.0 if crank > 0.0 else 180.0
     ends = [
         b.lay_off(f"A{k}", o, b.ray(o, axis, float(np.degrees(angle)) + half_turn), arm)

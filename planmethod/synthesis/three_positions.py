@@ -13,6 +13,7 @@ import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
+from planmethod.note.numbers import finite_or_none
 from planmethod.synthesis.board import Board
 from planmethod.synthesis.model import (
     AskedError,
@@ -189,6 +190,6 @@ def synthesis_of(
             "driver": input_,
             "branch": way.branch,
             "order": way.order,
-            "transmission_on_the_way_deg": way.transmission,
+            "transmission_on_the_way_deg": finite_or_none(way.transmission),
         },
     )

@@ -28,6 +28,8 @@ class SynthesisWording:
     comments: Mapping[str, str]
     heading: str
     construction: str
+    steps_title: str
+    to_bisector: str
     steps: Mapping[str, str]
     point: str
     given: Mapping[str, tuple[str, str]]

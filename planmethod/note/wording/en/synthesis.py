@@ -28,13 +28,18 @@ SYNTHESIS = SynthesisWording(
     },
     heading="{title}: construction",
     construction="Construction",
+    steps_title="Steps",
+    to_bisector="the perpendicular bisector of {base}",
     steps={
         "bisector": "We draw the perpendicular bisector of {tail}{head}.",
         "inscribed": "We draw the circle about {centre} from which the chord {tail}{head} is seen "
         "at {angle}°: from {tail} a line at {rest}° to the chord as far as the perpendicular "
         "bisector.",
-        "apollonius": "Point {centre} is the middle of {tail}{head}: the circle over {tail}{head} has the "
-        "points with one ratio (l − r)/(l + r), λ = r/l = {ratio}.",
+        "apollonius": "Point {centre} is the middle of {tail}{head}: the circle over {tail}{head} "
+        "has the points with one ratio (l − r)/(l + r), λ\u00a0=\u00a0r/l\u00a0=\u00a0{ratio}.",
+        "freudenstein": "Freudenstein's equation for the three pairs of angles gives "
+        "K_{{1}} = {k1}, K_{{2}} = {k2}, "
+        "K_{{3}} = {k3}; l_{{{tail}{head}}} = l_{{OC}} / |K_{{1}}|.",
         "centre": "The perpendiculars meet in {centre}, the centre of the circle through {points}.",
     },
     point="We mark point {point} ({x}; {y}) mm.",
@@ -44,7 +49,7 @@ SYNTHESIS = SynthesisWording(
         "centres": ("l_{0}", "m"),
         "stroke": ("H", "m"),
         "rod": ("l_{BC}", "m"),
-        "lambda": ("λ = r/l", ""),
+        "lambda": ("λ\u00a0=\u00a0r/l", ""),
         "offset": ("e", "m"),
         "pressure": ("α_{max}", "deg"),
         "rocker": ("l_{CB}", "m"),

@@ -28,13 +28,18 @@ SYNTHESIS = SynthesisWording(
     },
     heading="{title}: построение",
     construction="Построение",
+    steps_title="Ход построения",
+    to_bisector="серединного перпендикуляра к {base}",
     steps={
         "bisector": "К отрезку {tail}{head} проводим серединный перпендикуляр.",
         "inscribed": "Строим окружность с центром {centre}, из точек которой хорда {tail}{head} "
         "видна под углом {angle}°: из {tail} проводим прямую под углом {rest}° к хорде до "
         "серединного перпендикуляра.",
-        "apollonius": "Точка {centre} — середина {tail}{head}: окружность на диаметре {tail}{head} — место "
-        "точек, для которых (l − r)/(l + r) постоянно, λ = r/l = {ratio}.",
+        "apollonius": "Точка {centre} — середина {tail}{head}: окружность на диаметре "
+        "{tail}{head} — место точек, для которых (l − r)/(l + r) постоянно, "
+        "λ\u00a0=\u00a0r/l\u00a0=\u00a0{ratio}.",
+        "freudenstein": "По уравнению Фрейденштейна для трёх пар углов K_{{1}} = {k1}, K_{{2}} = "
+        "{k2}, K_{{3}} = {k3}; l_{{{tail}{head}}} = l_{{OC}} / |K_{{1}}|.",
         "centre": "В пересечении перпендикуляров — {centre}, центр окружности через {points}.",
     },
     point="Отмечаем точку {point} ({x}; {y}) мм.",
@@ -44,7 +49,7 @@ SYNTHESIS = SynthesisWording(
         "centres": ("l_{0}", "m"),
         "stroke": ("H", "m"),
         "rod": ("l_{BC}", "m"),
-        "lambda": ("λ = r/l", ""),
+        "lambda": ("λ\u00a0=\u00a0r/l", ""),
         "offset": ("e", "m"),
         "pressure": ("α_{max}", "deg"),
         "rocker": ("l_{CB}", "m"),
