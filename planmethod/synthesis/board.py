@@ -123,6 +123,14 @@ class Board(Builder):
         self.said[at] = ("inscribed", {**ends, "angle": angle, "rest": abs(90.0 - angle)})
         return at, radius
 
+    def second_meeting(
+        self, out: str, point: PointName, line: LineName, centre: PointName
+    ) -> PointName:
+        """Find where a line through a point of a circle meets it again: nothing is read for it."""
+        foot = self.meet_lines(f"mark {out}", line, self.perpendicular(centre, line))
+        self.said[foot] = None
+        return self.carry(out, foot, point, foot)
+
     def circle_through(
         self, centre: str, points: tuple[PointName, PointName, PointName]
     ) -> PointName:

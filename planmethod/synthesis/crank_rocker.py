@@ -188,7 +188,8 @@ def _built(
             )
     else:
         assert circle is not None
-        pivot = b.meet_line_circle("O", b.ray(near, chord, side.value * beta), *circle, way)
+        pivot = b.second_meeting("O", near, b.ray(near, chord, side.value * beta), circle[0])
+        b.said[pivot] = ("again", {"tail": near, "head": far, "angle": beta, "point": pivot})
     long, short = b.measure("O B'", pivot, far), b.measure("O B''", pivot, near)
     crank = b.half_sum(long, short, ("AB", "OA"))
     if asked["centres"] is None:

@@ -94,8 +94,13 @@ class Teller:
     def _segment(self, *names: str) -> str:
         return "".join(map(point_name, names))
 
+    def _hand(self, name: NumberName) -> float:
+        """Return what the hand has of a number; the exact value where its drawing fails."""
+        value = float(self.drawn.by_hand.value[name])
+        return value if math.isfinite(value) else float(self.drawn.paper.value[name])
+
     def _mm(self, name: NumberName) -> str:
-        value = abs(float(self.drawn.by_hand.value[name]))
+        value = abs(self._hand(name))
         return f"{given(value, self.note, 5)} {self.note.units['mm']}"
 
     def _base(self, line: LineName) -> str:
@@ -148,7 +153,7 @@ class Teller:
                 x, y = (given(value + 0.0, note, 5) for value in (at.real, at.imag))
                 return self.words.synthesis.point.format(point=point_name(out), x=x, y=y)
             case LayOff(out, origin, along, length):
-                reverse = float(self.drawn.by_hand.value[length]) < 0.0
+                reverse = self._hand(length) < 0.0
                 return note.lay_off.format(
                     of=note.of_point.format(point=point_name(origin)),
                     direction=self._direction(along),
@@ -181,7 +186,7 @@ class Teller:
                 exact = abs(float(self.drawn.paper.value[out]))
                 return note.measure.format(
                     segment=self._segment(tail, head), exact=fixed(exact, note),
-                    length=given(abs(float(self.drawn.by_hand.value[out])), note, 5),
+                    length=given(abs(self._hand(out)), note, 5),
                 )  # fmt: skip
             case Compute(out, factor, powers):
                 return self._found(out, factor, powers[0][0]) if out.startswith("l ") else ""
@@ -195,7 +200,7 @@ class Teller:
     def _found(self, out: NumberName, factor: float, read: NumberName) -> str:
         """Return the formula of a length of the mechanism."""
         name, say = str(out).removeprefix("l "), self.words.say
-        value = say.short(self.drawn.read(name), 4)
+        value = say.short(self._hand(out), 4)
         symbol = "e" if name == "e" else f"l_{{{name}}}"
         made = self.step[read]
         if isinstance(made, Compute):  # half the difference, which is laid off as well

@@ -35,6 +35,8 @@ SYNTHESIS = SynthesisWording(
         "inscribed": "We draw the circle about {centre} from which the chord {tail}{head} is seen "
         "at {angle}°: from {tail} a line at {rest}° to the chord as far as the perpendicular "
         "bisector.",
+        "again": "The line from {tail} at {angle}° to {tail}{head} meets the circle again in point "
+        "{point}.",
         "apollonius": "Point {centre} is the middle of {tail}{head}: the circle over {tail}{head} "
         "has the points with one ratio (l − r)/(l + r), λ\u00a0=\u00a0r/l\u00a0=\u00a0{ratio}.",
         "freudenstein": "Freudenstein's equation for the three pairs of angles gives "
