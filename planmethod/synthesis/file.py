@@ -29,7 +29,7 @@ def _lines(made: Synthesis, source: str, words: Language) -> Iterator[str]:
     said = words.synthesis
     exact, lengths = made.exact(), made.metres()
     origin = place(exact, made.pivots[0]) if made.moved else 0j
-    yield f'title = "{said.titles[made.kind]}"'
+    yield f'title = "{said.mechanisms[made.kind]}"'
     yield f'source = "{source}"'
     yield ""
     yield f"[frame] # {said.comments['frame']}"
@@ -57,6 +57,3 @@ def _lines(made: Synthesis, source: str, words: Language) -> Iterator[str]:
     yield ""
     yield f"[assembly] # {said.comments['assembly']}"
     yield from made.tables[-1].lines
-    yield ""
-    yield "[stamp]"
-    yield f'title = "{said.titles[made.kind]}"'

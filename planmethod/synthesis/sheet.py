@@ -98,7 +98,7 @@ def synthesis_sheet(
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
     title = words.synthesis.titles[drawn.synthesis.kind]
-    texts = merged({"title": title, "sheets": "1"}, problem.stamp, fields or {})
+    texts = merged({"sheets": "1"}, problem.stamp, {"title": title}, fields or {})
     furniture, fmt = Furniture.of(problem.sheet), paper_format(problem.sheet.paper or PAPER)
     room = furniture.room(fmt)
     with using(lettering(problem.sheet.lettering or "B")):

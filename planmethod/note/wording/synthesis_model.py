@@ -12,8 +12,8 @@ class SynthesisWording:
 
     Attributes
     ----------
-    titles : mapping
-        Names of the mechanisms, by kind of synthesis.
+    titles, mechanisms : mapping
+        Titles of the sheets, and names of the mechanisms, by kind of synthesis.
     comments : mapping
         Comments of the problem file.
     steps : mapping
@@ -25,8 +25,8 @@ class SynthesisWording:
     """
 
     titles: Mapping[str, str]
+    mechanisms: Mapping[str, str]
     comments: Mapping[str, str]
-    heading: str
     construction: str
     steps_title: str
     to_bisector: str

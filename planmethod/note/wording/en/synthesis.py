@@ -10,6 +10,13 @@ SYNTHESIS = SynthesisWording(
         "three-positions": "Synthesis by three positions of the coupler",
         "three-angles": "Synthesis by three pairs of angles",
     },
+    mechanisms={
+        "slotted": "Slotted link",
+        "slider-crank": "Slider-crank",
+        "crank-rocker": "Crank-rocker",
+        "three-positions": "Four-bar",
+        "three-angles": "Four-bar",
+    },
     comments={
         "frame": "frame, m",
         "crank": "crank",
@@ -26,7 +33,6 @@ SYNTHESIS = SynthesisWording(
         "omega": "1/s: put in your own",
         "assembly": "way of assembly",
     },
-    heading="{title}: construction",
     construction="Construction",
     steps_title="Steps",
     to_bisector="the perpendicular bisector of {base}",

@@ -10,6 +10,13 @@ SYNTHESIS = SynthesisWording(
         "three-positions": "Синтез по трём положениям шатуна",
         "three-angles": "Синтез по трём парам углов",
     },
+    mechanisms={
+        "slotted": "Кулисный механизм",
+        "slider-crank": "Кривошипно-ползунный механизм",
+        "crank-rocker": "Кривошипно-коромысловый механизм",
+        "three-positions": "Шарнирный четырёхзвенник",
+        "three-angles": "Шарнирный четырёхзвенник",
+    },
     comments={
         "frame": "стойка, м",
         "crank": "кривошип",
@@ -26,7 +33,6 @@ SYNTHESIS = SynthesisWording(
         "omega": "1/с: поставьте свою",
         "assembly": "способ сборки",
     },
-    heading="{title}: построение",
     construction="Построение",
     steps_title="Ход построения",
     to_bisector="серединного перпендикуляра к {base}",
