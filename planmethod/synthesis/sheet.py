@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import pairwise, product
+from dataclasses import dataclass, field
+from itertools import pairwise
 from math import radians, tau
-from typing import Any, TypeAlias
+from typing import Any
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
@@ -17,10 +17,9 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
 from planmethod.render.control.unused import largest_empty
-from planmethod.render.frame.clearance import is_clear
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
-from planmethod.render.frame.titleblock import merged
+from planmethod.render.frame.titleblock import merged, rectangle
 from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
@@ -33,6 +32,8 @@ from planmethod.render.layout.block import (
     heading,
     paragraph,
 )
+from planmethod.render.layout.cuttings import Group, Part
+from planmethod.render.layout.pack import pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.texts import NBSP
@@ -55,17 +56,8 @@ PAPER = "A3"
 COLUMN = 175.0
 """Width of the texts over the title block, mm."""
 
-EDGE, GAP, MOST_GAP = 6.0, 7.0, 22.0
-"""Least white at the frame and between two blocks, and most white between two texts, mm."""
-
 LETTER, TEXT = 5.0, 3.5
 """Heights of the letters of points, and of texts, mm."""
-
-VOID = 0.15
-"""Part of the field that may be one empty rectangle where there is a choice."""
-
-Placed: TypeAlias = list[tuple[Block, complex]]
-"""Blocks and their upper left corners, mm."""
 
 _BEYOND = 9.0  # mm: construction lines go on beyond their points
 _TICK = 5.0  # mm: half of an arc that marks a point
@@ -102,103 +94,43 @@ def synthesis_sheet(
     furniture, fmt = Furniture.of(problem.sheet), paper_format(problem.sheet.paper or PAPER)
     room = furniture.room(fmt)
     with using(lettering(problem.sheet.lettering or "B")):
-        scales = 3
-        for k in range(scales):
+        for last in (False, False, True):
             view = _view(drawn, words)
-            for height in (TEXT, 2.5) if k + 1 < scales else (TEXT, 2.5, 0.0):
-                texts_of = _texts(drawn, asked, checks, words, height)
-                made: list[tuple[float, int, Drawing]] = []
-                for placed in _arranged(view, texts_of, room):
-                    sheet = Drawing(fmt.width, fmt.height, texts["title"], is_cut_down=not height)
-                    sheet.extend(sheet_frame(fmt, texts, furniture).items)
-                    for block, corner in placed:
-                        items = block.place(corner)
-                        sheet.extend(items)
-                        if block is view:
-                            sheet.views.append(view.view(items, corner))
-                    made.append((_void(sheet, room), len(made), sheet))
-                    if made[-1][0] < VOID:
-                        break
-                if made:
-                    return min(made)[2]
+            for height in (TEXT, 2.5, 0.0) if last else (TEXT, 2.5):
+                placed = _placed(view, _texts(drawn, asked, checks, words, height), room)
+                if not placed:
+                    continue
+                sheet = Drawing(fmt.width, fmt.height, texts["title"], is_cut_down=not height)
+                sheet.extend(sheet_frame(fmt, texts, furniture).items)
+                for block, corner in placed:
+                    items = block.place(corner)
+                    sheet.extend(items)
+                    if block is view:
+                        sheet.views.append(view.view(items, corner))
+                return sheet
             drawn = drawn.coarser()
     raise LayoutError(
         f"{drawn.synthesis.kind}: the construction does not fit {fmt.name}. Take --paper A2."
     )
 
 
-def _void(sheet: Drawing, room: Room) -> float:
-    """Return the part of the field that the largest empty rectangle takes."""
-    left, low, right, high = room.inner
-    x0, y0, x1, y1 = largest_empty(sheet.items, room.inner)
-    return (x1 - x0) * (y1 - y0) / ((right - left) * (high - low))
+def _placed(view: Viewed, texts: Sequence[Block], room: Room) -> list[tuple[Block, complex]] | None:
+    """Return blocks with their corners: what was measured after the steps, or beside the view.
 
-
-def _arranged(view: Viewed, texts: Sequence[Block], room: Room) -> Iterator[Placed]:
-    """Yield how the blocks of a sheet may stand, the more usual ways first."""
-    for where in ("under", "corner", "right"):
-        yield from _beside(view, texts, room, where)
-    yield from _above(view, texts, room)
-
-
-def _beside(view: Viewed, texts: Sequence[Block], room: Room, where: str) -> Iterator[Placed]:
-    """Put the view on the left, texts on the right.
-
-    ``where`` is the place of what was measured: ``under`` the view, in a ``corner`` that the view
-    leaves free, or on the ``right``.
+    Of the two the one that leaves the smaller empty rectangle; None where the paper has no room.
     """
-    *told, sizes = texts
-    left, low, _, high = room.inner
-    right, floor = room.stamp[0] + EDGE, room.stamp[3] + EDGE
-    width, foot = room.stamp[0] - GAP - left - EDGE, low + EDGE
-    placed: Placed = [(sizes, complex(right, floor + sizes.height))]
-    measured = told[-1]
-    if where != "right":
-        told.pop()
-    spare = high - EDGE - floor - sizes.height - sum(block.height for block in told)
-    gap = min(MOST_GAP, spare / len(told))
-    if gap < GAP or max(view.width, measured.width) > width:
-        return
-    top = high - EDGE - (spare - gap * len(told)) / 3
-    for block in told:
-        placed.append((block, complex(right, top)))
-        top -= block.height + gap
-    if where == "under":
-        placed.append((measured, complex(left + EDGE, foot + measured.height)))
-        foot += measured.height + GAP
-    spare, loose = high - EDGE - foot - view.height, width - measured.width
-    beside = high - EDGE - foot - measured.height
-    for across, up, aside, level in product((0.5, 0.0, 1.0), (0.5, 0.0), (1.0, 0.0), (0.45, 0.0)):
-        corner = complex(left + EDGE + across * (width - view.width), foot + view.height)
-        corner += 1j * up * spare
-        taken, more = room.taken, []
-        if where == "corner":
-            at = complex(left + EDGE + aside * loose, foot + measured.height + level * beside)
-            more = [(measured, at)]
-            taken += ((at.real, at.imag - measured.height, at.real + measured.width, at.imag),)
-        if spare >= 0.0 and is_clear(view.place(corner), replace(room, taken=taken)):
-            yield [*placed, *more, (view, corner)]
-            if where != "corner":
-                return
-
-
-def _above(view: Viewed, texts: Sequence[Block], room: Room) -> Iterator[Placed]:
-    """Put the view above everything else, the steps beside the title block."""
-    *told, measured, sizes = texts
-    left, low, right, high = room.inner
-    floor, at = room.stamp[3] + EDGE, room.stamp[0] + EDGE
-    steps, tables = Column(told, gap=GAP), Column([measured, sizes], gap=GAP)
-    under = max(floor + tables.height, low + EDGE + steps.height)
-    spare = high - EDGE - view.height - under - GAP
-    wide = max(view.width, steps.width + GAP + room.stamp[2] - room.stamp[0])
-    corner = complex((left + right - view.width) / 2, high - EDGE - spare / 2)
-    fits = spare >= 0.0 and wide <= right - left - 2 * EDGE
-    if fits and is_clear(view.place(corner), room):
-        yield [
-            (view, corner),
-            (steps, complex(left + EDGE, under)),
-            (tables, complex(at, floor + tables.height)),
-        ]
+    told, measured, sizes = texts
+    made: list[tuple[float, int, list[tuple[Block, complex]]]] = []
+    for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
+        whole = Group(tuple(Part(block, block is not view) for block in blocks))
+        corners = pack(whole, room.inner, room.stamp, room.taken)
+        if corners is not None:
+            placed = list(zip(blocks, corners, strict=True))
+            items: list[Item] = [rectangle(room.stamp, Pen.FRAME, "")]
+            items += [item for block, corner in placed for item in block.place(corner)]
+            left, low, right, high = largest_empty(items, room.inner)
+            made.append(((right - left) * (high - low), len(made), placed))
+    return min(made)[2] if made else None
 
 
 def _view(drawn: Drawn, words: Language) -> Viewed:
@@ -213,16 +145,17 @@ def _view(drawn: Drawn, words: Language) -> Viewed:
 def _texts(
     drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language, told: float
 ) -> list[Block]:
-    """Return what is given, the steps ``told`` mm high (none at 0), measured values, sizes."""
+    """Return what is given and the steps ``told`` mm high (none at 0), measured values, sizes."""
     said = words.synthesis
     facts = words.note.given.format(given="; ".join(given_facts(asked, words)))
-    blocks: list[Block] = [paragraph(facts, TEXT, COLUMN)]
+    first: list[Block] = [paragraph(facts, TEXT, COLUMN)]
     if told:
         steps = [
             paragraph(f"{k}) {_kept(sentence)}", told, COLUMN)
             for k, sentence in enumerate(Teller(drawn, words).sentences(), 1)
         ]
-        blocks.append(Column([heading(said.steps_title, TEXT), *steps], gap=0.6 * told))
+        first.append(Column([heading(said.steps_title, TEXT), *steps], gap=0.6 * told))
+    blocks: list[Block] = [Column(first, gap=6.0)]
     rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
     measured = paragraph(";\n".join(rows) + ".", TEXT, COLUMN)
     blocks.append(Column([heading(said.measured, TEXT), measured], gap=3.0))

@@ -43,7 +43,8 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         )
     b = Board()
     o3 = b.fixed("O3", 0j)
-    up = b.ray(o3, None, 90.0)
+    lies = asked["stroke"] is None
+    up = b.ray(o3, None, 0.0 if lies else 90.0)
     o1 = b.lay_off("O1", o3, up, b.length("O1O3", asked["centres"]))
     axis = b.join(o3, o1)
     rays = [b.ray(o3, axis, way * swing / 2) for way in (1.0, -1.0)]
@@ -62,7 +63,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         Table("links.1", "crank", ('points = ["O1", "A"]', "O1A = {O1A!r}")),
         Table("links.2", "stone", ('points = ["A"]', 'slides = {{ on = "3", along = "O3D" }}')),
         Table("links.3", "slotted", ('points = ["O3", "D"]', "O3D = {O3D!r}")),
-        Table("assembly", "assembly", ('D = "above O3"',)),
+        Table("assembly", "assembly", (f'D = "{"right of" if lies else "above"} O3"',)),
     ]
     found: dict[str, Any] = {
         "asked": {"swing": swing} | ({} if asked["K_v"] is None else {"K_v": asked["K_v"]}),
