@@ -160,8 +160,9 @@ def _solve(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[Axes | 
     reached = dict.fromkeys(lines.line[b] for mesh in meshes for b in train.ends(mesh))
     names = [*unknown, *(("h", name) for name in reached if name != lines.main)]
     best: Fault | None = None
-    for signs in product((1, -1), repeat=len(chosen)):
-        side = dict(zip(chosen, signs, strict=True))
+    likely = [_likely_side(train, lines, mesh, meshes) for mesh in chosen]
+    for turns in product((1, -1), repeat=len(chosen)):
+        side = {m: first * turn for m, first, turn in zip(chosen, likely, turns, strict=True)}
         rows = [_equation(train, lines, mesh, side.get(mesh)) for mesh in meshes]
         found = solve(names, rows)
         fault = _judge(train, found, unknown)
@@ -174,6 +175,33 @@ def _solve(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[Axes | 
     if best is not None and "coaxial" in best.message:
         best = _say_why(train, lines, meshes) or best
     return None, [] if best is None else [best]
+
+
+def _likely_side(train: Train, lines: _Lines, mesh: Mesh, meshes: Sequence[Mesh]) -> int:
+    """Return +1 if the second of two axes beside the main one is more likely the higher.
+
+    The axis that fewer meshes part from the main one is the nearer; the other lies beyond it, or
+    within where only the nearer one runs in a ring.
+    """
+    steps = {lines.main: 0}
+    ringed: set[str] = set()
+    for _ in meshes:
+        for one in meshes:
+            ends = [lines.line[body] for body in train.ends(one)]
+            for near, far in (ends, ends[::-1]):
+                if near in steps:
+                    steps.setdefault(far, steps[near] + 1)
+            if one.kind is MeshKind.INTERNAL and lines.main in ends:
+                out = train.ends(one)[1 if ends[0] == lines.main else 0]
+                if lines.main == lines.line[train.body_of[_ring_label(train, one, out)]]:
+                    ringed.add(lines.line[out])
+    first, second = (lines.line[body] for body in train.ends(mesh))
+    near, far, side = first, second, 1
+    if steps.get(second, 0) < steps.get(first, 0):
+        near, far, side = second, first, -1
+    if near in lines.below:
+        side = -side
+    return -side if near in ringed and far not in ringed else side
 
 
 def _equation(train: Train, lines: _Lines, mesh: Mesh, side: int | None) -> Row[tuple[str, str]]:

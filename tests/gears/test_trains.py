@@ -19,7 +19,7 @@ from planmethod.gears.linear import solve
 from planmethod.gears.motion import Motion, TrainKind
 from planmethod.gears.picture import draw
 
-SEEDS = range(60)
+SEEDS = range(100)  # 500 trains
 EXTERNAL_RING = 'wheels = { 1 = 20, 2 = 40, 3 = 100 }\nmeshes = [{ of = [1, 2], carrier = "H"%s },\
  { of = [2, 3], kind = "internal", carrier = "H"%s }]\nfixed = ["3"]\n'
 SET = EXTERNAL_RING % ("", "")
