@@ -95,6 +95,9 @@ def _read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     output = None
     if "output" in given:
         output = read_label(faults, "gears.output", given["output"], known)
+        for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
+            if output is not None and body_of[output] in {body_of[label] for label in held}:
+                faults.add("gears.output", f"{output} is {what}, no power comes out of it")
     picture = _read_picture(faults, given.get("picture", {}))
     ask = _read_ask(faults, given.get("ask", []), known)
     if faults:

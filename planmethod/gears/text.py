@@ -26,7 +26,7 @@ def solved_text(problem: GearProblem, lang: str) -> str:
     motion = solve_motion(problem)
     words = language(lang)
     say = words.gears
-    lines = heading(say.title.format(title=problem.title), "═")
+    lines = heading(say.title.format(title=problem.title or problem.name), "═")
     lines += _structure(problem, motion.roles, motion.structure, words)
     lines += ["", say.equations]
     for mesh in motion.train.meshes:
@@ -55,7 +55,7 @@ def structure_text(problem: GearProblem, lang: str) -> str:
     """
     roles, _, structure = analyse(problem)
     words = language(lang)
-    lines = heading(words.gears.title.format(title=problem.title), "═")
+    lines = heading(words.gears.title.format(title=problem.title or problem.name), "═")
     return "\n".join([*lines, *_structure(problem, roles, structure, words)])
 
 
@@ -120,6 +120,8 @@ def _wheels(motion: Motion, words: Language) -> list[str]:
         height = motion.axes.heights.get(train.body_of[label])
         mark = "*" if label in train.unknown else ""
         shown = [_size(x, words) if x is not None else "—" for x in (size, height)]
+        if train.toothed and not train.counted(label):
+            shown[0] = f"r = {shown[0]} {say.units['mm']}"
         rows.append([label + mark, *shown])
     return table([head.format(**said) for head in say.columns_wheels], rows)
 

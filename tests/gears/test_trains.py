@@ -90,6 +90,36 @@ def test_an_axis_turns_the_sense_of_a_bevel_wheel(tmp_path: Path) -> None:
     assert solved(tmp_path, text.format(-1)).speed("3") == 2
 
 
+@pytest.mark.parametrize(("main", "side"), [("0, 0, 1", "1, 0, 0"), ("-1, 0, 0", "0, 1, 0")])
+def test_axes_are_vectors_of_any_frame(main: str, side: str, tmp_path: Path) -> None:
+    text = (
+        f"wheels = {{ 1 = {{ z = 20, axis = [{main}] }}, 2 = {{ z = 15, axis = [{side}] }},"
+        " 3 = 20 }\n"
+        'meshes = [{ of = [1, 2], kind = "bevel", carrier = "H" },'
+        ' { of = [2, 3], kind = "bevel", carrier = "H" }]\nn = { 1 = 100, H = 60 }\n'
+    )
+    turned = ", ".join(str(-int(x)) for x in main.split(", "))
+    told = text.replace("3 = 20 }", f"3 = {{ z = 20, axis = [{turned}] }} }}")
+    assert solved(tmp_path, told).speed("3") == 20
+
+
+def test_pulleys_with_radii_drive_wheels_with_teeth(tmp_path: Path) -> None:
+    text = 'wheels = { 1 = { r = 0.05 }, 2 = { r = 0.15 }, "2\'" = 20, 3 = 40 }\nmeshes = [\
+{ of = [1, 2], kind = "belt" }, { of = ["2\'", 3] }]\nn = { 1 = 60 }\n'
+    motion = solved(tmp_path, text)
+    assert motion.speed("3") == -10
+    assert (answer(motion, "z_1").reason, answer(motion, "r_2").value) == ("teeth", 150)
+    assert not [one for one in conditions(motion) if one.name == "coaxiality"]
+
+
+def test_a_row_of_any_length_and_a_satellite_as_input(tmp_path: Path) -> None:
+    wheels = ", ".join(f"{k} = {19 + k}" for k in range(1, 21))
+    meshes = ", ".join(f"{{ of = [{k}, {k + 1}] }}" for k in range(1, 20))
+    row = solved(tmp_path, f"wheels = {{ {wheels} }}\nmeshes = [{meshes}]\nn = {{ 1 = 39 }}\n")
+    assert row.speed("20") == -20
+    assert solved(tmp_path, SET + "n = { 2 = 10 }\n").speed("1") == -40
+
+
 @pytest.mark.parametrize(
     ("kind", "n_2"),
     [("belt", "1/2"), ("chain", "1/2"), ("crossed belt", "-1/2"), ("worm", "1/2")],
