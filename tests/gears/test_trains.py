@@ -18,6 +18,7 @@ from planmethod.gears.efficiency import efficiency
 from planmethod.gears.linear import solve
 from planmethod.gears.motion import Motion, TrainKind
 from planmethod.gears.picture import draw
+from planmethod.gears.tabular import tabular
 
 SEEDS = range(100)  # 500 trains
 EXTERNAL_RING = 'wheels = { 1 = 20, 2 = 40, 3 = 100 }\nmeshes = [{ of = [1, 2], carrier = "H"%s },\
@@ -33,6 +34,10 @@ def test_speeds_are_those_of_the_step_by_step_formulas(
     motion = solved(tmp_path, made.text)
     for label, speed in made.speeds.items():
         assert motion.speed(label) == speed, (made.text, label)
+    for turns in tabular(motion):
+        sums = {body: speed + turns.held[body] for body, speed in turns.together.items()}
+        assert sums == {body: motion.speeds[body] for body in sums}
+        assert turns.held[turns.carrier] == 0
     if maker is not bevel:
         assert_contacts_meet(motion)
 
@@ -214,6 +219,15 @@ def test_undercutting_is_said_and_a_shift_avoids_it(tmp_path: Path) -> None:
 
 
 # Efficiency --------------------------------------------------------------------------------------
+
+
+def test_the_tabular_method_turns_the_fixed_wheel_back(tmp_path: Path) -> None:
+    """+1 turn of all, -1 of the ring with the carrier held: wheel 1 by +5, in all 6."""
+    (turns,) = tabular(solved(tmp_path, SET + "n = { H = 1 }\n"))
+    assert turns.started == ("3",)
+    assert turns.together == dict.fromkeys(("H", "1", "2", "3"), 1)
+    assert turns.held == {"H": 0, "1": 5, "2": Fraction(-5, 2), "3": -1}
+    assert not tabular(solved(tmp_path, SET.replace('["3"]', '["H"]') + "n = { 1 = 1 }\n"))
 
 
 def test_the_efficiency_of_a_set_is_that_of_the_textbook(tmp_path: Path) -> None:
