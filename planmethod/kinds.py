@@ -15,7 +15,7 @@ from planmethod.problem.source import parse, read_source
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.problem.fields import Faults
-    from planmethod.problem.model import Geared, Problem, SheetSettings
+    from planmethod.problem.model import Geared, Problem, Published, SheetSettings
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -63,6 +63,10 @@ class KindProblem(Protocol):
         """Title of the problem."""
 
     @property
+    def source(self) -> str:
+        """Where it is from."""
+
+    @property
     def stamp(self) -> Mapping[str, str]:
         """Texts of the title block."""
 
@@ -83,7 +87,8 @@ class Kind:
         Where its functions are: ``load(path, *, variant)``, ``record(problem, lang)``,
         ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
         ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
-        before, total)`` and ``protocol_text(problem, lang, profile)``. It is imported when one of
+        before, total)`` and ``protocol_text(problem, lang, profile)``, and
+        ``published_values(problem)``. It is imported when one of
         them is called.
     """
 
@@ -148,10 +153,23 @@ class Kind:
         """
         return str(self._asked("protocol_text", problem)(problem, lang, profile))
 
+    def published_values(self, problem: KindProblem) -> list[tuple[Published, float | None]]:
+        """Return what the source prints, with the exact values; None where there is none.
+
+        Raises
+        ------
+        ProblemError
+            Printed values of such problems are not compared.
+        """
+        told: list[tuple[Published, float | None]] = self._asked("published_values", problem)(
+            problem
+        )
+        return told
+
     def _asked(self, name: str, problem: KindProblem) -> Any:
         """Return a function that not every kind has."""
         if not hasattr(import_module(self.package), name):
-            what = "sheets" if name == "drawings" else "protocol"
+            what = {"drawings": "sheets", "protocol_text": "protocol"}.get(name, "audit")
             fault = Fault(
                 self.table, f"such a problem has no {what}; its numbers: planmethod solve"
             )

@@ -125,6 +125,19 @@ def test_errors_of_the_sources_stand_beside_the_exact_values() -> None:
     assert printed["planetary-k10", "omega_2"] == (24, "25/1")
 
 
+def test_the_audit_compares_what_the_sources_print() -> None:
+    done = run("audit", *map(str, FILES), "--lang", "en")
+    assert done.exit_code == ExitCode.DONE, done.output
+    rows = [[cell.strip("| ") for cell in line.split(" | ")] for line in done.stdout.splitlines()]
+    differs = [(row[0], row[2], row[3]) for row in rows if "**differs**" in row]
+    assert differs == [
+        ("n_5", "−384.6", "−375.00"),
+        ("n_4", "531.2", "530.92"),
+        ("U_1_H", "−7.75", "19.750"),
+        ("omega_2", "24", "25.000"),
+    ]
+
+
 def test_a_ratio_to_what_stands_is_null_with_a_reason(tmp_path: Path) -> None:
     text = FILES[1].read_text("utf-8").replace('"U_1_5"', '"U_1_5", "U_1_3"')
     path = tmp_path / "zero.toml"
