@@ -29,6 +29,7 @@ COMMANDS = (
     "layouts",
     "new",
     "synthesize",
+    "teeth",
     "check",
     "bench",
     "form",
