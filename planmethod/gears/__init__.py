@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from planmethod.gears.driving import driven
 from planmethod.gears.reader import load
 from planmethod.gears.record import record, structure_record
 from planmethod.gears.text import solved_text, structure_text
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = [
     "audited",
     "drawings",
+    "driven",
     "load",
     "protocol_text",
     "record",

@@ -107,8 +107,8 @@ def _size(motion: Motion, name: str, asked: Asked) -> Answer:
     if asked.kind != "a_w" and label not in sizes:
         return _none(name, "wheel", label)
     if asked.kind == "z":
-        return _exact(name, sizes[label]) if train.toothed else _none(name, "teeth")
-    if train.toothed and train.module is None:
+        return _exact(name, sizes[label]) if train.counted(label) else _none(name, "teeth")
+    if train.toothed and train.module is None and (asked.kind == "a_w" or train.counted(label)):
         return _none(name, "module")
     if asked.kind == "r":
         return _exact(name, sizes[label] * train.unit_m * 1000, "mm")

@@ -62,8 +62,8 @@ def _coaxial(motion: Motion) -> Iterator[Condition]:
     left = [
         mesh
         for mesh in train.meshes
-        if mesh.kind in PARALLEL and axes.heights.keys() >= set(train.ends(mesh))
-    ]  # axes behind a belt, a bevel or a worm are at no known height
+        if mesh.kind in PARALLEL and all(body in axes.heights for body in train.ends(mesh))
+    ]
     reached: dict[str, Terms] = {}
     while left:
         start = axes.axis_of[train.ends(left[0])[0]]

@@ -66,8 +66,10 @@ def given(motion: Motion, words: Language) -> list[str]:
     train, say, told = motion.train, words.say, words.gears.sheet
     facts = []
     for label, size in motion.axes.sizes.items():
-        letter = f"z_{{{label}}}" if train.toothed else f"r_{{{label}}}"
-        value = say.given(float(size)) + ("" if train.toothed else f" {words.gears.units['m']}")
+        letter, value = f"z_{{{label}}}", say.given(float(size))
+        if not train.counted(label):
+            letter = f"r_{{{label}}}"
+            value = f"{say.given(float(size * train.unit_m))} {words.gears.units['m']}"
         by = told.by_coaxiality if label in train.unknown else "{symbol} = {value}"
         facts.append(by.format(symbol=letter, value=value))
     unit = raised(words.gears.units[speed_unit(train)])
