@@ -27,6 +27,7 @@ from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
 from planmethod.render.sheets.controlled import looked_over, paper_of
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
+TASKS = sorted((PROBLEMS / "gears").glob("*/*.toml"))
 PLANAR = [maker for maker in MAKERS if maker is not bevel]
 
 OTHERS = {
@@ -83,7 +84,7 @@ def texts(drawing: Drawing) -> str:
     return " ".join(item.text for item in drawing.items if isinstance(item, Text))
 
 
-@pytest.mark.parametrize("path", thinned(FILES, max(1, len(FILES) // 5)), ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", [*FILES, *thinned(TASKS, 23)], ids=lambda p: p.stem)
 def test_the_norm_control_has_nothing_against_the_sheets(path: Path) -> None:
     drawing = sheet(path)
     assert not faults(drawing)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import mpmath
 import pytest
-from cases import each, some
+from cases import each, some, thinned
 from click.testing import CliRunner
 from trains import MAKERS, bevel, solved
 from worked import PROBLEMS
@@ -37,7 +37,8 @@ def drawn_of(motion: Motion) -> Construction:
 
 def trains(folder: Path) -> Iterator[Motion]:
     """Yield the trains of the files that have pictures, and random ones."""
-    motions = [solve_motion(load(path)) for path in FILES]
+    tasks = sorted((PROBLEMS / "gears").glob("*/*.toml"))
+    motions = [solve_motion(load(path)) for path in [*FILES, *thinned(tasks, 5)]]
     motions += [
         solved(folder, maker(random.Random(seed)).text)
         for seed in range(some(60, 4))
