@@ -3,8 +3,39 @@
 The functions of a kind of problem (`planmethod.kinds`) stand here.
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 from planmethod.moving.reader import load
 from planmethod.moving.record import record
 from planmethod.moving.text import solved_text
 
-__all__ = ["load", "record", "solved_text"]
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.moving.model import PointProblem
+    from planmethod.render.ink.drawing import Drawing
+
+__all__ = ["drawings", "load", "protocol_text", "record", "solved_text"]
+
+
+def drawings(
+    problem: PointProblem,
+    *,
+    fields: Mapping[str, str],
+    profile: Profile,
+    before: int = 0,
+    total: int | None = None,
+) -> list[Drawing]:
+    """Return the sheet of a moving point; see `planmethod.moving.sheet.point_sheets`."""
+    from planmethod.moving.sheet import point_sheets
+
+    return point_sheets(problem, fields=fields, profile=profile, before=before, total=total)
+
+
+def protocol_text(problem: PointProblem, lang: str, profile: Profile) -> str:
+    """Return how a moving point is drawn; see `planmethod.moving.protocol.protocol_text`."""
+    from planmethod.moving import protocol
+
+    return protocol.protocol_text(problem, lang, profile)

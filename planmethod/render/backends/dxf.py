@@ -20,6 +20,7 @@ from typing import Any
 import ezdxf
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
+from ezdxf.math import Vec3
 
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.layers import (
@@ -263,6 +264,10 @@ class DxfCanvas(Canvas):
         if len(item.points) == 2 and item.points[0] != item.points[1]:
             (a, b) = _pairs(item.points)
             self._space.add_line(a, b, dxfattribs=attributes)
+            return
+        if item.smooth and len(item.points) > 3:
+            fitted = (Vec3(point) for point in _pairs(item.points))
+            self._space.add_cad_spline_control_frame(fitted, dxfattribs=attributes)
             return
         if PENS[item.pen].dashes and _is_smooth(item.points):
             attributes["flags"] = 128  # the line type runs on through the corners

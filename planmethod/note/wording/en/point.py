@@ -14,5 +14,26 @@ POINT = PointWording(
         "straight": "a_n = 0, the trajectory is not curved here, ρ is not defined (ρ → ∞)",
     },
     polar="Polar coordinates",
+    rolled="Rolling wheel",
+    wheel="a wheel of radius R = {radius} m rolls without slipping {track}; "
+    "CM = {r} m, at {angle}° to the x axis where φ = 0",
+    tracks={
+        "line": "on the x axis",
+        "on": "outside on a circle of radius {radius} m",
+        "within": "within a circle of radius {radius} m",
+    },
     printed=("Printed", "Quantity", "Source", "Exact", "Difference"),
+    trajectory="Trajectory of the point M",
+    hodograph_v="Hodograph of the velocity",
+    hodograph_a="Hodograph of the acceleration",
+    row="from {start} to {end} s, {count} in all",
+    moments="t = {times} s",
+    wanted="Find the velocity v, the acceleration a, a_{τ}, a_{n}, the radius of curvature "
+    "ρ; draw the trajectory and the hodographs.",
+    read_title="Read off the drawing ({profile})",
+    read=("Quantity", "Exact", "Read", "±σ"),
+    table="Motion of the point at the numbered instants",
+    chord="a by hodograph",
+    chord_note="a by hodograph: the chord between the neighbouring points of the velocity "
+    "hodograph over the time between them, ± the drafting error σ.",
 )

@@ -1,0 +1,167 @@
+"""What of a motion is drawn: the interval, the curve between, the numbered instants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planmethod.construct.scale import series_near
+from planmethod.errors import Fault, ProblemError
+from planmethod.moving.bounded import Reals
+from planmethod.moving.model import PointProblem
+from planmethod.moving.motion import Motion, Why, move
+
+Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
+
+DENSE = 4000
+"""Moments of the interval that are looked at."""
+
+BEND = np.radians(3.0)
+"""Turn of the tangent between two points of a drawn curve."""
+
+LEAST, MOST = 120, 1500
+"""Points of a drawn curve."""
+
+GREW = 6.0
+"""How many times their mean the velocity and the acceleration may be in an interval of our own."""
+
+FAR = 4.0
+"""How many times the usual extent of a curve may reach before it is cut: it has a pole there."""
+
+CORNER = np.radians(40.0)
+"""Turn between two chords of a drawn curve from which it has a corner there: a cusp."""
+
+MARKS = 10
+"""Parts that an interval is divided into by numbered instants."""
+
+MOST_MARKS = 25
+SHOWN = 3
+"""Most moments of the file that have their vectors drawn."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """The drawn part of a motion (показанный участок).
+
+    Attributes
+    ----------
+    interval : (float, float), s
+    path : Motion
+        Moments along the drawn curves.
+    marks : Motion
+        The numbered instants; those of the file are among them, unless they are very many.
+    shown : tuple of int
+        Numbers of the instants that have vectors drawn; the first of them is told in full.
+    """
+
+    interval: tuple[float, float]
+    path: Motion
+    marks: Motion
+    shown: tuple[int, ...]
+
+    def curves(self, x: str, y: str) -> Iterator[Complexes]:
+        """Yield the smooth parts of a curve, SI: it breaks at poles and at corners."""
+        places = self.path.columns[x] + 1j * self.path.columns[y]
+        there = places[~np.isnan(places)]
+        middle = complex(np.median(there.real), np.median(there.imag)) if len(there) else 0j
+        usual = float(np.percentile(np.abs(there - middle), 75)) if len(there) else 0.0
+        places = np.where(np.abs(places - middle) > FAR * usual, np.nan, places)
+        for part in np.split(places, np.flatnonzero(np.isnan(places))):
+            part = part[~np.isnan(part)]
+            steps = np.diff(part)
+            turns = np.abs(np.angle(steps[1:] * np.conj(steps[:-1])))
+            ends = [0, *(np.flatnonzero(turns > CORNER) + 1), len(part) - 1]
+            for start, end in pairwise(ends):
+                if end > start:
+                    yield part[start : end + 1]
+
+
+def course_of(problem: PointProblem) -> Course:
+    """Return what of a motion is drawn.
+
+    The file's ``show``, or from its first to its last moment; about a single moment an interval in
+    which the velocity changes by about itself, within which everything exists.
+
+    Raises
+    ------
+    ProblemError
+        The point is nowhere in the interval.
+    """
+    interval = problem.show or _interval(problem)
+    dense = at(problem, np.linspace(*interval, DENSE + 1))
+    if np.isnan(dense.columns["x"]).all():
+        said = f"the point is nowhere from t = {interval[0]:g} s to {interval[1]:g} s"
+        hint = "Give an interval in which the formulas have values: show = [0, 1]."
+        raise ProblemError(problem.name, [Fault("point.show", said, hint)])
+    heading = np.angle(dense.columns["vx"] + 1j * dense.columns["vy"])
+    heading = np.unwrap(heading[~np.isnan(heading)])
+    turned = float(np.sum(np.abs(np.diff(heading)))) if len(heading) > 1 else 0.0
+    count = int(np.clip(turned / BEND, LEAST, MOST))
+    numbered = _marks(problem, interval)
+    times = np.unique(np.concatenate([np.linspace(*interval, count + 1), numbered]))
+    marks = at(problem, numbered)
+    return Course(interval, at(problem, times), marks, _shown(problem, marks))
+
+
+def at(problem: PointProblem, times: Reals) -> Motion:
+    """Return the motion at other moments than the file's."""
+    told = dict(zip(problem.times, problem.blur, strict=True))
+    moments = tuple(float(t) for t in times)
+    return move(replace(problem, times=moments, blur=tuple(told.get(t, 0.0) for t in moments)))
+
+
+def _marks(problem: PointProblem, interval: tuple[float, float]) -> Reals:
+    """Return the numbered instants: a row of the file's, or round ones with the file's."""
+    own = np.unique([t for t in problem.times if interval[0] <= t <= interval[1]])
+    if len(own) > SHOWN:
+        return own[:: -(-len(own) // MOST_MARKS)]
+    step = series_near((interval[1] - interval[0]) / MARKS, up=True)
+    slack = 1e-6 * step
+    first, last = np.ceil((interval[0] - slack) / step), np.floor((interval[1] + slack) / step)
+    round_ones = np.array([float(f"{k * step:.12g}") + 0.0 for k in np.arange(first, last + 1)])
+    apart = [t for t in round_ones if not len(own) or np.min(np.abs(own - t)) > 0.2 * step]
+    return np.sort(np.concatenate([own, apart]))
+
+
+def _shown(problem: PointProblem, marks: Motion) -> tuple[int, ...]:
+    """Return the instants that have vectors: the file's, of a long row one in the middle of it."""
+    times = marks.columns["t"]
+    if len(set(problem.times)) <= SHOWN:
+        found = [k for t in problem.times for k in np.flatnonzero(times == t)]
+        return tuple(dict.fromkeys(int(k) for k in found))
+    whole = [k for k, why in enumerate(marks.reasons) if why is None]
+    some = whole or [k for k, why in enumerate(marks.reasons) if why is not Why.POSITION]
+    return (some[len(some) // 3],) if some else ()
+
+
+def _interval(problem: PointProblem) -> tuple[float, float]:
+    """Choose the interval that is drawn."""
+    low, high = min(problem.times), max(problem.times)
+    if high > low:
+        return low, high
+    here = {name: float(column[0]) for name, column in move(problem).columns.items()}
+    v, a = here["v"], here["a"]
+    reach = 1.0
+    if v > 0 and a > 0:
+        reach = series_near(float(np.clip(v / a, 1e-9, 1e9)), up=False, series=(1.0, 2.0, 5.0))
+    shortest = max(1e-6 * reach, 1e-9 * abs(low))
+    while reach > shortest and not _is_mild(problem, low - reach, low + reach):
+        reach = series_near(0.99 * reach, up=False, series=(1.0, 2.0, 5.0))
+    reach = reach if reach > shortest else 1.0
+    return float(f"{low - reach:.12g}"), float(f"{low + reach:.12g}")
+
+
+def _is_mild(problem: PointProblem, start: float, end: float) -> bool:
+    """Tell whether everything exists in an interval, and nothing grows out of all proportion."""
+    columns = at(problem, np.linspace(start, end, 401)).columns
+    for name in ("v", "a"):
+        values = columns[name]
+        missing = int(np.isnan(values).sum())
+        if missing > 2 or np.nanmax(values, initial=0.0) > GREW * np.nanmean(values):
+            return False
+    return True

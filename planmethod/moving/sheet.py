@@ -1,0 +1,272 @@
+"""Sheet of a moving point: trajectory, hodographs, formulas with numbers, tables (лист точки)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from planmethod.construct.drafting import Profile
+from planmethod.construct.scale import Scale
+from planmethod.errors import LayoutError
+from planmethod.languages import LANGUAGES
+from planmethod.moving.construction import Construction, construct, read_hodograph
+from planmethod.moving.course import Course, course_of
+from planmethod.moving.model import PointProblem
+from planmethod.moving.motion import COLUMNS
+from planmethod.moving.pictures import (
+    hodograph_picture,
+    length_scale,
+    plan_scale,
+    trajectory_picture,
+)
+from planmethod.moving.told import SYMBOLS, law_lines, moment_lines, raised_powers, unit_of
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.numbers import alike, significant
+from planmethod.note.plaintext import plain_text
+from planmethod.note.rounding import rounded_to, sigma_text
+from planmethod.note.wording import Language, language
+from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame.titleblock import merged
+from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
+from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
+from planmethod.render.layout.cuttings import Group, Part
+from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.pack import EDGE, pack
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.planview import POLE
+from planmethod.render.sheets.views import Viewed
+
+PAPERS = ("A3", "A2", "A1")
+"""Formats tried in turn when none is asked for."""
+
+LETTER, TITLE, TEXT = 5.0, 5.0, 3.5
+"""Heights of letters on views, names of views, and texts, mm."""
+
+TRAJECTORY_BOX, HODOGRAPH_BOX = (170.0, 125.0), (105.0, 95.0)
+"""What trajectory and hodographs shall fill, mm, times the factors that are tried."""
+
+FACTORS = (1.9, 1.6, 1.35, 1.15, 1.0, 0.87, 0.75, 0.65, 0.56, 0.48, 0.4)
+COLUMN_WIDTHS = (120.0, 95.0)
+
+
+@dataclass(frozen=True)
+class _Plan(Viewed):
+    """Hodograph of a kind, with the plan of the told moment."""
+
+    built: Construction | None
+    plan: str
+
+    def spans(self, items: Sequence[Item]) -> Iterator[Span]:
+        """Yield the whole vector of the plan."""
+        if self.built is None:
+            return
+        (pole,) = (one.centre for one in items if isinstance(one, Disc) and one.tag == POLE)
+        trace = self.built.read()
+        for vector in self.built.vectors:
+            if vector.plan == self.plan and vector.is_whole:
+                head = complex(np.ravel(trace.value[vector.head])[0])
+                if abs(head) > 0.05:
+                    yield Span(plain_text(vector.symbol), None, pole, pole + head)
+
+
+@dataclass(frozen=True, slots=True)
+class _Sheet:
+    """All that a sheet of a point shows, but for the sizes of its views."""
+
+    problem: PointProblem
+    course: Course
+    profile: Profile
+    words: Language
+
+    def scales(self, factor: float) -> dict[str, Scale]:
+        """Return the scales of views that are so many times as large as usual."""
+        asked, found = self.problem.scales, dict[str, Scale]()
+        box = (factor * HODOGRAPH_BOX[0], factor * HODOGRAPH_BOX[1])
+        for plan, mu in (("v", asked.mu_v), ("a", asked.mu_a)):
+            found[plan] = plan_scale(self.course, plan, box, mu, asked.convention)
+        whole = (factor * TRAJECTORY_BOX[0], factor * TRAJECTORY_BOX[1])
+        return found | {"l": length_scale(self.problem, self.course, found, whole)}
+
+    def parts(self, scales: Mapping[str, Scale], column: float, room: float) -> list[Part]:
+        """Return the blocks in reading order."""
+        course = self.course
+        built = {
+            k: made
+            for k in course.shown
+            if (made := construct(self.problem, course.marks, k, scales)) is not None
+        }
+        first = built.get(course.shown[0]) if course.shown else None
+        picture = trajectory_picture(
+            self.problem, course, built, scales, letter_height=LETTER, say=self.words.say
+        )
+        said = self.words.point
+        block = self._named(picture, said.trajectory, [scales[name] for name in "lva"])
+        parts = [Part(Viewed(block, "trajectory", scales["l"]))]
+        for plan, title in (("v", said.hodograph_v), ("a", said.hodograph_a)):
+            if plan == "a" and np.isnan(course.marks.columns["ax"]).all():
+                continue
+            picture = hodograph_picture(course, plan, first, scales, letter_height=LETTER)
+            block = self._named(picture, title, [scales[plan]])
+            parts.append(Part(_Plan(block, "hodograph", scales[plan], first, plan)))
+        parts.append(Part(self._statement(column), text=True))
+        if course.shown:
+            parts.append(Part(self._calculation(course.shown[0], column), text=True))
+        if first is not None:
+            parts.append(Part(self._read(first, course.shown[0]), text=True))
+        return [*parts, Part(self._table(room, scales["v"]), text=False)]
+
+    def _named(self, picture: Block, title: str, scales: Sequence[Scale]) -> Block:
+        convention, say = self.problem.scales.convention, self.words.say
+        lines: list[Block] = [Line(typeset(title, TITLE), underline=True)]
+        lines += [Line(typeset(scale_inscription(one, convention, say), TEXT)) for one in scales]
+        return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
+
+    def _statement(self, width: float) -> Block:
+        """Return "Дано" and what is asked."""
+        said, say = self.words.point, self.words.say
+        facts = law_lines(self.problem, self.words, raised_powers)
+        times = self.problem.times
+        moments = ", ".join(map(say.given, times)) if len(times) <= 3 else said.row.format(
+            start=say.given(min(times)), end=say.given(max(times)), count=len(times)
+        )  # fmt: skip
+        facts = [fact.replace("  ", " ") for fact in facts] + [said.moments.format(times=moments)]
+        texts = [self.words.note.given.format(given="; ".join(facts)), said.wanted]
+        return Column([paragraph(text, TEXT, width=width) for text in texts], gap=3.0)
+
+    def _calculation(self, k: int, width: float) -> Block:
+        """Return the formulas of one moment with their numbers."""
+        time = self.words.say.given(float(self.course.marks.columns["t"][k]))
+        blocks: list[Block] = [heading(self.words.point.at.format(time=time), TEXT, width=width)]
+        for line in moment_lines(self.problem, self.course.marks, k, self.words):
+            is_formula = "=" in line.split(",")[0]
+            make = formula_block if is_formula else paragraph
+            blocks.append(make(line, TEXT, width=width))
+        return Column(blocks, gap=2.6)
+
+    def _read(self, built: Construction, k: int) -> Block:
+        """Return what the drawing gives beside the exact values, and its error."""
+        say, said, sigma = self.words.say, self.words.point, built.sigma(self.profile)
+        ruled = built.ruled(self.profile.ruler)
+        names = [name for name in built.results if np.isfinite(ruled[name])]
+        cells: list[list[str]] = [[], [], [], []]
+        for name in names:
+            exact = float(self.course.marks.columns[name][k])
+            unit = self.words.say.units[unit_of(name)]
+            cells[0].append(f"{SYMBOLS[name]}, {unit}")
+            cells[1].append(say.number(significant(exact)))
+            cells[2].append(say.number(rounded_to(ruled[name], sigma[name])))
+            cells[3].append(say.number(sigma_text(sigma[name])))
+        columns = [
+            TableColumn(head, tuple(own)) for head, own in zip(said.read, cells, strict=True)
+        ]
+        title = said.read_title.format(profile=self.words.note.profiles[self.profile.name])
+        return Column([Line(typeset(title, TEXT)), table_block(columns, TEXT, units="none")], 2.5)
+
+    def _table(self, room: float, scale: Scale) -> Block:
+        """Return the table of the numbered instants."""
+        say, marks, said = self.words.say, self.course.marks, self.words.point
+        count = len(marks.columns["t"])
+        columns = [TableColumn("№", tuple(map(str, range(count))), least=6.0)]
+        for name in COLUMNS:
+            values = [float(value) for value in marks.columns[name]]
+            whole = all(np.isfinite(values))
+            told = alike(values) if whole else [significant(value) for value in values]
+            cells = tuple(say.number(text) for text in told)
+            if name == "t":
+                cells = tuple(say.given(value) for value in values)
+            unit = say.units[unit_of(name)]
+            columns.append(TableColumn(SYMBOLS[name], cells, unit, least=8.0))
+        chords = read_hodograph(marks, scale, self.profile)
+        if len(chords.at) > 1:
+            shown = ["—"] * count
+            for k, value, sigma in zip(chords.at, chords.read, chords.sigma, strict=True):
+                shown[k] = (
+                    f"{say.number(rounded_to(value, sigma))} ± {say.number(sigma_text(sigma))}"
+                )
+            columns.append(TableColumn(said.chord, tuple(shown), say.units["m/s²"]))
+        row = 6.0 if count > 8 else 7.0
+        table = table_block(
+            columns,
+            TEXT,
+            width=STAMP_WIDTH,
+            max_width=room,
+            units="below",
+            leading=2,
+            row_height=row,
+        )
+        notes = [] if len(chords.at) < 2 else [paragraph(said.chord_note, 2.5, STAMP_WIDTH)]
+        return Column([Line(typeset(said.table, TEXT)), table, *notes], gap=2.5)
+
+
+def point_sheets(
+    problem: PointProblem,
+    *,
+    fields: Mapping[str, str] | None = None,
+    profile: Profile,
+    before: int = 0,
+    total: int | None = None,
+) -> list[Drawing]:
+    """Draw the motion of a point in the language of ``problem.sheet``.
+
+    Parameters
+    ----------
+    fields : mapping, optional
+        Texts of the title block that outrank the file's.
+    profile : Profile
+        How well it is drawn: the ruler and the errors of what is read.
+    before, total : int
+        Sheets of the set before this one, and of the whole set.
+
+    Raises
+    ------
+    ProblemError
+        The point is nowhere in the shown interval.
+    LayoutError
+        When everything fits no format, or not the asked one.
+    """
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    sheet = _Sheet(problem, course_of(problem), profile, words)
+    furniture = Furniture.of(problem.sheet, before=before, total=total)
+    asked = problem.sheet.paper
+    papers = (paper_format(asked).name,) if asked else PAPERS
+    texts = merged(
+        {"title": problem.title or problem.name, "sheets": "1"},
+        problem.stamp,
+        furniture.numbers(1, 1),
+        fields or {},
+    )
+    with using(lettering(problem.sheet.lettering or "B")):
+        for name in papers:
+            fmt = paper_format(name)
+            room = furniture.room(fmt)
+            tried: set[tuple[float, ...]] = set()
+            for factor in FACTORS:
+                scales = sheet.scales(factor)
+                key = tuple(scale.per_mm for scale in scales.values())
+                if key in tried:
+                    continue
+                tried.add(key)
+                for column in COLUMN_WIDTHS:
+                    width = room.inner[2] - room.inner[0] - 2 * EDGE
+                    parts = sheet.parts(scales, column, width)
+                    corners = pack(Group(tuple(parts)), room.inner, room.stamp, room.taken)
+                    if corners is None:
+                        continue
+                    drawing = Drawing(fmt.width, fmt.height, texts["title"])
+                    drawing.extend(sheet_frame(fmt, texts, furniture, sheet=1).items)
+                    for part, corner in zip(parts, corners, strict=True):
+                        items = part.block.place(corner)
+                        drawing.extend(items)
+                        if isinstance(part.block, Viewed):
+                            drawing.views.append(part.block.view(items, corner))
+                    return [drawing]
+    larger = [one for one in PAPERS if one > "" and one < papers[-1]] if asked else []
+    advice = f"Take --paper {larger[0]}." if larger else "Ask fewer moments, or a shorter show."
+    raise LayoutError(
+        f"{problem.name}: the motion of the point does not fit {papers[-1]}. {advice}"
+    )
