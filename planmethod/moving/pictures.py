@@ -31,8 +31,8 @@ from planmethod.render.pictures.planview import POLE
 from planmethod.render.symbols import arrowhead, revolute, vector_arrow
 
 AXIS = "axis of coordinates"
-NUMBERS = 3.5
-"""Height of the numbers of instants, mm."""
+SMALL = 3.5
+"""Height of the numbers of instants and of the letters of components, mm."""
 
 _BEYOND = 9.0  # mm: an axis goes on beyond what is drawn
 _HEAD = 3.5  # mm: arrowhead of an axis
@@ -107,19 +107,12 @@ def places_of(motion: Motion, x: str, y: str) -> Complexes:
 def trajectory_picture(
     problem: PointProblem,
     course: Course,
-    built: Mapping[int, Construction],
     scales: Mapping[str, Scale],
     *,
     letter_height: float,
     say: Notation,
 ) -> Picture:
-    """Return the trajectory: axes, curve, numbered instants, vectors, the circle of curvature.
-
-    Parameters
-    ----------
-    built : mapping
-        Constructions of the shown instants, by number.
-    """
+    """Return the trajectory: axes, curve, numbered instants, vectors, the circle of curvature."""
     per_mm, marks = scales["l"].per_mm, course.marks
     here = places_of(marks, "x", "y") / per_mm
     items: list[Item] = []
@@ -142,7 +135,7 @@ def trajectory_picture(
             labels.append(Label(typeset(letter, letter_height), complex(here[k]), gap=2.2,
                                 priority=2, name=f"point {k}"))  # fmt: skip
     items = [*_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], say=say), *items]
-    items += _dots(here, course.shown, labels, "instant")
+    items += _dots(here, labels, "instant")
     for k in course.shown:
         if not np.isnan(here[k]):
             items += revolute(complex(here[k]))
@@ -163,7 +156,7 @@ def _curve(parts: Iterable[Complexes], per_mm: float, tag: str) -> list[Item]:
     return drawn
 
 
-def _dots(places: Complexes, shown: Sequence[int], labels: list[Label], name: str) -> list[Item]:
+def _dots(places: Complexes, labels: list[Label], name: str) -> list[Item]:
     """Return the numbered instants; those in one place share one inscription."""
     numbered = [(complex(p), [str(k)]) for k, p in enumerate(places) if not np.isnan(p)]
     spots = shared_spots(numbered, near=0.5)
@@ -173,9 +166,8 @@ def _dots(places: Complexes, shown: Sequence[int], labels: list[Label], name: st
         before, after = spots[max(n - 1, 0)][0], spots[min(n + 1, len(spots) - 1)][0]
         text = ", ".join(numbers)
         side = 1j * (after - before)  # beside the curve
-        labels.append(Label(typeset(text, NUMBERS), place, prefer=side, gap=1.4,
+        labels.append(Label(typeset(text, SMALL), place, prefer=side, gap=1.4,
                             name=f"{name} {text}", manner=BUSY))  # fmt: skip
-    del shown
     return [Disc(place, _DOT, Ink.BLACK, tag=name) for place, _ in spots]
 
 
@@ -296,7 +288,7 @@ def hodograph_picture(
             items.append(Stroke(chord, Pen.THIN, tag="chord"))
     axes = [f"{plan}_{{x}}", f"{plan}_{{y}}"]
     items = [*_axes([*items, Disc(0j, 1.0)], axes, letter_height, labels), *items]
-    items += _dots(marks, course.shown, labels, f"{plan} instant")
+    items += _dots(marks, labels, f"{plan} instant")
     items.append(Disc(0j, 0.9, Ink.BLACK, tag=POLE))
     labels.append(Label(typeset(pole, letter_height), 0j, gap=1.6, priority=2, name=f"{plan} pole"))
     return lettered(items, labels)
@@ -321,7 +313,7 @@ def _plan(built: Construction, plan: str, height: float) -> tuple[list[Item], li
         pen, tag = (Pen.MAIN, "absolute") if vector.is_whole else (Pen.THIN, "relative")
         items += vector_arrow(tail, head, pen=pen, length=_ARROW, tag=tag)
         markup = vector_markup(vector.symbol)
-        labels.append(Label(typeset(markup, height), (tail + head) / 2, (tail, head), gap=1.2,
+        labels.append(Label(typeset(markup, height if vector.is_whole else SMALL), (tail + head) / 2, (tail, head), gap=1.2,
                             priority=1, name=f"{plan}: {vector.symbol}"))  # fmt: skip
     return items, labels
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
 from planmethod.construct.drafting import Profile
-from planmethod.construct.scale import Scale
+from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.moving.construction import Construction, construct, read_hodograph
@@ -27,8 +28,9 @@ from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
+from planmethod.problem.model import Convention
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
-from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.lettering import lettering, using
@@ -39,6 +41,7 @@ from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.pack import EDGE, pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.planview import POLE
+from planmethod.render.sheets.texts import unbroken
 from planmethod.render.sheets.views import Viewed
 
 PAPERS = ("A3", "A2", "A1")
@@ -52,6 +55,11 @@ TRAJECTORY_BOX, HODOGRAPH_BOX = (170.0, 125.0), (105.0, 95.0)
 
 FACTORS = (1.9, 1.6, 1.35, 1.15, 1.0, 0.87, 0.75, 0.65, 0.56, 0.48, 0.4)
 COLUMN_WIDTHS = (120.0, 95.0)
+
+TABLE_WIDTH = STAMP_WIDTH + 15.0
+
+MOST_STEPS = 3
+"""Most members of the series that a scale goes on by."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +90,53 @@ class _Sheet:
     course: Course
     profile: Profile
     words: Language
+    views: dict[tuple[str | float, ...], Block] = field(default_factory=dict)
+
+    def laid_out(self, room: Room) -> list[tuple[Part, complex]] | None:
+        """Return the blocks and where they stand, the views as large as the paper bears; or None.
+
+        All views grow together first, then each as far as the others leave it room.
+        """
+
+        def packed(scales: Mapping[str, Scale], column: float) -> list[tuple[Part, complex]] | None:
+            parts = self.parts(scales, column, room.inner[2] - room.inner[0] - 2 * EDGE)
+            area = sum(part.block.width * part.block.height for part in parts)
+            if area > (room.inner[2] - room.inner[0]) * (room.inner[3] - room.inner[1]):
+                return None
+            corners = pack(Group(tuple(parts)), room.inner, room.stamp, room.taken)
+            return list(zip(parts, corners, strict=True)) if corners else None
+
+        tried: set[tuple[float, ...]] = set()
+        for factor in FACTORS:
+            scales = self.scales(factor)
+            key = tuple(scale.per_mm for scale in scales.values())
+            if key in tried:
+                continue
+            tried.add(key)
+            for column in COLUMN_WIDTHS:
+                laid = packed(scales, column)
+                if laid is not None:
+                    return self._grown(laid, scales, partial(packed, column=column))
+        return None
+
+    def _grown(
+        self,
+        laid: list[tuple[Part, complex]],
+        scales: dict[str, Scale],
+        packed: Callable[[Mapping[str, Scale]], list[tuple[Part, complex]] | None],
+    ) -> list[tuple[Part, complex]]:
+        """Return the blocks with every free scale as large as they bear."""
+        asked = self.problem.scales
+        inverse = asked.convention is Convention.MM_PER_UNIT
+        for name, mu in (("l", asked.mu_l), ("v", asked.mu_v), ("a", asked.mu_a)):
+            for _ in range(0 if mu is not None else MOST_STEPS):
+                finer = _finer(scales[name].per_mm, inverse=inverse)
+                more = scales | {name: replace(scales[name], per_mm=finer)}
+                larger = packed(more)
+                if larger is None:
+                    break
+                laid, scales = larger, more
+        return laid
 
     def scales(self, factor: float) -> dict[str, Scale]:
         """Return the scales of views that are so many times as large as usual."""
@@ -94,31 +149,44 @@ class _Sheet:
 
     def parts(self, scales: Mapping[str, Scale], column: float, room: float) -> list[Part]:
         """Return the blocks in reading order."""
-        course = self.course
+        course, said = self.course, self.words.point
         built = {
             k: made
             for k in course.shown
             if (made := construct(self.problem, course.marks, k, scales)) is not None
         }
         first = built.get(course.shown[0]) if course.shown else None
-        picture = trajectory_picture(
-            self.problem, course, built, scales, letter_height=LETTER, say=self.words.say
-        )
-        said = self.words.point
-        block = self._named(picture, said.trajectory, [scales[name] for name in "lva"])
-        parts = [Part(Viewed(block, "trajectory", scales["l"]))]
-        for plan, title in (("v", said.hodograph_v), ("a", said.hodograph_a)):
+        parts = [Part(self._statement(column), text=True)]
+
+        def trajectory() -> Block:
+            picture = trajectory_picture(
+                self.problem, course, scales, letter_height=LETTER, say=self.words.say
+            )
+            return self._named(picture, said.trajectory, [scales[name] for name in "lva"])
+
+        parts.append(Part(Viewed(self._kept("lva", scales, trajectory), "trajectory", scales["l"])))
+        for plan, title, depends in (("v", said.hodograph_v, "lv"), ("a", said.hodograph_a, "va")):
             if plan == "a" and np.isnan(course.marks.columns["ax"]).all():
                 continue
-            picture = hodograph_picture(course, plan, first, scales, letter_height=LETTER)
-            block = self._named(picture, title, [scales[plan]])
+
+            def hodograph(plan: str = plan, title: str = title) -> Block:
+                picture = hodograph_picture(course, plan, first, scales, letter_height=LETTER)
+                return self._named(picture, title, [scales[plan]])
+
+            block = self._kept(depends, scales, hodograph)
             parts.append(Part(_Plan(block, "hodograph", scales[plan], first, plan)))
-        parts.append(Part(self._statement(column), text=True))
         if course.shown:
             parts.append(Part(self._calculation(course.shown[0], column), text=True))
         if first is not None:
             parts.append(Part(self._read(first, course.shown[0]), text=True))
         return [*parts, Part(self._table(room, scales["v"]), text=False)]
+
+    def _kept(self, names: str, scales: Mapping[str, Scale], make: Callable[[], Block]) -> Block:
+        """Return a view that depends on some scales, made once for them."""
+        key = (names, *(scales[name].per_mm for name in names))
+        if key not in self.views:
+            self.views[key] = make()
+        return self.views[key]
 
     def _named(self, picture: Block, title: str, scales: Sequence[Scale]) -> Block:
         convention, say = self.problem.scales.convention, self.words.say
@@ -134,18 +202,21 @@ class _Sheet:
         moments = ", ".join(map(say.given, times)) if len(times) <= 3 else said.row.format(
             start=say.given(min(times)), end=say.given(max(times)), count=len(times)
         )  # fmt: skip
-        facts = [fact.replace("  ", " ") for fact in facts] + [said.moments.format(times=moments)]
-        texts = [self.words.note.given.format(given="; ".join(facts)), said.wanted]
+        facts = [*(f.replace("  ", " ") for f in facts), said.moments.format(times=moments)]
+        texts = [self.words.note.given.format(given=unbroken(facts)), said.wanted]
         return Column([paragraph(text, TEXT, width=width) for text in texts], gap=3.0)
 
     def _calculation(self, k: int, width: float) -> Block:
         """Return the formulas of one moment with their numbers."""
         time = self.words.say.given(float(self.course.marks.columns["t"][k]))
         blocks: list[Block] = [heading(self.words.point.at.format(time=time), TEXT, width=width)]
+        lines: list[str] = []
         for line in moment_lines(self.problem, self.course.marks, k, self.words):
-            is_formula = "=" in line.split(",")[0]
-            make = formula_block if is_formula else paragraph
-            blocks.append(make(line, TEXT, width=width))
+            if lines and line.count("=") == lines[-1].count("=") == 1:
+                lines[-1] += f";  {line}"  # two components
+            else:
+                lines.append(line)
+        blocks += [formula_block(line, TEXT, width=width) for line in lines]
         return Column(blocks, gap=2.6)
 
     def _read(self, built: Construction, k: int) -> Block:
@@ -191,16 +262,17 @@ class _Sheet:
             columns.append(TableColumn(said.chord, tuple(shown), say.units["m/s²"]))
         row = 6.0 if count > 8 else 7.0
         table = table_block(
-            columns,
-            TEXT,
-            width=STAMP_WIDTH,
-            max_width=room,
-            units="below",
-            leading=2,
-            row_height=row,
+            columns, TEXT, width=min(room, TABLE_WIDTH), units="below", leading=2, row_height=row
         )
         notes = [] if len(chords.at) < 2 else [paragraph(said.chord_note, 2.5, STAMP_WIDTH)]
         return Column([Line(typeset(said.table, TEXT)), table, *notes], gap=2.5)
+
+
+def _finer(per_mm: float, *, inverse: bool) -> float:
+    """Return the next scale of the series, at which everything is larger."""
+    if inverse:
+        return 1.0 / series_near(1.01 / per_mm, up=True)
+    return series_near(0.99 * per_mm, up=False)
 
 
 def point_sheets(
@@ -244,27 +316,17 @@ def point_sheets(
         for name in papers:
             fmt = paper_format(name)
             room = furniture.room(fmt)
-            tried: set[tuple[float, ...]] = set()
-            for factor in FACTORS:
-                scales = sheet.scales(factor)
-                key = tuple(scale.per_mm for scale in scales.values())
-                if key in tried:
-                    continue
-                tried.add(key)
-                for column in COLUMN_WIDTHS:
-                    width = room.inner[2] - room.inner[0] - 2 * EDGE
-                    parts = sheet.parts(scales, column, width)
-                    corners = pack(Group(tuple(parts)), room.inner, room.stamp, room.taken)
-                    if corners is None:
-                        continue
-                    drawing = Drawing(fmt.width, fmt.height, texts["title"])
-                    drawing.extend(sheet_frame(fmt, texts, furniture, sheet=1).items)
-                    for part, corner in zip(parts, corners, strict=True):
-                        items = part.block.place(corner)
-                        drawing.extend(items)
-                        if isinstance(part.block, Viewed):
-                            drawing.views.append(part.block.view(items, corner))
-                    return [drawing]
+            laid = sheet.laid_out(room)
+            if laid is None:
+                continue
+            drawing = Drawing(fmt.width, fmt.height, texts["title"])
+            drawing.extend(sheet_frame(fmt, texts, furniture, sheet=1).items)
+            for part, corner in laid:
+                items = part.block.place(corner)
+                drawing.extend(items)
+                if isinstance(part.block, Viewed):
+                    drawing.views.append(part.block.view(items, corner))
+            return [drawing]
     larger = [one for one in PAPERS if one > "" and one < papers[-1]] if asked else []
     advice = f"Take --paper {larger[0]}." if larger else "Ask fewer moments, or a shorter show."
     raise LayoutError(

@@ -33,7 +33,7 @@ POINT = PointWording(
     read_title="Read off the drawing ({profile})",
     read=("Quantity", "Exact", "Read", "±σ"),
     table="Motion of the point at the numbered instants",
-    chord="a by hodograph",
-    chord_note="a by hodograph: the chord between the neighbouring points of the velocity "
+    chord="a_{hod}",
+    chord_note="a_{hod}: the chord between the neighbouring points of the velocity "
     "hodograph over the time between them, ± the drafting error σ.",
 )
