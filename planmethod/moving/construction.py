@@ -23,6 +23,7 @@ from planmethod.construct.program import Builder, Program
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.moving.bounded import Reals
+from planmethod.moving.course import Course
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Why
 
@@ -329,11 +330,11 @@ class ChordReading:
     exact: Reals
 
 
-def read_hodograph(marks: Motion, scale: Scale, profile: Profile) -> ChordReading:
+def read_hodograph(course: Course, scale: Scale, profile: Profile) -> ChordReading:
     """Read accelerations off a hodograph of the velocity, by chords of neighbouring instants."""
-    column = marks.columns
-    there = ~np.isnan(column["vx"] + column["vy"])
-    inner = [k for k in range(1, len(there) - 1) if there[k - 1 : k + 2].all()]
+    column = course.marks.columns
+    count = len(column["t"])
+    inner = [k for k in range(1, count - 1) if course.unbroken("vx", "vy", k - 1, k + 1)]
     if not inner:
         return ChordReading((), *(np.zeros(0) for _ in range(3)))
     k, b, zeros = np.array(inner), Builder(), np.zeros(len(inner))

@@ -21,10 +21,10 @@ Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 DENSE = 4000
 """Moments of the interval that are looked at."""
 
-BEND = np.radians(3.0)
+BEND = np.radians(2.0)
 """Turn of the tangent between two points of a drawn curve."""
 
-LEAST, MOST = 120, 1500
+LEAST, MOST = 300, 1500
 """Points of a drawn curve."""
 
 GREW = 6.0
@@ -66,11 +66,8 @@ class Course:
 
     def curves(self, x: str, y: str) -> Iterator[Complexes]:
         """Yield the smooth parts of a curve, SI: it breaks at poles and at corners."""
-        places = self.path.columns[x] + 1j * self.path.columns[y]
-        there = places[~np.isnan(places)]
-        middle = complex(np.median(there.real), np.median(there.imag)) if len(there) else 0j
-        usual = float(np.percentile(np.abs(there - middle), 75)) if len(there) else 0.0
-        places = np.where(np.abs(places - middle) > FAR * usual, np.nan, places)
+        places = places_of(self.path, x, y)
+        places = np.where(self._lost(x, y), np.nan, places)
         for part in np.split(places, np.flatnonzero(np.isnan(places))):
             part = part[~np.isnan(part)]
             steps = np.diff(part)
@@ -79,6 +76,40 @@ class Course:
             for start, end in pairwise(ends):
                 if end > start:
                     yield part[start : end + 1]
+
+    def numbered(self, x: str, y: str) -> Complexes:
+        """Return the numbered instants on a curve, SI; NaN where it is cut."""
+        places = places_of(self.marks, x, y)
+        middle, reach = self._within(x, y)
+        return np.where(np.abs(places - middle) > reach, np.nan, places)
+
+    def unbroken(self, x: str, y: str, first: int, last: int) -> bool:
+        """Tell whether a curve runs without a break between two numbered instants."""
+        start, end = (self.marks.columns["t"][k] for k in (first, last))
+        times = self.path.columns["t"]
+        return not self._lost(x, y)[(start <= times) & (times <= end)].any()
+
+    def _lost(self, x: str, y: str) -> NDArray[np.bool_]:
+        """Tell where along the path a curve is not drawn: it does not exist, or runs to a pole."""
+        places = places_of(self.path, x, y)
+        middle, reach = self._within(x, y)
+        lost: NDArray[np.bool_] = ~(np.abs(places - middle) <= reach)
+        return lost
+
+    def _within(self, x: str, y: str) -> tuple[complex, float]:
+        """Return the middle of a curve, and how far from there it is drawn, SI."""
+        places = places_of(self.path, x, y)
+        there = places[~np.isnan(places)]
+        if not len(there):
+            return 0j, 0.0
+        middle = complex(np.median(there.real), np.median(there.imag))
+        return middle, FAR * float(np.percentile(np.abs(there - middle), 75))
+
+
+def places_of(motion: Motion, x: str, y: str) -> Complexes:
+    """Return two columns of a motion as complex numbers, SI."""
+    found: Complexes = motion.columns[x] + 1j * motion.columns[y]
+    return found
 
 
 def course_of(problem: PointProblem) -> Course:
@@ -98,14 +129,19 @@ def course_of(problem: PointProblem) -> Course:
         said = f"the point is nowhere from t = {interval[0]:g} s to {interval[1]:g} s"
         hint = "Give an interval in which the formulas have values: show = [0, 1]."
         raise ProblemError(problem.name, [Fault("point.show", said, hint)])
-    heading = np.angle(dense.columns["vx"] + 1j * dense.columns["vy"])
-    heading = np.unwrap(heading[~np.isnan(heading)])
-    turned = float(np.sum(np.abs(np.diff(heading)))) if len(heading) > 1 else 0.0
+    turned = max(_turned(places_of(dense, f"{plan}x", f"{plan}y")) for plan in "va")
     count = int(np.clip(turned / BEND, LEAST, MOST))
     numbered = _marks(problem, interval)
     times = np.unique(np.concatenate([np.linspace(*interval, count + 1), numbered]))
     marks = at(problem, numbered)
     return Course(interval, at(problem, times), marks, _shown(problem, marks))
+
+
+def _turned(ways: Complexes) -> float:
+    """Return how far a direction turns in all, radians; at a cusp and at a break it does not."""
+    ways = ways[~np.isnan(ways)]
+    turns = np.abs(np.angle(ways[1:] * np.conj(ways[:-1])))
+    return float(np.sum(turns[turns < CORNER]))
 
 
 def at(problem: PointProblem, times: Reals) -> Motion:

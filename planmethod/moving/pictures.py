@@ -13,7 +13,7 @@ import numpy as np
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.construct.steps import PointName
 from planmethod.moving.construction import POLES, Construction
-from planmethod.moving.course import Complexes, Course
+from planmethod.moving.course import Complexes, Course, places_of
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion
 from planmethod.note.numbers import Notation, trimmed
@@ -48,8 +48,7 @@ def plan_scale(course: Course, plan: str, box: tuple[float, float], asked: float
                convention: Convention) -> Scale:  # fmt: skip
     """Return the scale at which the hodograph of ``plan``, v or a, fills a box with its pole."""
     names, unit = (f"{plan}x", f"{plan}y"), {"v": "m/s", "a": "m/s²"}[plan]
-    columns = course.marks.columns
-    marks = columns[names[0]] + 1j * columns[names[1]]
+    marks = course.numbered(*names)
     extent = _extent([np.zeros(1, complex), marks[~np.isnan(marks)], *course.curves(*names)])
     return Scale(f"mu_{plan}", asked or _chosen(extent, box, convention), unit)
 
@@ -74,7 +73,7 @@ def length_scale(
         return Scale("mu_l", problem.scales.mu_l, "m")
     convention = problem.scales.convention
     path = list(course.curves("x", "y"))
-    here = places_of(course.marks, "x", "y")
+    here = course.numbered("x", "y")
     path.append(here[~np.isnan(here)])
     if problem.wheel is not None:
         corner = problem.wheel.radius * (1 + 1j)
@@ -95,12 +94,6 @@ def length_scale(
     return Scale("mu_l", per_mm, "m")
 
 
-def places_of(motion: Motion, x: str, y: str) -> Complexes:
-    """Return two columns of a motion as complex numbers, SI."""
-    found: Complexes = motion.columns[x] + 1j * motion.columns[y]
-    return found
-
-
 # Trajectory ---------------------------------------------------------------------------------------
 
 
@@ -114,25 +107,28 @@ def trajectory_picture(
 ) -> Picture:
     """Return the trajectory: axes, curve, numbered instants, vectors, the circle of curvature."""
     per_mm, marks = scales["l"].per_mm, course.marks
-    here = places_of(marks, "x", "y") / per_mm
+    here = course.numbered("x", "y") / per_mm
     items: list[Item] = []
     labels: list[Label] = []
     for k in course.shown:
         if problem.law is Law.ROLLING and not np.isnan(here[k]):
             _wheel(problem, marks, k, per_mm, letter_height, items, labels)
+    if problem.wheel is not None and problem.wheel.track:
+        items.append(Arc(0j, abs(problem.wheel.track) / per_mm, pen=Pen.THIN, tag="track"))
     items += _curve(course.curves("x", "y"), per_mm, f"{TRAJECTORY} M")
     for number, k in enumerate(course.shown):
         if not np.isnan(here[k]):
-            own = k if len(course.shown) > 1 else None
-            vectors = _vectors_at(marks, k, scales, complex(here[k]), own, letter_height)
+            own = f"_{{{k}}}" if len(course.shown) > 1 else ""
+            vectors = _vectors_at(
+                marks, k, scales, complex(here[k]), own, letter_height, parts=not number
+            )
             items += vectors[0]
             labels += vectors[1]
             if number == 0:
                 more = _curvature(marks, k, per_mm, complex(here[k]), letter_height)
                 items += more[0]
                 labels += more[1]
-            letter = f"M_{{{k}}}" if len(course.shown) > 1 else "M"
-            labels.append(Label(typeset(letter, letter_height), complex(here[k]), gap=2.2,
+            labels.append(Label(typeset(f"M{own}", letter_height), complex(here[k]), gap=2.2,
                                 priority=2, name=f"point {k}"))  # fmt: skip
     items = [*_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], say=say), *items]
     items += _dots(here, labels, "instant")
@@ -176,15 +172,19 @@ def _vectors_at(
     k: int,
     scales: Mapping[str, Scale],
     here: complex,
-    own: int | None,
+    own: str,
     height: float,
+    *,
+    parts: bool,
 ) -> tuple[list[Item], list[Label]]:
-    """Return velocity, acceleration and its projections, all from the point."""
+    """Return velocity, acceleration and, as ``parts``, its projections, all from the point."""
     value = {name: float(column[k]) for name, column in marks.columns.items()}
     v, a = (complex(value[f"{plan}x"], value[f"{plan}y"]) for plan in "va")
     along = v / abs(v) * value["a_tangential"] if abs(v) > 0 else complex("nan")
-    wanted = [("v", "v", v, True), ("a", "a", a, True)]
-    if min(abs(along), abs(a - along)) > _LEAST * scales["a"].per_mm:  # else it is the whole
+    wanted = [(f"v{own}", "v", v, True), (f"a{own}", "a", a, True)]
+    if (
+        parts and min(abs(along), abs(a - along)) > _LEAST * scales["a"].per_mm
+    ):  # else it is the whole
         wanted += [("a_{τ}", "a", along, False), ("a_{n}", "a", a - along, False)]
     items: list[Item] = []
     labels: list[Label] = []
@@ -196,7 +196,7 @@ def _vectors_at(
         items += vector_arrow(here, here + size, pen=pen, length=_ARROW, tag=tag)
         if not is_whole:
             items.append(Stroke((here + size, here + a / scales["a"].per_mm), Pen.THIN, tag="aid"))
-        labels.append(_letter(symbol, here, here + size, height, f"at {own}: "))
+        labels.append(_letter(symbol, here, here + size, height, f"at {k}: "))
     return items, labels
 
 
@@ -242,8 +242,6 @@ def _wheel(
     )
     radius = wheel.radius / per_mm
     items.append(Arc(centre, radius, pen=Pen.THIN, tag="wheel"))
-    if wheel.track:
-        items.append(Arc(0j, abs(wheel.track) / per_mm, pen=Pen.THIN, tag="track"))
     own = f"_{{{k}}}" if marks.columns["t"].size and len(problem.times) > 1 else ""
     if abs(here - touch) > _LEAST:
         items.append(Stroke((touch, here), Pen.THIN, tag="reach"))
@@ -272,7 +270,7 @@ def hodograph_picture(
     acceleration is read from.
     """
     per_mm, names = scales[plan].per_mm, (f"{plan}x", f"{plan}y")
-    marks = places_of(course.marks, *names) / per_mm
+    marks = course.numbered(*names) / per_mm
     items = _curve(course.curves(*names), per_mm, f"{HODOGRAPH} {plan}")
     labels: list[Label] = []
     pole = POLES[plan]

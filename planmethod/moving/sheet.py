@@ -22,7 +22,7 @@ from planmethod.moving.pictures import (
     plan_scale,
     trajectory_picture,
 )
-from planmethod.moving.told import SYMBOLS, law_lines, moment_lines, raised_powers, unit_of
+from planmethod.moving.told import SYMBOLS, law_lines, moment_lines, textbook, unit_of
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
@@ -90,7 +90,7 @@ class _Sheet:
     course: Course
     profile: Profile
     words: Language
-    views: dict[tuple[str | float, ...], Block] = field(default_factory=dict)
+    views: dict[tuple[object, ...], Block] = field(default_factory=dict)
 
     def laid_out(self, room: Room) -> list[tuple[Part, complex]] | None:
         """Return the blocks and where they stand, the views as large as the paper bears; or None.
@@ -197,13 +197,15 @@ class _Sheet:
     def _statement(self, width: float) -> Block:
         """Return "Дано" and what is asked."""
         said, say = self.words.point, self.words.say
-        facts = law_lines(self.problem, self.words, raised_powers)
-        times = self.problem.times
-        moments = ", ".join(map(say.given, times)) if len(times) <= 3 else said.row.format(
-            start=say.given(min(times)), end=say.given(max(times)), count=len(times)
-        )  # fmt: skip
-        facts = [*(f.replace("  ", " ") for f in facts), said.moments.format(times=moments)]
-        texts = [self.words.note.given.format(given=unbroken(facts)), said.wanted]
+        decimal, times = say.decimal, self.problem.times
+        facts = law_lines(self.problem, self.words, lambda text: textbook(text, decimal))
+        moments = said.moments.format(times="; ".join(map(say.given, times)))
+        if len(times) > 3:
+            ends = {"start": say.given(min(times)), "end": say.given(max(times))}
+            moments = said.row.format(**ends, count=len(times))
+        # A formula is not broken within.
+        whole = [unbroken([fact]) if "=" in fact[:5] else fact for fact in (*facts, moments)]
+        texts = [self.words.note.given.format(given="; ".join(whole)), said.wanted]
         return Column([paragraph(text, TEXT, width=width) for text in texts], gap=3.0)
 
     def _calculation(self, k: int, width: float) -> Block:
@@ -252,7 +254,7 @@ class _Sheet:
                 cells = tuple(say.given(value) for value in values)
             unit = say.units[unit_of(name)]
             columns.append(TableColumn(SYMBOLS[name], cells, unit, least=8.0))
-        chords = read_hodograph(marks, scale, self.profile)
+        chords = read_hodograph(self.course, scale, self.profile)
         if len(chords.at) > 1:
             shown = ["—"] * count
             for k, value, sigma in zip(chords.at, chords.read, chords.sigma, strict=True):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Why
-from planmethod.note.numbers import Notation, with_unit
+from planmethod.note.numbers import MINUS, Notation, with_unit
 from planmethod.note.wording import Language
 
 SYMBOLS = {
@@ -41,6 +41,15 @@ def unit_of(name: str) -> str:
     return units.get(name, units.get(name[0], "m"))
 
 
+def textbook(text: str, decimal: str) -> str:
+    """Return a formula of a file as a textbook prints it, rich text: powers, roots, π."""
+    shown = _ROOT.sub("√", _PI.sub("π", text.replace(".", decimal).replace("-", MINUS)))
+    return raised_powers(shown)
+
+
+_PI, _ROOT = re.compile(r"\bpi\b"), re.compile(r"\bsqrt\b")
+
+
 def raised_powers(text: str) -> str:
     """Return a formula of a file as rich text: ``t^(1/2)`` with its power above the line."""
     head, sign, tail = text.partition("^")
@@ -67,7 +76,7 @@ def _end_of_power(tail: str) -> int:
     return end + 1 + _end_of_power(tail[end + 1 :]) if tail[end : end + 1] == "^" else end
 
 
-_POWER = re.compile(r" *[-+ ]*(?:[0-9.]+(?:[eE][+-]?[0-9]+)?|[A-Za-z_]+[0-9]*)?")
+_POWER = re.compile(r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?")
 
 
 def law_lines(
@@ -81,7 +90,7 @@ def law_lines(
     lines = []
     for key, formula in problem.formulas.items():
         shown = written(formula.text.replace("**", "^").replace("*", "·"))
-        lines.append(f"{SYMBOLS[key]} = {shown}  ({say.units['rad' if key == 'phi' else 'm']})")
+        lines.append(f"{SYMBOLS[key]} = {shown} ({say.units['rad' if key == 'phi' else 'm']})")
     if problem.law is Law.NATURAL:
         path = said.line
         if problem.radius is not None:

@@ -26,7 +26,7 @@ POINT = PointWording(
     trajectory="Trajectory of the point M",
     hodograph_v="Hodograph of the velocity",
     hodograph_a="Hodograph of the acceleration",
-    row="from {start} to {end} s, {count} in all",
+    row="t from {start} to {end} s, {count} moments",
     moments="t = {times} s",
     wanted="Find the velocity v, the acceleration a, a_{τ}, a_{n}, the radius of curvature "
     "ρ; draw the trajectory and the hodographs.",

@@ -26,7 +26,7 @@ POINT = PointWording(
     trajectory="Траектория точки M",
     hodograph_v="Годограф скорости",
     hodograph_a="Годограф ускорения",
-    row="от {start} до {end} с, всего {count}",
+    row="t от {start} до {end} с, моментов {count}",
     moments="t = {times} с",
     wanted="Определить: скорость v, ускорение a, a_{τ}, a_{n}, радиус кривизны ρ; построить "
     "траекторию и годографы.",
