@@ -154,6 +154,7 @@ class _Draft:
         self.vectors.append(Vector(plan, pole, head, plan, is_whole=True))
         self.letters[head] = plan if plan == "v" else "a"
         length = self.b.measure(f"{pole}{plan}", pole, head)
+        self.letters[length] = length
         return self.result(plan, plan, plan, length)
 
 
@@ -298,7 +299,7 @@ def _rolling_velocity(
     centre = b.lay_off("C", touch, normal, lengths[0])
     arm = draft.ray("angle of CM", centre, float(np.degrees(value["phi"])) + wheel.angle)
     point = b.lay_off("M", centre, arm, lengths[1])
-    draft.letters |= {"C": "C", "M": "M", "PM": "PM"}
+    draft.letters |= {"C": "C", "M": "M", "PM": "PM", "CP, mm": "CP", "CM, mm": "CM"}
     reach = b.measure("PM", touch, point)
     omega = draft.known("omega", value["omega"], "ω")
     length = b.compute("v, mm", (omega, 1), (reach, 1), factor=per_mm / draft.scales["v"].per_mm)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import combinations, pairwise
+from typing import TypeAlias
 
 import numpy as np
 
@@ -28,6 +30,7 @@ from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
+from planmethod.paper import Format
 from planmethod.problem.model import Convention
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
@@ -53,7 +56,7 @@ LETTER, TITLE, TEXT = 5.0, 5.0, 3.5
 TRAJECTORY_BOX, HODOGRAPH_BOX = (170.0, 125.0), (105.0, 95.0)
 """What trajectory and hodographs shall fill, mm, times the factors that are tried."""
 
-FACTORS = (1.9, 1.6, 1.35, 1.15, 1.0, 0.87, 0.75, 0.65, 0.56, 0.48, 0.4)
+FACTORS = (1.9, 1.6, 1.35, 1.15, 1.0, 0.87, 0.75, 0.65, 0.56, 0.48, 0.4, 0.32, 0.25)
 COLUMN_WIDTHS = (120.0, 95.0)
 
 TABLE_WIDTH = STAMP_WIDTH + 15.0
@@ -82,6 +85,17 @@ class _Plan(Viewed):
                     yield Span(plain_text(vector.symbol), None, pole, pole + head)
 
 
+_Pages: TypeAlias = tuple[tuple[tuple[Part, complex], ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Laid:
+    """Sheets: their blocks with the upper left corners that they were put at; the scales."""
+
+    pages: _Pages
+    scales: dict[str, Scale]
+
+
 @dataclass(frozen=True, slots=True)
 class _Sheet:
     """All that a sheet of a point shows, but for the sizes of its views."""
@@ -92,19 +106,24 @@ class _Sheet:
     words: Language
     views: dict[tuple[object, ...], Block] = field(default_factory=dict)
 
-    def laid_out(self, room: Room) -> list[tuple[Part, complex]] | None:
-        """Return the blocks and where they stand, the views as large as the paper bears; or None.
+    def laid_out(self, rooms: Sequence[Room]) -> _Laid | None:
+        """Return the blocks, the views as large as the paper bears; None when they do not fit.
+
+        Of several sheets the first has the views.
 
         All views grow together first, then each as far as the others leave it room.
         """
 
-        def packed(scales: Mapping[str, Scale], column: float) -> list[tuple[Part, complex]] | None:
-            parts = self.parts(scales, column, room.inner[2] - room.inner[0] - 2 * EDGE)
-            area = sum(part.block.width * part.block.height for part in parts)
-            if area > (room.inner[2] - room.inner[0]) * (room.inner[3] - room.inner[1]):
-                return None
-            corners = pack(Group(tuple(parts)), room.inner, room.stamp, room.taken)
-            return list(zip(parts, corners, strict=True)) if corners else None
+        def packed(scales: dict[str, Scale], column: float) -> _Laid | None:
+            inner = rooms[0].inner
+            parts = self.parts(scales, column, inner[2] - inner[0] - 2 * EDGE)
+            views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, Viewed))
+            for turns in combinations(range(views, len(parts)), len(rooms) - 1):
+                edges = pairwise((0, *turns, len(parts)))
+                pages = _packed([parts[start:end] for start, end in edges], rooms)
+                if pages is not None:
+                    return _Laid(pages, scales)
+            return None
 
         tried: set[tuple[float, ...]] = set()
         for factor in FACTORS:
@@ -116,26 +135,21 @@ class _Sheet:
             for column in COLUMN_WIDTHS:
                 laid = packed(scales, column)
                 if laid is not None:
-                    return self._grown(laid, scales, partial(packed, column=column))
+                    return self._grown(laid, partial(packed, column=column))
         return None
 
-    def _grown(
-        self,
-        laid: list[tuple[Part, complex]],
-        scales: dict[str, Scale],
-        packed: Callable[[Mapping[str, Scale]], list[tuple[Part, complex]] | None],
-    ) -> list[tuple[Part, complex]]:
+    def _grown(self, laid: _Laid, packed: Callable[[dict[str, Scale]], _Laid | None]) -> _Laid:
         """Return the blocks with every free scale as large as they bear."""
         asked = self.problem.scales
         inverse = asked.convention is Convention.MM_PER_UNIT
         for name, mu in (("l", asked.mu_l), ("v", asked.mu_v), ("a", asked.mu_a)):
             for _ in range(0 if mu is not None else MOST_STEPS):
-                finer = _finer(scales[name].per_mm, inverse=inverse)
-                more = scales | {name: replace(scales[name], per_mm=finer)}
-                larger = packed(more)
+                scale = laid.scales[name]
+                finer = replace(scale, per_mm=_finer(scale.per_mm, inverse=inverse))
+                larger = packed(laid.scales | {name: finer})
                 if larger is None:
                     break
-                laid, scales = larger, more
+                laid = larger
         return laid
 
     def scales(self, factor: float) -> dict[str, Scale]:
@@ -246,7 +260,7 @@ class _Sheet:
         count = len(marks.columns["t"])
         columns = [TableColumn("№", tuple(map(str, range(count))), least=6.0)]
         for name in COLUMNS:
-            values = [float(value) for value in marks.columns[name]]
+            values = [float(value) + 0.0 for value in marks.columns[name]]
             whole = all(np.isfinite(values))
             told = alike(values) if whole else [significant(value) for value in values]
             cells = tuple(say.number(text) for text in told)
@@ -270,6 +284,22 @@ class _Sheet:
         return Column([Line(typeset(said.table, TEXT)), table, *notes], gap=2.5)
 
 
+def _packed(runs: Sequence[Sequence[Part]], rooms: Sequence[Room]) -> _Pages | None:
+    """Return blocks with their corners, a run on each sheet; None when one does not fit."""
+    pages = []
+    for room, run in zip(rooms, runs, strict=True):
+        left, low, right, high = room.inner
+        if sum(part.block.width * part.block.height for part in run) > (right - left) * (
+            high - low
+        ):
+            return None
+        corners = pack(Group(tuple(run)), room.inner, room.stamp, room.taken)
+        if corners is None:
+            return None
+        pages.append(tuple(zip(run, corners, strict=True)))
+    return tuple(pages)
+
+
 def _finer(per_mm: float, *, inverse: bool) -> float:
     """Return the next scale of the series, at which everything is larger."""
     if inverse:
@@ -285,7 +315,7 @@ def point_sheets(
     before: int = 0,
     total: int | None = None,
 ) -> list[Drawing]:
-    """Draw the motion of a point in the language of ``problem.sheet``.
+    """Draw the motion of a point in the language of ``problem.sheet``; on A4 on several sheets.
 
     Parameters
     ----------
@@ -303,34 +333,48 @@ def point_sheets(
     LayoutError
         When everything fits no format, or not the asked one.
     """
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    sheet = _Sheet(problem, course_of(problem), profile, words)
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    asked = problem.sheet.paper
-    papers = (paper_format(asked).name,) if asked else PAPERS
-    texts = merged(
-        {"title": problem.title or problem.name, "sheets": "1"},
-        problem.stamp,
-        furniture.numbers(1, 1),
-        fields or {},
-    )
+    drawings = []
     with using(lettering(problem.sheet.lettering or "B")):
-        for name in papers:
-            fmt = paper_format(name)
-            room = furniture.room(fmt)
-            laid = sheet.laid_out(room)
-            if laid is None:
-                continue
+        fmt, laid = _laid_out(problem, course_of(problem), profile, furniture)
+        for number, blocks in enumerate(laid.pages, 1):
+            texts = merged(
+                {"title": problem.title or problem.name, "sheets": "1"},
+                problem.stamp,
+                furniture.numbers(number, len(laid.pages)),
+                fields or {},
+            )
             drawing = Drawing(fmt.width, fmt.height, texts["title"])
-            drawing.extend(sheet_frame(fmt, texts, furniture, sheet=1).items)
-            for part, corner in laid:
+            drawing.extend(sheet_frame(fmt, texts, furniture, sheet=number).items)
+            for part, corner in blocks:
                 items = part.block.place(corner)
                 drawing.extend(items)
                 if isinstance(part.block, Viewed):
                     drawing.views.append(part.block.view(items, corner))
-            return [drawing]
-    larger = [one for one in PAPERS if one > "" and one < papers[-1]] if asked else []
-    advice = f"Take --paper {larger[0]}." if larger else "Ask fewer moments, or a shorter show."
+            drawings.append(drawing)
+    return drawings
+
+
+def sheet_scales(problem: PointProblem, course: Course, profile: Profile) -> dict[str, Scale]:
+    """Return the scales that the sheet is drawn at, by ``l``, ``v``, ``a``."""
+    with using(lettering(problem.sheet.lettering or "B")):
+        return _laid_out(problem, course, profile, Furniture.of(problem.sheet))[1].scales
+
+
+def _laid_out(
+    problem: PointProblem, course: Course, profile: Profile, furniture: Furniture
+) -> tuple[Format, _Laid]:
+    """Return the paper and the blocks on it."""
+    sheet = _Sheet(problem, course, profile, language(problem.sheet.lang or LANGUAGES[0]))
+    asked = problem.sheet.paper
+    papers = (paper_format(asked).name,) if asked else PAPERS
+    for name in papers:
+        fmt = paper_format(name)
+        for count in (1, 2, 3) if asked else (1,):
+            laid = sheet.laid_out([furniture.room(fmt, k + 1) for k in range(count)])
+            if laid is not None:
+                return fmt, laid
+    advice = "Leave --paper out." if asked else "Ask fewer moments, or a shorter show."
     raise LayoutError(
         f"{problem.name}: the motion of the point does not fit {papers[-1]}. {advice}"
     )

@@ -111,12 +111,12 @@ def law_lines(
 
 def moment_lines(problem: PointProblem, motion: Motion, k: int, words: Language) -> list[str]:
     """Return one moment, rich text: every formula with its numbers, and what does not exist."""
-    value = {name: float(column[k]) for name, column in motion.columns.items()}
+    value = {name: float(column[k]) + 0.0 for name, column in motion.columns.items()}
     why, say = motion.reasons[k], words.say
 
     def put(name: str) -> str:
         shown = say.short(value[name])
-        return f"({shown})" if value[name] < 0 else shown
+        return f"({shown})" if value[name] < 0 or "^" in shown else shown
 
     def line(name: str, formula: str = "", numbers: str = "") -> str:
         between = f"{formula} = {numbers} = " if formula else ""

@@ -37,3 +37,21 @@ class PointWording:
     table: str
     chord: str
     chord_note: str
+
+    # Of the protocol: the steps, what is read; ``ways`` by along or across a line, and back
+    curve: str
+    ray: str
+    level: str
+    lay_off: str
+    lay_off_side: str
+    ways: Mapping[str, str]
+    across_pm: str
+    end: str
+    join: str
+    measured: str
+    tangent: str
+    foot: str
+    value: str
+    by_hodograph: str
+    chord_told: str
+    chords: tuple[str, str, str, str, str, str]
