@@ -14,6 +14,7 @@ from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.note.audit.audit import Audited
     from planmethod.problem.model import SheetSettings
     from planmethod.render.ink.drawing import Drawing
 
@@ -32,6 +33,10 @@ class KindProblem(Protocol):
     @property
     def title(self) -> str:
         """Title of the problem."""
+
+    @property
+    def source(self) -> str:
+        """Where it is taken from."""
 
     @property
     def stamp(self) -> Mapping[str, str]:
@@ -54,8 +59,8 @@ class Kind:
         Where its functions are: ``load(path, *, variant)``, ``record(problem, lang)``,
         ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
         ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
-        before, total)`` and ``protocol_text(problem, lang, profile)``. It is imported when one of
-        them is called.
+        before, total)`` and ``protocol_text(problem, lang, profile)``; of printed values
+        ``audited(problem, ruler)``. It is imported when one of them is called.
     """
 
     table: str
@@ -119,10 +124,21 @@ class Kind:
         """
         return str(self._asked("protocol_text", problem)(problem, lang, profile))
 
+    def audited(self, problem: KindProblem, ruler: float) -> list[Audited]:
+        """Return printed values beside the exact ones and those read with a ruler.
+
+        Raises
+        ------
+        ProblemError
+            Such problems have no audit.
+        """
+        told: list[Audited] = self._asked("audited", problem)(problem, ruler)
+        return told
+
     def _asked(self, name: str, problem: KindProblem) -> Any:
         """Return a function that not every kind has."""
         if not hasattr(import_module(self.package), name):
-            what = "sheets" if name == "drawings" else "protocol"
+            what = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}[name]
             fault = Fault(
                 self.table, f"such a problem has no {what}; its numbers: planmethod solve"
             )

@@ -26,6 +26,9 @@ LATE_OF = {
     "planmethod.problem.dynamics": "forces",
     "planmethod.solved": "forces, drafting errors, the trust in float64",
     "planmethod.construct.drafting": "the hand",
+    "planmethod.moving.audit": "printed values",
+    "planmethod.moving.protocol": "what is drawn",
+    "planmethod.moving.sheet": "what is drawn",
     "planmethod.note.wording": "words of drafting errors",
     "planmethod.render.ink.lettering.skeleton": "strokes of letters that a format asks for",
     # Third parties that take long to import; a mistake in a file is rare.

@@ -1,6 +1,7 @@
 """The moving point: its law as formulas, velocity, acceleration and curvature (движение точки).
 
-The functions of a kind of problem (`planmethod.kinds`) stand here.
+The functions of a kind of problem (`planmethod.kinds`) stand here; what draws is imported
+late, as a solution needs no pens.
 """
 
 from __future__ import annotations
@@ -15,9 +16,10 @@ from planmethod.moving.text import solved_text
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.moving.model import PointProblem
+    from planmethod.note.audit.audit import Audited
     from planmethod.render.ink.drawing import Drawing
 
-__all__ = ["drawings", "load", "protocol_text", "record", "solved_text"]
+__all__ = ["audited", "drawings", "load", "protocol_text", "record", "solved_text"]
 
 
 def drawings(
@@ -36,6 +38,13 @@ def drawings(
 
 def protocol_text(problem: PointProblem, lang: str, profile: Profile) -> str:
     """Return how a moving point is drawn; see `planmethod.moving.protocol.protocol_text`."""
-    from planmethod.moving import protocol
+    from planmethod.moving.protocol import protocol_text as tell
 
-    return protocol.protocol_text(problem, lang, profile)
+    return tell(problem, lang, profile)
+
+
+def audited(problem: PointProblem, ruler: float) -> list[Audited]:
+    """Return what the source prints beside the exact and the read value."""
+    from planmethod.moving.audit import audited as compare
+
+    return compare(problem, ruler)

@@ -310,9 +310,10 @@ def _plan(built: Construction, plan: str, height: float) -> tuple[list[Item], li
             continue
         pen, tag = (Pen.MAIN, "absolute") if vector.is_whole else (Pen.THIN, "relative")
         items += vector_arrow(tail, head, pen=pen, length=_ARROW, tag=tag)
-        markup = vector_markup(vector.symbol)
-        labels.append(Label(typeset(markup, height if vector.is_whole else SMALL), (tail + head) / 2, (tail, head), gap=1.2,
-                            priority=1, name=f"{plan}: {vector.symbol}"))  # fmt: skip
+        size = height if vector.is_whole else SMALL
+        told, ends = typeset(vector_markup(vector.symbol), size), (tail, head)
+        labels.append(Label(told, (tail + head) / 2, ends, gap=1.2, priority=1,
+                            name=f"{plan}: {vector.symbol}"))  # fmt: skip
     return items, labels
 
 

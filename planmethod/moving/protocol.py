@@ -154,15 +154,12 @@ class _Teller:
         return self.built.letters.get(name, str(name).rstrip(":"))
 
     def _of(self, name: PointName) -> str:
+        """Return a point in the genitive: "точки P", "полюса p", "конца a_x"."""
         words = self.words.note
+        if name.endswith(":"):
+            return self.words.point.end.format(symbol=name.rstrip(":"))
         text = words.of_pole if name in POLES.values() else words.of_point
-        return text.format(point=self._end(name))
-
-    def _end(self, name: PointName) -> str:
-        """Return what a point is called: of a plan by the vector that ends there."""
-        if name in POLES.values() or not name.endswith(":"):
-            return self._letter(name)
-        return self.words.point.end.format(symbol=name.rstrip(":"))
+        return text.format(point=self._letter(name))
 
     def _tell(self, step: Step) -> Iterator[str]:
         said = self.words.point
@@ -205,6 +202,8 @@ class _Teller:
         if step.powers[-1][0] == "PM":
             return said.across_pm.format(length=self._put(abs(mm)))
         symbol = self._letter(length)
+        if not mm:
+            return said.nothing.format(symbol=symbol)
         numbers = f"{self._put(abs(self._number(step.powers[0][0])))}/"
         numbers += self._put(self.built.scales[plan].per_mm)
         line = self.step[along]

@@ -44,6 +44,7 @@ class PointWording:
     level: str
     lay_off: str
     lay_off_side: str
+    nothing: str
     ways: Mapping[str, str]
     across_pm: str
     end: str

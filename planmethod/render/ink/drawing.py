@@ -40,8 +40,8 @@ class Ink(Enum):
 class Stroke:
     """Open or closed polyline.
 
-    ``smooth``: the points are of a smooth curve, so near together that no corner is seen; a CAD
-    program gets it as a spline.
+    ``smooth`` tells that its points are of a curve without corners, which a format that has splines
+    draws as one.
     """
 
     points: tuple[complex, ...]

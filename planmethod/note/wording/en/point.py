@@ -42,6 +42,7 @@ POINT = PointWording(
     level="Draw through {of} a line parallel to the x axis.",
     lay_off="From {of} lay off {symbol} {way}: {size} mm.",
     lay_off_side="From {of} lay off along it {size} mm: the point {point}.",
+    nothing="{symbol} = 0: nothing to lay off.",
     ways={
         "along": "along it",
         "along back": "along it, backwards",
@@ -50,7 +51,7 @@ POINT = PointWording(
     },
     across_pm="From the pole p lay off v = ω·PM perpendicular to PM, in the sense of the rotation: "
     "{length} mm (P is the instantaneous centre of velocities).",
-    end="end of {symbol}",
+    end="the end of {symbol}",
     join="Join {tail} and {head}.",
     measured="Measure {segment} = {length} mm.",
     tangent="Draw through {of} a line parallel to the vector v: the direction of the tangent.",

@@ -42,6 +42,7 @@ POINT = PointWording(
     level="Из {of} проводим прямую параллельно оси x.",
     lay_off="От {of} {way} откладываем {symbol}: {size} мм.",
     lay_off_side="От {of} по ней откладываем {size} мм: точка {point}.",
+    nothing="{symbol} = 0: откладывать нечего.",
     ways={
         "along": "вдоль неё",
         "along back": "вдоль неё в обратную сторону",
@@ -53,7 +54,7 @@ POINT = PointWording(
     end="конца {symbol}",
     join="Соединяем {tail} с {head}.",
     measured="Измеряем {segment} = {length} мм.",
-    tangent="Через {of} проводим прямую параллельно вектору v: направление касательной.",
+    tangent="Из {of} проводим прямую параллельно вектору v: направление касательной.",
     foot="Из конца вектора a опускаем на неё перпендикуляр, его основание — {point}.",
     value="Измеряем {segment} = {length} мм (точно {exact}): {formula}.",
     by_hodograph="Ускорение по годографу скорости",
