@@ -175,7 +175,7 @@ def construct(
     draft = _Draft(scales)
     b, results = draft.b, dict[str, NumberName]()
     pole = draft.given(POLES["v"])
-    if problem.law is Law.ROLLING:
+    if problem.law is Law.ROLLING and not np.isnan(value["xP"]):
         head = _rolling_velocity(draft, problem, value, pole)
     else:
         angle, parts = _velocity_parts(problem, value)
@@ -260,12 +260,14 @@ def _acceleration_parts(
             wheel = problem.wheel
             assert wheel is not None
             omega, epsilon = value["omega"], value["epsilon"]
-            sense = 1.0 if wheel.track > 0 else -1.0  # the centre goes round as the wheel turns
-            turn = np.arctan2(value["yC"], value["xC"]) + np.pi / 2 if wheel.track else 0.0
-            centre = [("a^{τ}_{C}", sense * wheel.radius * epsilon, False)]
-            if wheel.track:
-                speed, round_by = wheel.radius * omega, abs(wheel.radius + wheel.track)
-                centre.append(("a^{n}_{C}", speed**2 / round_by, True))
+            turn, centre = 0.0, [("a^{τ}_{C}", -wheel.radius * epsilon, False)]
+            if "omega_H" in value:  # the centre goes round the origin
+                turn = float(np.arctan2(value["yC"], value["xC"]) + np.pi / 2)
+                span = abs(complex(value["xC"], value["yC"]))
+                centre = [
+                    ("a^{τ}_{C}", span * value["epsilon_H"], False),
+                    ("a^{n}_{C}", span * value["omega_H"] ** 2, True),
+                ]
             arm = degrees(value["phi"]) + wheel.angle
             own = [
                 ("a^{n}_{MC}", -(omega**2) * wheel.r, False),
@@ -290,7 +292,7 @@ def _rolling_velocity(
     per_mm = draft.scales["l"].per_mm
     touch = draft.given("P")
     up = complex(value["xC"] - value["xP"], value["yC"] - value["yP"])
-    sizes = (("CP", wheel.radius), ("CM", wheel.r))
+    sizes = (("CP", abs(up)), ("CM", wheel.r))
     lengths = [
         b.compute(f"{name}, mm", (draft.known(name, size), 1), factor=1 / per_mm)
         for name, size in sizes

@@ -43,12 +43,16 @@ class Wheel:
         Radius of the fixed circle about the origin that it rolls on from outside; negative: within;
         0: it rolls on the x axis. Where phi is 0 the wheel stands above the origin, within a circle
         below it.
+    arm : float, m
+        Of the carrier that turns about the origin and has the wheel's centre at its end, of a
+        satellite that a train turns in a way of its own (law ``theta``); 0: the wheel rolls.
     """
 
     radius: float
     r: float
     angle: float
     track: float
+    arm: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -39,9 +39,10 @@ COLUMNS = (
 )
 POLAR = ("r", "phi", "v_r", "v_phi", "a_r", "a_phi")
 """Further columns of a motion in polar coordinates; phi in radians."""
-ROLLED = ("phi", "omega", "epsilon", "xC", "yC", "xP", "yP")
-"""Further columns of a point on a rolling wheel: phi in radians; its centre C; the instantaneous
-centre of velocities P (мгновенный центр скоростей), where it touches what it rolls on."""
+ROLLED = ("phi", "omega", "epsilon", "xC", "yC", "xP", "yP", "omega_H", "epsilon_H")
+"""Further columns of a point on a wheel: phi in radians; its centre C; the instantaneous centre of
+velocities P (мгновенный центр скоростей), where it touches what it rolls on; of a centre that goes
+round the origin, how fast the arm to it does."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,7 +145,7 @@ def _coordinates(problem: PointProblem, times: Reals) -> tuple[Jet, Jet, dict[st
             return *_turned(Jet(_given(problem.radius)), turned), {}
         case Law.ROLLING:
             assert problem.wheel is not None
-            return _rolled(problem.wheel, read["phi"])
+            return _rolled(problem.wheel, read["phi"], read.get("theta"))
 
 
 def _given(value: float) -> Bounded:
@@ -156,24 +157,36 @@ def _turned(r: Jet, angle: Jet) -> tuple[Jet, Jet]:
     return r * CALLS["cos"](angle), r * CALLS["sin"](angle)
 
 
-def _rolled(wheel: Wheel, phi: Jet) -> tuple[Jet, Jet, dict[str, Reals]]:
-    """Return x and y of a point of a rolling wheel, and the columns `ROLLED`.
+def _rolled(wheel: Wheel, phi: Jet, theta: Jet | None) -> tuple[Jet, Jet, dict[str, Reals]]:
+    """Return x and y of a point of a wheel, and the columns `ROLLED`.
 
-    The arc that the wheel has rolled off is as long as that of the track: with the track's radius
-    ρ (negative within it) the centre has gone round by φR/(R + ρ).
+    The arc that a wheel has rolled off is as long as that of the track: with the track's radius ρ
+    (negative within it) the centre has gone round by φR/(R + ρ).
     """
     radius, nothing = _given(wheel.radius), Jet(Bounded(np.zeros_like(phi.value.value)))
     if wheel.track:
         span = radius + _given(wheel.track)
         start = _given(np.copysign(np.pi / 2, wheel.track))
-        round_by = phi * radius / Jet(span) + Jet(start)
-        centre = _turned(Jet(abs(span)), round_by)
-        touch = _turned(Jet(_given(abs(wheel.track))), round_by)
+        theta = phi * radius / Jet(span) + Jet(start)
+        centre, touch = (
+            _turned(Jet(abs(span)), theta),
+            _turned(Jet(_given(abs(wheel.track))), theta),
+        )
+    elif theta is not None:
+        centre = _turned(Jet(_given(wheel.arm)), theta)
+        # v_C is across CP and ω·CP long.
+        touch = (
+            Jet(centre[0].value - centre[1].rate / phi.rate),
+            Jet(centre[1].value + centre[0].rate / phi.rate),
+        )
     else:
         centre, touch = (-phi * radius, nothing + Jet(radius)), (-phi * radius, nothing)
     arm = _turned(Jet(_given(wheel.r)), phi + Jet(_given(np.radians(wheel.angle))))
     told = [phi.value, phi.rate, phi.acceleration, *(part.value for part in (*centre, *touch))]
-    columns = _reals(ROLLED, [bounded(part).settled() for part in told])
+    if theta is not None:
+        told += [theta.rate, theta.acceleration]
+    found = [bounded(part).settled() for part in told]
+    columns = _reals(ROLLED[: len(found)], found)
     return centre[0] + arm[0], centre[1] + arm[1], columns
 
 

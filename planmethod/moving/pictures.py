@@ -247,10 +247,16 @@ def _wheel(
         items.append(Stroke((touch, here), Pen.THIN, tag="reach"))
     if abs(here - centre) > _LEAST:
         items.append(Stroke((centre, here), Pen.THIN, tag="arm"))
-    for letter, place in (("C", centre), ("P", touch)):
+    spots = [("C", centre), ("P", touch)]
+    if wheel.arm:
+        items.append(Stroke((0j, centre), Pen.THIN, tag="carrier"))
+        spots.append(("O", 0j))
+    for letter, place in spots:
+        if np.isnan(place):
+            continue  # no centre of velocities: the wheel does not turn
         items.append(Disc(place, _DOT, Ink.BLACK, tag=f"centre {letter}"))
-        labels.append(Label(typeset(letter + own, height), place, gap=1.5, priority=1,
-                            name=f"{letter} {k}", manner=BUSY))  # fmt: skip
+        named = typeset(letter if letter == "O" else letter + own, height)
+        labels.append(Label(named, place, gap=1.5, priority=1, name=f"{letter} {k}", manner=BUSY))
 
 
 # Hodograph ----------------------------------------------------------------------------------------

@@ -156,6 +156,8 @@ class _Teller:
     def _of(self, name: PointName) -> str:
         """Return a point in the genitive: "точки P", "полюса p", "конца a_x"."""
         words = self.words.note
+        while isinstance(step := self.step[name], LayOff) and not self._number(step.length):
+            name = step.origin  # nothing was laid off
         if name.endswith(":"):
             return self.words.point.end.format(symbol=name.rstrip(":"))
         text = words.of_pole if name in POLES.values() else words.of_point

@@ -90,7 +90,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
     law = _read_law(faults, point, is_whole=is_whole)
     formulas = {
         key: formula
-        for key in (FORMULAS[law] if law else ())
+        for key in (*(FORMULAS[law] if law else ()), *(("theta",) if law is Law.ROLLING else ()))
         if key in point and (formula := read_formula(faults, f"point.{key}", point[key]))
     }
     radius = None
@@ -99,6 +99,13 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
             faults.add("point.radius", "goes with s(t) only", "Leave it out.")
         radius = read_length(faults, "point.radius", point["radius"])
     wheel = _read_wheel(faults, point["wheel"]) if "wheel" in point else None
+    if law is Law.ROLLING and wheel is not None and bool(wheel.arm) != ("theta" in point):
+        said = "theta goes with wheel.arm: the carrier's turn and its length"
+        faults.add(
+            "point.theta", said, 'wheel = { arm = 0.05, ... } and theta = "4*t", or neither.'
+        )
+    elif "theta" in point and law not in (Law.ROLLING, None):
+        faults.add("point.theta", "goes with a wheel only", "Leave it out.")
     show = _read_show(faults, point["show"]) if "show" in point else None
     times: tuple[float, ...] = ()
     if "t" in point:
@@ -154,21 +161,24 @@ def _read_wheel(faults: Faults, value: object) -> Wheel | None:
     given = read_keys(faults, path, told or {}, keys.ROLLING)
     lengths = {
         key: read_length(faults, f"{path}.{key}", given[key])
-        for key in ("radius", "r", "on", "within")
+        for key in ("radius", "r", "on", "within", "arm")
         if key in given
     }
     angle = read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
     if told is not None and "radius" not in given and len(faults) == before:
         faults.add(f"{path}.radius", "missing", "The radius of the wheel, m: radius = 0.5")
-    if {"on", "within"} <= set(given):
-        faults.add(f"{path}.within", "on and within are both given", "Keep one of them.")
+    tracks = [key for key in ("on", "within", "arm") if key in given]
+    if len(tracks) > 1:
+        both = " and ".join(tracks)
+        faults.add(f"{path}.{tracks[-1]}", f"{both} are both given", "Keep one of them.")
     radius, within = lengths.get("radius"), lengths.get("within")
     if radius and within and within <= radius * (1 + 1e-9):
         said = f"a circle of {within:g} m has no room for a wheel of {radius:g} m"
         faults.add(f"{path}.within", said, "It must be larger than the wheel.")
     if len(faults) != before or radius is None or angle is None:
         return None
-    return Wheel(radius, lengths.get("r") or radius, angle, lengths.get("on") or -(within or 0.0))
+    track, arm = lengths.get("on") or -(within or 0.0), lengths.get("arm") or 0.0
+    return Wheel(radius, lengths.get("r") or radius, angle, track, arm)
 
 
 def _read_show(faults: Faults, value: object) -> tuple[float, float] | None:

@@ -42,7 +42,11 @@ def solved_text(problem: PointProblem, lang: str = "ru") -> str:
     if problem.law is Law.POLAR:
         lines += ["", said.point.polar, *_rows(motion, ("t", *POLAR), words)]
     if problem.law is Law.ROLLING:
-        lines += ["", said.point.rolled, *_rows(motion, ("t", *ROLLED), words)]
+        lines += [
+            "",
+            said.point.rolled,
+            *_rows(motion, tuple(n for n in ("t", *ROLLED) if n in motion.columns), words),
+        ]
     printed = _printed(problem, motion, words, lang)
     return "\n".join([*lines, *(["", *printed] if printed else [])])
 

@@ -31,6 +31,9 @@ SYMBOLS = {
     "yC": "y_{C}",
     "xP": "x_{P}",
     "yP": "y_{P}",
+    "omega_H": "ω_{H}",
+    "epsilon_H": "ε_{H}",
+    "theta": "θ",
 }
 """How columns of the record and formulas of the file are written, rich text."""
 
@@ -38,6 +41,7 @@ SYMBOLS = {
 def unit_of(name: str) -> str:
     """Return the SI unit of a column."""
     units = {"t": "s", "phi": "rad", "v": "m/s", "a": "m/s²", "omega": "1/s", "epsilon": "1/s²"}
+    name = name.removesuffix("_H")
     return units.get(name, units.get(name[0], "m"))
 
 
@@ -90,7 +94,9 @@ def law_lines(
     lines = []
     for key, formula in problem.formulas.items():
         shown = written(formula.text.replace("**", "^").replace("*", "·"))
-        lines.append(f"{SYMBOLS[key]} = {shown} ({say.units['rad' if key == 'phi' else 'm']})")
+        lines.append(
+            f"{SYMBOLS[key]} = {shown} ({say.units['rad' if key in ('phi', 'theta') else 'm']})"
+        )
     if problem.law is Law.NATURAL:
         path = said.line
         if problem.radius is not None:
@@ -99,7 +105,8 @@ def law_lines(
     if problem.wheel is not None:
         wheel = problem.wheel
         kind = "line" if not wheel.track else "on" if wheel.track > 0 else "within"
-        track = said.tracks[kind].format(radius=say.given(abs(wheel.track)))
+        size = wheel.arm or abs(wheel.track)
+        track = said.tracks["arm" if wheel.arm else kind].format(radius=say.given(size))
         numbers = {
             "radius": say.given(wheel.radius),
             "r": say.given(wheel.r),

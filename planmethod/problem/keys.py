@@ -43,9 +43,9 @@ DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
-MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "t", "show")
+MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "theta", "t", "show")
 """Keys of ``[point]``."""
-ROLLING = ("radius", "r", "angle", "on", "within")
+ROLLING = ("radius", "r", "angle", "on", "within", "arm")
 """Keys of ``point.wheel``."""
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP: Mapping[str, str] = MappingProxyType(

@@ -15,12 +15,13 @@ POINT = PointWording(
     },
     polar="Polar coordinates",
     rolled="Rolling wheel",
-    wheel="a wheel of radius R = {radius} m rolls without slipping {track}; "
+    wheel="a wheel of radius R = {radius} m {track}; "
     "CM = {r} m, at {angle}° to the x axis where φ = 0",
     tracks={
-        "line": "on the x axis",
-        "on": "outside on a circle of radius {radius} m",
-        "within": "within a circle of radius {radius} m",
+        "line": "rolls without slipping on the x axis",
+        "on": "rolls without slipping outside on a circle of radius {radius} m",
+        "within": "rolls without slipping within a circle of radius {radius} m",
+        "arm": "is a satellite on a carrier OC = {radius} m, which has turned by θ from the x axis",
     },
     printed=("Printed", "Quantity", "Source", "Exact", "Difference"),
     trajectory="Trajectory of the point M",
