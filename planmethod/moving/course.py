@@ -129,10 +129,13 @@ def course_of(problem: PointProblem) -> Course:
         said = f"the point is nowhere from t = {interval[0]:g} s to {interval[1]:g} s"
         hint = "Give an interval in which the formulas have values: show = [0, 1]."
         raise ProblemError(problem.name, [Fault("point.show", said, hint)])
-    turned = max(_turned(places_of(dense, f"{plan}x", f"{plan}y")) for plan in "va")
+    ways = [places_of(dense, f"{plan}x", f"{plan}y") for plan in "va"]
+    turned = max(map(_turned, [*ways, np.diff(ways[1])]))
     count = int(np.clip(turned / BEND, LEAST, MOST))
     numbered = _marks(problem, interval)
-    times = np.unique(np.concatenate([np.linspace(*interval, count + 1), numbered]))
+    grid = np.linspace(*interval, count + 1)
+    apart = np.min(np.abs(grid[:, None] - numbered[None, :]), axis=1, initial=np.inf)
+    times = np.sort(np.concatenate([numbered, grid[apart > 0.1 * (grid[1] - grid[0])]]))
     marks = at(problem, numbered)
     return Course(interval, at(problem, times), marks, _shown(problem, marks))
 
@@ -185,6 +188,8 @@ def _interval(problem: PointProblem) -> tuple[float, float]:
     reach = 1.0
     if v > 0 and a > 0:
         reach = series_near(float(np.clip(v / a, 1e-9, 1e9)), up=False, series=(1.0, 2.0, 5.0))
+    if (omega := abs(here.get("omega", 0.0))) > 0:  # a wheel: about as far as it turns by a half
+        reach = series_near(float(np.clip(2.5 / omega, 1e-9, 1e9)), up=False, series=(1, 2, 5))
     shortest = max(1e-6 * reach, 1e-9 * abs(low))
     while reach > shortest and not _is_mild(problem, low - reach, low + reach):
         reach = series_near(0.99 * reach, up=False, series=(1.0, 2.0, 5.0))

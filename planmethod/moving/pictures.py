@@ -6,6 +6,7 @@ A picture is millimetres: the trajectory from its own origin, a hodograph from i
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from math import ceil, floor
 
 import numpy as np
@@ -41,6 +42,8 @@ _APART = 14.0  # mm: between the numbers of an axis
 _DOT = 0.8  # mm: a numbered instant
 _LEAST = 0.6  # mm: a shorter vector is not drawn
 _CURVED = 45.0  # mm: a circle of curvature up to this radius is drawn
+_ROOM = 3.0  # mm: least room that letters take around a picture
+_LONGEST = 45.0  # mm: of a vector at the trajectory
 _ARROW = 4.0  # mm: arrowhead of a vector
 
 
@@ -62,6 +65,18 @@ def _extent(parts: Iterable[Complexes]) -> tuple[float, float]:
     return float(np.ptp(places.real)), float(np.ptp(places.imag))
 
 
+def vector_scales(course: Course, scales: Mapping[str, Scale]) -> dict[str, Scale]:
+    """Return the scales of the vectors at the trajectory: not so large that they hide it."""
+    found = dict(scales)
+    for plan in "va":
+        sizes = course.marks.columns[plan][list(course.shown)]
+        peak = float(np.nanmax(sizes, initial=0.0))
+        if peak > _LONGEST * scales[plan].per_mm:
+            per_mm = series_near(peak / _LONGEST, up=True)
+            found[plan] = replace(scales[plan], per_mm=per_mm)
+    return found
+
+
 def length_scale(
     problem: PointProblem,
     course: Course,
@@ -71,7 +86,7 @@ def length_scale(
     """Return the scale at which the trajectory fills a box with the vectors at it."""
     if problem.scales.mu_l is not None:
         return Scale("mu_l", problem.scales.mu_l, "m")
-    convention = problem.scales.convention
+    convention, scales = problem.scales.convention, vector_scales(course, scales)
     path = list(course.curves("x", "y"))
     here = course.numbered("x", "y")
     path.append(here[~np.isnan(here)])
@@ -104,8 +119,12 @@ def trajectory_picture(
     *,
     letter_height: float,
     say: Notation,
+    draft: bool = False,
 ) -> Picture:
-    """Return the trajectory: axes, curve, numbered instants, vectors, the circle of curvature."""
+    """Return the trajectory: axes, curve, numbered instants, vectors, the circle of curvature.
+
+    ``draft``: without letters, in little more than the room that the lines take.
+    """
     per_mm, marks = scales["l"].per_mm, course.marks
     here = course.numbered("x", "y") / per_mm
     items: list[Item] = []
@@ -126,7 +145,8 @@ def trajectory_picture(
             labels += vectors[1]
             if number == 0:
                 more = _curvature(marks, k, per_mm, complex(here[k]), letter_height)
-                items += more[0]
+                # A wheel has circles enough.
+                items += more[0] if problem.wheel is None else more[0][1:]
                 labels += more[1]
             labels.append(Label(typeset(f"M{own}", letter_height), complex(here[k]), gap=2.2,
                                 priority=2, name=f"point {k}"))  # fmt: skip
@@ -135,7 +155,12 @@ def trajectory_picture(
     for k in course.shown:
         if not np.isnan(here[k]):
             items += revolute(complex(here[k]))
-    return lettered(items, labels)
+    return _roughly(items) if draft else lettered(items, labels)
+
+
+def _roughly(items: Sequence[Item]) -> Picture:
+    left, low, right, top = ink_bounds(items)
+    return Picture(tuple(items), (left - _ROOM, low - _ROOM, right + _ROOM, top + _ROOM))
 
 
 def _curve(parts: Iterable[Complexes], per_mm: float, tag: str) -> list[Item]:
@@ -269,11 +294,12 @@ def hodograph_picture(
     scales: Mapping[str, Scale],
     *,
     letter_height: float,
+    draft: bool = False,
 ) -> Picture:
     """Return the hodograph of ``plan``, v or a, with the construction of the first shown instant.
 
     Parts of the vector are thin; the chord of its neighbours stands for the tangent, which the
-    acceleration is read from.
+    acceleration is read from. ``draft`` is that of `trajectory_picture`.
     """
     per_mm, names = scales[plan].per_mm, (f"{plan}x", f"{plan}y")
     marks = course.numbered(*names) / per_mm
@@ -295,7 +321,7 @@ def hodograph_picture(
     items += _dots(marks, labels, f"{plan} instant")
     items.append(Disc(0j, 0.9, Ink.BLACK, tag=POLE))
     labels.append(Label(typeset(pole, letter_height), 0j, gap=1.6, priority=2, name=f"{plan} pole"))
-    return lettered(items, labels)
+    return _roughly(items) if draft else lettered(items, labels)
 
 
 def _plan(built: Construction, plan: str, height: float) -> tuple[list[Item], list[Label]]:

@@ -23,6 +23,7 @@ from planmethod.moving.pictures import (
     length_scale,
     plan_scale,
     trajectory_picture,
+    vector_scales,
 )
 from planmethod.moving.told import SYMBOLS, law_lines, moment_lines, textbook, unit_of
 from planmethod.note.narrate.scales import scale_inscription
@@ -113,17 +114,17 @@ class _Sheet:
 
         All views grow together first, then each as far as the others leave it room.
         """
+        inner = rooms[0].inner
 
         def packed(scales: dict[str, Scale], column: float) -> _Laid | None:
-            inner = rooms[0].inner
-            parts = self.parts(scales, column, inner[2] - inner[0] - 2 * EDGE)
-            views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, Viewed))
-            for turns in combinations(range(views, len(parts)), len(rooms) - 1):
-                edges = pairwise((0, *turns, len(parts)))
-                pages = _packed([parts[start:end] for start, end in edges], rooms)
-                if pages is not None:
-                    return _Laid(pages, scales)
-            return None
+            laid = None
+            for draft in (True, False):  # placing letters takes long: first without
+                parts = self.parts(scales, column, inner[2] - inner[0] - 2 * EDGE, draft=draft)
+                pages = _on_pages(parts, rooms)
+                if pages is None:
+                    return None
+                laid = _Laid(pages, scales)
+            return laid
 
         tried: set[tuple[float, ...]] = set()
         for factor in FACTORS:
@@ -161,7 +162,9 @@ class _Sheet:
         whole = (factor * TRAJECTORY_BOX[0], factor * TRAJECTORY_BOX[1])
         return found | {"l": length_scale(self.problem, self.course, found, whole)}
 
-    def parts(self, scales: Mapping[str, Scale], column: float, room: float) -> list[Part]:
+    def parts(
+        self, scales: Mapping[str, Scale], column: float, room: float, *, draft: bool = False
+    ) -> list[Part]:
         """Return the blocks in reading order."""
         course, said = self.course, self.words.point
         built = {
@@ -173,21 +176,26 @@ class _Sheet:
         parts = [Part(self._statement(column), text=True)]
 
         def trajectory() -> Block:
+            own = vector_scales(course, scales)
             picture = trajectory_picture(
-                self.problem, course, scales, letter_height=LETTER, say=self.words.say
+                self.problem, course, own, letter_height=LETTER, say=self.words.say, draft=draft
             )
-            return self._named(picture, said.trajectory, [scales[name] for name in "lva"])
+            return self._named(picture, said.trajectory, [own[name] for name in "lva"])
 
-        parts.append(Part(Viewed(self._kept("lva", scales, trajectory), "trajectory", scales["l"])))
+        parts.append(
+            Part(Viewed(self._kept("lva", scales, trajectory, draft), "trajectory", scales["l"]))
+        )
         for plan, title, depends in (("v", said.hodograph_v, "lv"), ("a", said.hodograph_a, "va")):
             if plan == "a" and np.isnan(course.marks.columns["ax"]).all():
                 continue
 
             def hodograph(plan: str = plan, title: str = title) -> Block:
-                picture = hodograph_picture(course, plan, first, scales, letter_height=LETTER)
+                picture = hodograph_picture(
+                    course, plan, first, scales, letter_height=LETTER, draft=draft
+                )
                 return self._named(picture, title, [scales[plan]])
 
-            block = self._kept(depends, scales, hodograph)
+            block = self._kept(depends, scales, hodograph, draft)
             parts.append(Part(_Plan(block, "hodograph", scales[plan], first, plan)))
         if course.shown:
             parts.append(Part(self._calculation(course.shown[0], column), text=True))
@@ -195,9 +203,11 @@ class _Sheet:
             parts.append(Part(self._read(first, course.shown[0]), text=True))
         return [*parts, Part(self._table(room, scales["v"]), text=False)]
 
-    def _kept(self, names: str, scales: Mapping[str, Scale], make: Callable[[], Block]) -> Block:
+    def _kept(
+        self, names: str, scales: Mapping[str, Scale], make: Callable[[], Block], draft: bool
+    ) -> Block:
         """Return a view that depends on some scales, made once for them."""
-        key = (names, *(scales[name].per_mm for name in names))
+        key = (draft, names, *(scales[name].per_mm for name in names))
         if key not in self.views:
             self.views[key] = make()
         return self.views[key]
@@ -263,7 +273,7 @@ class _Sheet:
             values = [float(value) + 0.0 for value in marks.columns[name]]
             whole = all(np.isfinite(values))
             told = alike(values) if whole else [significant(value) for value in values]
-            cells = tuple(say.number(text) for text in told)
+            cells = tuple("0" if not text.strip("-0.") else say.number(text) for text in told)
             if name == "t":
                 cells = tuple(say.given(value) for value in values)
             unit = say.units[unit_of(name)]
@@ -282,6 +292,17 @@ class _Sheet:
         )
         notes = [] if len(chords.at) < 2 else [paragraph(said.chord_note, 2.5, STAMP_WIDTH)]
         return Column([Line(typeset(said.table, TEXT)), table, *notes], gap=2.5)
+
+
+def _on_pages(parts: Sequence[Part], rooms: Sequence[Room]) -> _Pages | None:
+    """Return blocks on as many sheets as there are rooms; the views are on the first."""
+    views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, Viewed))
+    for turns in combinations(range(views, len(parts)), len(rooms) - 1):
+        edges = pairwise((0, *turns, len(parts)))
+        pages = _packed([parts[start:end] for start, end in edges], rooms)
+        if pages is not None:
+            return pages
+    return None
 
 
 def _packed(runs: Sequence[Sequence[Part]], rooms: Sequence[Room]) -> _Pages | None:
