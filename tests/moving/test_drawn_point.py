@@ -7,12 +7,12 @@ import re
 from pathlib import Path
 from typing import Any
 
-import ezdxf
 import mpmath
 import numpy as np
 import pytest
 from cases import each, thinned
 from click.testing import CliRunner
+from ezdxf.filemanagement import readfile
 from worked import PROBLEMS
 
 from planmethod.cli import cli
@@ -181,7 +181,7 @@ def test_curves_are_splines_in_dxf(tmp_path: Path) -> None:
     assert run.exit_code == ExitCode.DONE, run.output
     (drawing,) = point_sheets(load(K11), profile=BOARD)
     curves = [item for item in drawing.items if isinstance(item, Stroke) and item.smooth]
-    splines = ezdxf.readfile(next(tmp_path.iterdir())).modelspace().query("SPLINE")
+    splines = readfile(next(tmp_path.iterdir())).modelspace().query("SPLINE")
     assert len(splines) == len(curves) == 3
     for spline, curve in zip(splines, curves, strict=True):
         (start,) = spline.construction_tool().points([0.0])

@@ -34,8 +34,8 @@ POINT = PointWording(
     read_title="Read off the drawing ({profile})",
     read=("Quantity", "Exact", "Read", "±σ"),
     table="Motion of the point at the numbered instants",
-    chord="a_{hod}",
-    chord_note="a_{hod}: the chord between the neighbouring points of the velocity "
+    chord="a_{h}",
+    chord_note="a_{h}: the chord between the neighbouring points of the velocity "
     "hodograph over the time between them, ± the drafting error σ.",
     curve="The trajectory and the hodographs are drawn from t = {start} to {end} s; their points "
     "are numbered from 0 to {last}.",
