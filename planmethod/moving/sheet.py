@@ -238,11 +238,14 @@ class _Sheet:
         blocks: list[Block] = [heading(self.words.point.at.format(time=time), TEXT, width=width)]
         lines: list[str] = []
         for line in moment_lines(self.problem, self.course.marks, k, self.words):
-            if lines and line.count("=") == lines[-1].count("=") == 1:
+            same = line.count("=") == 1 and line not in self.words.point.reasons.values()
+            if lines and same and lines[-1].count("=") == 1:
                 lines[-1] += f";  {line}"  # two components
             else:
                 lines.append(line)
-        blocks += [formula_block(line, TEXT, width=width) for line in lines]
+        for line in lines:
+            is_said = line in self.words.point.reasons.values()
+            blocks.append((paragraph if is_said else formula_block)(line, TEXT, width=width))
         return Column(blocks, gap=2.6)
 
     def _read(self, built: Construction, k: int) -> Block:
@@ -395,7 +398,10 @@ def _laid_out(
             laid = sheet.laid_out([furniture.room(fmt, k + 1) for k in range(count)])
             if laid is not None:
                 return fmt, laid
+    mu = problem.scales
     advice = "Leave --paper out." if asked else "Ask fewer moments, or a shorter show."
+    if any(given is not None for given in (mu.mu_l, mu.mu_v, mu.mu_a)):
+        advice = "Take coarser scales in [scales], or leave them out."
     raise LayoutError(
         f"{problem.name}: the motion of the point does not fit {papers[-1]}. {advice}"
     )
