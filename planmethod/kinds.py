@@ -15,8 +15,37 @@ from planmethod.problem.source import parse, read_source
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.audit.audit import Audited
-    from planmethod.problem.model import SheetSettings
+    from planmethod.problem.fields import Faults
+    from planmethod.problem.model import Geared, Problem, SheetSettings
     from planmethod.render.ink.drawing import Drawing
+
+
+def load(path: str | Path, *, variant: str | None = None) -> Problem:
+    """Read the file of a linkage; a crank may be driven by the train of the same file.
+
+    Raises
+    ------
+    ProblemError
+    """
+    problem: Problem = _of("planmethod.problem", "load")(path, variant=variant, train=_driven)
+    return problem
+
+
+def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
+    """Read the same from a text; ``name`` stands for the stem of the file."""
+    read = _of("planmethod.problem", "loads")
+    problem: Problem = read(text, name=name, variant=variant, train=_driven)
+    return problem
+
+
+def _driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
+    geared: Geared | None = _of("planmethod.gears", "driven")(faults, table, label)
+    return geared
+
+
+def _of(package: str, name: str) -> Any:
+    """Return a function of a package that is imported only now."""
+    return getattr(import_module(package), name)
 
 
 class KindProblem(Protocol):
@@ -36,7 +65,7 @@ class KindProblem(Protocol):
 
     @property
     def source(self) -> str:
-        """Where it is taken from."""
+        """Where it is from."""
 
     @property
     def stamp(self) -> Mapping[str, str]:
@@ -146,7 +175,7 @@ class Kind:
         return self._function(name)
 
     def _function(self, name: str) -> Any:
-        return getattr(import_module(self.package), name)
+        return _of(self.package, name)
 
 
 KINDS = (Kind("gears", "planmethod.gears"), Kind("point", "planmethod.moving"))

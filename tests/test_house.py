@@ -20,6 +20,7 @@ LATE_OF = {
     # Only problems with loads have forces, only some ask for the drafting errors.
     "planmethod.solved.selected.forces": "forces",
     "planmethod.note.narrate.forces": "forces",
+    "planmethod.note.audit": "printed values",
     "planmethod.note.records.forcecolumns": "forces",
     "planmethod.note.tables.causes": "drafting errors",
     "planmethod.note.tables.forces": "forces",

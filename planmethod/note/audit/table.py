@@ -17,7 +17,7 @@ DIGITS = 5
 
 
 class Headed(Protocol):
-    """What the document tells of a problem, of whatever kind."""
+    """What a problem of any kind has for its section."""
 
     @property
     def name(self) -> str:
@@ -25,7 +25,7 @@ class Headed(Protocol):
 
     @property
     def variant(self) -> str | None:
-        """Which variant it is."""
+        """Which variant it is; None for the main part."""
 
     @property
     def title(self) -> str:
@@ -33,7 +33,7 @@ class Headed(Protocol):
 
     @property
     def source(self) -> str:
-        """Where it is taken from."""
+        """Where it is from."""
 
 
 class Document:
