@@ -269,6 +269,8 @@ class Scheme:
             else:
                 count = 1 if mesh.kind in (MeshKind.BEVEL, MeshKind.RACK) else 2
                 fits = len(level) == count and all(body in self.heights for body in level)
+            carrier = train.carrier(mesh)
+            fits = fits and (carrier is None or carrier in self.heights)
             found += [] if fits else [mesh.kind.value]
         return tuple(dict.fromkeys(found))
 
