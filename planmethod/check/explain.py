@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -119,6 +119,8 @@ class Explanation:
         Answers that it begins with, where that is known.
     free : str
         Question whose answer it takes as it is.
+    slip : str
+        Question whose number alone is otherwise: what it was read off stays as it is.
     fixed : str
         Question whose answer it tells whatever goes before it.
     sigma : float or None
@@ -135,6 +137,7 @@ class Explanation:
     sheet: Sheet
     begins: tuple[str, ...] = ()
     free: str = ""
+    slip: str = ""
     fixed: str = ""
     sigma: float | None = None
     prior: float = 1.0
@@ -182,8 +185,9 @@ class Explanations:
         self.sheet = sheet
         self.scene = Scene(sheet)
         self._named: list[Explanation] | None = None
-        self._last: Own | None = None
+        self._last: Numbers | None = None
         self._came: dict[Sheet | Explanation, dict[Name, float]] = {}
+        self._slips: dict[tuple[object, ...], Explanation | None] = {}
         self._locals: dict[tuple[Explanation, frozenset[Name]], Local] = {}
 
     @property
@@ -217,6 +221,15 @@ class Explanations:
             change=change,
             program=program,
         )
+
+    def of_slip(self, change: Change, question: str, item: str) -> Explanation | None:
+        """Return what a mistake in one number gives; worked out once for all who make it."""
+        key = (change.code, change.where, item, *change.steps.values(), change.prior)
+        if key not in self._slips:
+            made = self.of_change(change)
+            made = made and replace(made, slip=question, begins=(item,))
+            self._slips[key] = made
+        return self._slips[key]
 
     @cached_property
     def _table(self) -> npt.NDArray[np.float64]:
@@ -274,11 +287,17 @@ class Explanations:
         sheet, change = explanation.sheet, explanation.change
         of_scale = change is not None and change.of_scale
         own = numbers.values if of_scale else numbers.all
-        came = self._replayed(explanation, own)
+        slip = next((fact for fact in facts if fact.id == explanation.slip), None)
+        if slip is not None and slip.name is not None and slip.name not in own:
+            own = {name: put for name, put in own.items() if name != slip.slot}
+            own = {**own, slip.name: numbers.values[slip.name]}
+        came = self._replayed(explanation, own, numbers)
         left = self._left(explanation, own) if closely else sheet.local(own)
         chi2, score, count = 0.0, 0.0, 0
         for fact in facts:
-            slot, per_slot = (fact.name, 1.0) if of_scale else (fact.slot, fact.per_slot)
+            slot, per_slot = fact.slot, fact.per_slot
+            if of_scale or fact is slip:
+                slot, per_slot = fact.name, 1.0
             if fact.id == explanation.free or slot is None or slot not in came:
                 continue
             given = came[slot] * per_slot
@@ -308,10 +327,10 @@ class Explanations:
             score += MISREAD_SENSE if right_way is False else 0.0
         return Fit(explanation, score, chi2, count)
 
-    def _replayed(self, explanation: Explanation, own: Own) -> dict[Name, float]:
+    def _replayed(self, explanation: Explanation, own: Own, numbers: Numbers) -> dict[Name, float]:
         change, sheet = explanation.change, explanation.sheet
-        if self._last is not own:
-            self._last, self._came = own, {}
+        if self._last is not numbers:
+            self._last, self._came = numbers, {}
         key: Sheet | Explanation = sheet if change is None else explanation  # of slips the same
         if key not in self._came:
             data = {} if change is None else change.data

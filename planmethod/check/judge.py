@@ -88,6 +88,13 @@ class Examined:
         """How far it is off the exact value."""
         return distance(self.item, self.value, self.limit.exact, signed=self.signed)
 
+    @property
+    def miscomputed(self) -> bool:
+        """Whether it is another size than his own numbers make, with nothing drawn in between."""
+        if self.local is None or self.local_tolerance is None or not self.computed:
+            return False
+        return self.contradicts and abs(abs(self.value) - abs(self.local)) > self.local_tolerance
+
 
 def distance(item: Item, value: float, other: float, *, signed: bool) -> float:
     """Return how far two values of an answer are apart: of sizes, of numbers, of angles."""
