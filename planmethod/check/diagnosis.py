@@ -126,18 +126,15 @@ def _fits(
     explained = task.explanations(sheet)
     near = [e for e in explained.nearest(facts, TRIED) if _explains(sheet, wrong, e)]
     told = {fact.id for fact in facts}
-    put: list[Explanation] = []
-    for one in wrong:
-        if one.item.question.id in told:
-            for slip in slips(sheet, one):
-                put.append(_of_slip(explained, sheet, one, slip))
-    tried = [*near, *_scaled(task, sheet, found), *put]
-    fits = sorted((explained.fit(e, facts, own) for e in tried), key=lambda fit: fit.score)
-    close = [fit for fit in fits if fit.score <= fits[0].score + CLOSE]
-    fits = [explained.fit(fit.explanation, facts, own, closely=True) for fit in close]
-    for one in wrong:
-        if one.item.question.id not in told:
-            continue
+    judged = [one for one in wrong if one.item.question.id in told]
+    put = [_of_slip(explained, sheet, one, slip) for one in judged for slip in slips(sheet, one)]
+    fits: list[Fit] = []
+    for tried in ([*near, *_scaled(task, sheet, found)], put):
+        rough = [explained.fit(e, facts, own) for e in tried]
+        most = min((fit.score for fit in rough), default=0.0) + CLOSE
+        close = [fit.explanation for fit in rough if fit.score <= most]
+        fits += [explained.fit(e, facts, own, closely=True) for e in close]
+    for one in judged:
         code = "slip" if one.slip or one.miscomputed else ""
         made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
         fits.append(explained.fit(made, facts, own))
@@ -179,22 +176,29 @@ def _same(one: Mapping[str, float], two: Mapping[str, float], facts: list[Fact])
 def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explanation]:
     """Yield a plan that was drawn to another scale than it is read by."""
     for plan in MOTION[1:]:
-        ratios = {
-            abs(one.value / one.limit.exact): (one.limit.exact / one.limit.tolerance(one.step)) ** 2
+        ratios = [
+            (abs(one.value / one.limit.exact), _share(one))
             for one in found
             if one.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
             and one.item.question.plan is plan
             and one.item.question.selector.kind not in RATES
             and one.limit.exact
             and one.value
-        }
+        ]
         if len(ratios) < 2:
             continue
-        factor = math.fsum(map(math.prod, ratios.items())) / math.fsum(ratios.values())
-        if all(abs(ratio / factor - 1.0) < 0.05 for ratio in ratios):
+        weights = math.fsum(share**-2 for _, share in ratios)
+        factor = math.fsum(ratio / share**2 for ratio, share in ratios) / weights
+        slack = task.settings.near
+        if all(abs(ratio / factor - 1) < max(0.05, slack * share) for ratio, share in ratios):
             made = task.explanations(sheet).of_change(scale_by(Scene(sheet), plan, factor))
             if made is not None:
                 yield made
+
+
+def _share(one: Examined) -> float:
+    """Return how far an answer may be off as a share of it."""
+    return max(one.limit.tolerance(one.step), one.limit.spread) / abs(one.limit.exact)
 
 
 def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: Numbers) -> Iterator[Fit]:

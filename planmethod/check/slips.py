@@ -63,10 +63,10 @@ class Slip(NamedTuple):
         if not isinstance(step, Compute) or not self.of:
             return None
         steps: tuple[Step, ...] = times(step, float(f"{self.value / self.of:.9g}"))
-        known = self.segment is not None and self.segment in sheet.order
-        earlier = known and sheet.order[self.segment] < sheet.order[step.out]
-        if earlier and self.segment is not None and (question.length, 1) in step.powers:
-            steps = (read_in_place(sheet, step, question.length, self.segment),)
+        read, last = self.segment, sheet.order[step.out]
+        earlier = read is not None and sheet.order.get(read, last) < last  # so it can be read
+        if read is not None and earlier and (question.length, 1) in step.powers:
+            steps = (read_in_place(sheet, step, question.length, read),)
         return Change(self.code, self.where, {step.out: steps}, prior=self.prior)
 
 
@@ -104,7 +104,7 @@ def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
             yield Slip("S4", "", base * factor, 6.0, base)
     for swapped in _swaps(one):
         if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
-            yield Slip("S4", "", one.value, 0.2, base)
+            yield Slip("S4", "", base * one.value / swapped, 0.2, base)
     yield from _scales(sheet, one, base)
     if not one.slip:
         yield from _segments(sheet, one, base, min(slack, 0.05))
