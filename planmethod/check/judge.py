@@ -349,6 +349,8 @@ def _verdict(one: Examined, wrong: list[Examined], near: float) -> Verdict:
         return Verdict.INCONSISTENT if wrong and one.contradicts else Verdict.OK
     if inherits:
         return Verdict.INHERITED
+    if one.limit.zero and one.follows and sense:  # as his own plan has it; the right one hides it
+        return Verdict.UNSEEN
     if one.near and sense and not one.slip:
         return Verdict.NEAR
     return Verdict.WRONG
