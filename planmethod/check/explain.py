@@ -34,6 +34,9 @@ SHARED = 2.0
 FAR = 30.0
 """Sigmas squared beyond which it does not matter how far off an answer is."""
 
+KEPT = 500
+"""Slips whose plans are kept for those who make them again."""
+
 ONE_MISTAKE = 2 * math.log(20.0)
 
 MISREAD_SENSE = 14.0
@@ -226,6 +229,9 @@ class Explanations:
         """Return what a mistake in one number gives; worked out once for all who make it."""
         key = (change.code, change.where, item, *change.steps.values(), change.prior)
         if key not in self._slips:
+            if len(self._slips) >= KEPT:
+                self._slips.clear()
+                self._locals.clear()
             made = self.of_change(change)
             made = made and replace(made, slip=question, begins=(item,))
             self._slips[key] = made
@@ -292,16 +298,18 @@ class Explanations:
             own = {name: put for name, put in own.items() if name != slip.slot}
             own = {**own, slip.name: numbers.values[slip.name]}
         came = self._replayed(explanation, own, numbers)
-        left = self._left(explanation, own) if closely else sheet.local(own)
+        usual = numbers.values if of_scale else numbers.all
+        left = self._left(explanation, own) if closely else sheet.local(usual)
         chi2, score, count = 0.0, 0.0, 0
         for fact in facts:
             slot, per_slot = fact.slot, fact.per_slot
+            sigma = 0.0 if slot is None else left.sigma.get(slot, 0.0) * per_slot
             if of_scale or fact is slip:
                 slot, per_slot = fact.name, 1.0
+                sigma = sigma if slot is None else left.sigma.get(slot, sigma)
             if fact.id == explanation.free or slot is None or slot not in came:
                 continue
             given = came[slot] * per_slot
-            sigma = left.sigma.get(slot, 0.0) * per_slot
             if fact.id == explanation.fixed:
                 sigma *= abs(explanation.values[fact.id] / given) if given else 1.0
                 given = explanation.values[fact.id]
