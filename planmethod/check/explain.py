@@ -292,14 +292,13 @@ class Explanations:
         """
         sheet, change = explanation.sheet, explanation.change
         of_scale = change is not None and change.of_scale
-        own = numbers.values if of_scale else numbers.all
+        own = whole = numbers.values if of_scale else numbers.all
         slip = next((fact for fact in facts if fact.id == explanation.slip), None)
         if slip is not None and slip.name is not None and slip.name not in own:
             own = {name: put for name, put in own.items() if name != slip.slot}
             own = {**own, slip.name: numbers.values[slip.name]}
         came = self._replayed(explanation, own, numbers)
-        usual = numbers.values if of_scale else numbers.all
-        left = self._left(explanation, own) if closely else sheet.local(usual)
+        left = self._left(explanation, own) if closely else sheet.local(whole)
         chi2, score, count = 0.0, 0.0, 0
         for fact in facts:
             slot, per_slot = fact.slot, fact.per_slot
