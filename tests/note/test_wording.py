@@ -14,7 +14,7 @@ from planmethod.errors import ExitCode
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
-from planmethod.problem import FAMILIES
+from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.problem.model import FORCE, MOMENT
 from planmethod.solved.selected.asking import NoAnswer
 
@@ -88,7 +88,7 @@ def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol, *lever}
     for balance in (words.note.balance, words.sheets.balance, words.forces.and_balance):
         assert set(balance) == {MOMENT.quantity, FORCE.quantity}
-    assert list(words.families) == list(FAMILIES)
+    assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]
     assert set(words.audit.whys) == {why.value for why in NoAnswer}
     assert list(words.audit.verdicts) == list(words.audit.counted) == [v.value for v in Verdict]
 

@@ -18,6 +18,7 @@ from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.teeth_model import TeethWording
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -44,8 +45,8 @@ class Language:
         The form to fill in, and what cannot be read in works.
     point : PointWording
         The moving point.
-    gears : GearWording
-        Gear trains.
+    gears, teeth : GearWording, TeethWording
+        Gear trains, and the choice of their teeth.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -66,5 +67,6 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    teeth: TeethWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

@@ -14,6 +14,7 @@ from planmethod.note.wording.en.point import POINT
 from planmethod.note.wording.en.sheets import SHEETS
 from planmethod.note.wording.en.specimens import SPECIMENS
 from planmethod.note.wording.en.structure import STRUCTURE
+from planmethod.note.wording.en.teeth import TEETH
 from planmethod.note.wording.language import Language
 
 LANGUAGE = Language(
@@ -31,6 +32,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

@@ -15,6 +15,7 @@ from planmethod.note.wording.ru.point import POINT
 from planmethod.note.wording.ru.sheets import SHEETS
 from planmethod.note.wording.ru.specimens import SPECIMENS
 from planmethod.note.wording.ru.structure import STRUCTURE
+from planmethod.note.wording.ru.teeth import TEETH
 
 LANGUAGE = Language(
     lang="ru",
@@ -31,6 +32,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,
 )
