@@ -14,6 +14,7 @@ from planmethod.note.wording.en.point import POINT
 from planmethod.note.wording.en.sheets import SHEETS
 from planmethod.note.wording.en.specimens import SPECIMENS
 from planmethod.note.wording.en.structure import STRUCTURE
+from planmethod.note.wording.en.synthesis import SYNTHESIS
 from planmethod.note.wording.en.teeth import TEETH
 from planmethod.note.wording.language import Language
 
@@ -32,6 +33,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    synthesis=SYNTHESIS,
     teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,

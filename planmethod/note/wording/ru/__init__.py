@@ -15,6 +15,7 @@ from planmethod.note.wording.ru.point import POINT
 from planmethod.note.wording.ru.sheets import SHEETS
 from planmethod.note.wording.ru.specimens import SPECIMENS
 from planmethod.note.wording.ru.structure import STRUCTURE
+from planmethod.note.wording.ru.synthesis import SYNTHESIS
 from planmethod.note.wording.ru.teeth import TEETH
 
 LANGUAGE = Language(
@@ -32,6 +33,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    synthesis=SYNTHESIS,
     teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,
