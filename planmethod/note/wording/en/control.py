@@ -119,6 +119,7 @@ CONTROL = ControlWording(
         "reactions": "diagram of reactions",
         "hodograph": "polar diagrams",
         "structure": "structural schemes",
+        "meshing": "wheels in mesh",
         "stamp": "title block",
         "": "sheet",
     },

@@ -85,8 +85,8 @@ MESHING = MeshingWording(
         "W": "Teeth spanned by the base tangent: k_{{1}} = {k1}, k_{{2}} = {k2}.",
     },
     sheet="Involute meshing",
-    meshing="Wheels in mesh",
+    meshing="Wheels in mesh, {scale}",
     contour="Blocking contour",
-    sliding="Specific sliding",
+    sliding="Specific sliding along the line of action, {scale}",
     table="Sizes of the mesh",
 )
