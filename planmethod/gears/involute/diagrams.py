@@ -9,10 +9,11 @@ from math import ceil, floor
 
 import numpy as np
 from matplotlib.figure import Figure
-from shapely import Polygon, contains_xy, prepare
+from shapely import Polygon, contains_xy, prepare, union_all
 
 from planmethod.construct.scale import series_near
 from planmethod.gears.involute.blocking import Limit, LimitKind, is_kept
+from planmethod.gears.involute.meshpicture import nearest_scale
 from planmethod.gears.involute.model import Reals
 from planmethod.gears.involute.quantities import Solved
 from planmethod.note.numbers import Notation, trimmed
@@ -32,11 +33,12 @@ LOW, HIGH = -2.0, 3.0
 """Shifts between which the contour is drawn."""
 
 _COARSE, _FINE = 201, 161  # rows of the grids that the region and the curves are found on
+_NECK = 1.5  # steps of the grid: half the width of what does not join two regions
 _DENSER = 6  # times as many points as where a curve crosses the grid
 _SERIES = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0)  # mm for a unit of the shifts, times a power of ten
 _LETTERS = 30.0  # mm: room that the letters around a diagram take
 _MARGIN = 0.05  # of the window: white around the contour
-_POLISHED = 4  # steps that bring a point of the grid's curve to the curve itself
+_POLISHED = 8  # steps that bring a point of the grid's curve to the curve itself
 _NAMED = 14.0  # mm: shorter parts of a curve have no name
 _HEAD = 4.0
 _TICK = 1.2
@@ -63,15 +65,19 @@ class Window:
 
 
 def working(solved: Solved, window: Window) -> Polygon:
-    """Return the region of a window where pairs work: the largest of its parts."""
+    """Return the largest region of a window where pairs work, a little widened."""
     grid = window.grid(_COARSE)
     every = solved.pair.shifted(grid)
     with np.errstate(all="ignore"):
         margins = [one.margin(every) for one in solved.limits if one.hard]
     least = np.nan_to_num(np.min(margins, axis=0), nan=-1.0)
     least[[0, -1], :] = least[:, [0, -1]] = -1.0  # so that its outlines are closed
+    step = (window.right - window.left) / _COARSE
     outlines = [Polygon(line) for line in _zero_lines(grid, least) if len(line) > 3]
-    return max(outlines, key=lambda area: float(area.area), default=Polygon())
+    # Parts that only meet in a corner are told apart by making all narrower and wider again.
+    narrow = union_all(outlines).buffer(-_NECK * step)
+    largest = max(getattr(narrow, "geoms", [narrow]), key=lambda part: float(part.area))
+    return largest.buffer((_NECK + 0.6) * step, join_style="mitre")
 
 
 def _zero_lines(grid: Reals, values: Reals) -> list[Reals]:
@@ -87,7 +93,7 @@ def window_of(solved: Solved, region: Polygon) -> Window:
     """Return the part of the plane that is drawn: the region, the origin, the pair itself."""
     bounds: list[float] = []
     for k in (0, 1):
-        shown = [0.0, float(solved.pair.x[k]), *region.bounds[k::2]]
+        shown = [0.0, float(solved.pair.x[k]), *(b for b in region.bounds[k::2] if b == b)]
         white = _MARGIN * (max(shown) - min(shown) + 0.5)
         bounds += [min(shown) - white, max(shown) + white]
     return Window(*bounds)
@@ -101,8 +107,7 @@ def curves(solved: Solved, region: Polygon, window: Window) -> Iterator[tuple[Li
     hard = tuple(one for one in solved.limits if one.hard)
     grid = window.grid(_FINE)
     every = solved.pair.shifted(grid)
-    near = region.buffer((window.right - window.left) / _COARSE)  # it is known to less than that
-    prepare(near)
+    prepare(region)
     for limit in solved.limits:
         parts: list[Reals] = []
         others = tuple(one for one in hard if one is not limit)
@@ -113,7 +118,7 @@ def curves(solved: Solved, region: Polygon, window: Window) -> Iterator[tuple[Li
             whole = np.stack([np.interp(places, range(len(line)), column) for column in line.T])
             points = _polished(solved, limit, whole)
             shown = is_kept(solved.pair.shifted(points), others).astype(bool)
-            shown &= contains_xy(near, *points)
+            shown &= contains_xy(region, *points)
             edges = np.flatnonzero(np.diff(shown.astype(int))) + 1
             runs = np.split(np.arange(points.shape[1]), edges)
             parts += [points[:, run] for run in runs if len(run) > 1 and shown[run[0]]]
@@ -139,12 +144,26 @@ def _polished(solved: Solved, limit: Limit, points: Reals) -> Reals:
 # The contour ------------------------------------------------------------------------------------
 
 
+@dataclass(frozen=True, slots=True)
+class Contour:
+    """Blocking contour of a pair: what is drawn of the plane, and the curves in it."""
+
+    solved: Solved
+    window: Window
+    parts: list[tuple[Limit, list[Reals]]]
+
+    @classmethod
+    def of(cls, solved: Solved) -> Contour:
+        """Return the contour of a pair."""
+        window = window_of(solved, working(solved, Window(LOW, HIGH, LOW, HIGH)))
+        return cls(solved, window, list(curves(solved, working(solved, window), window)))
+
+
 def contour_picture(
-    solved: Solved, words: Language, width: float, height: float, letter: float
+    contour: Contour, words: Language, width: float, height: float, letter: float
 ) -> Picture:
     """Return the blocking contour with the chosen point, not larger than a room but for letters."""
-    window = window_of(solved, working(solved, Window(LOW, HIGH, LOW, HIGH)))
-    region = working(solved, window)
+    solved, window = contour.solved, contour.window
     wide, tall = window.right - window.left, window.high - window.low
     room = (width - _LETTERS, height - _LETTERS)
     per_unit = series_near(min(room[0] / wide, room[1] / tall), up=False, series=_SERIES)
@@ -154,7 +173,7 @@ def contour_picture(
 
     items: list[Item] = list(_axes(window, per_unit, letter))
     labels = _axis_numbers(window, per_unit, words.say, letter)
-    for limit, parts in curves(solved, region, window):
+    for limit, parts in contour.parts:
         pen = Pen.MAIN if limit.hard else Pen.THIN
         tag = f"{CONTOUR} {limit.kind.value}"
         strokes = [tuple(at(point) for point in part.T) for part in parts]
@@ -248,7 +267,7 @@ def _axis_numbers(window: Window, per_unit: float, say: Notation, letter: float)
 
 def sliding_scale(solved: Solved, width: float) -> float:
     """Return the scale in which the line of action has room, mm of paper for one."""
-    return series_near((width - _LETTERS) / float(solved.pair.line), up=False)
+    return nearest_scale((width - _LETTERS) / float(solved.pair.line))
 
 
 def sliding_picture(

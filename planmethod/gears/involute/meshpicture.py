@@ -12,7 +12,6 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from planmethod.construct.scale import series_near
 from planmethod.gears.involute.profile import Points, Tooth
 from planmethod.gears.involute.quantities import Solved
 from planmethod.note.wording import Language
@@ -25,7 +24,7 @@ from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead, turn_arrow
 from planmethod.render.symbols.axes import axis_line, centre_lines, kinked_line
 
-POINTS = 41
+POINTS = 61
 """Points of a flank and of a fillet."""
 
 CURVE = "profile"
@@ -34,11 +33,17 @@ CURVE = "profile"
 HIGH, LEAST = 50.0, 32.0
 """Height that a tooth shall have at most, and below which the centres are rather left out, mm."""
 
+SCALES = (
+    *(1 / k for k in (1000, 800, 500, 400, 200, 100, 75, 50, 40, 25, 20, 15, 10, 5, 4, 2.5, 2)),
+    *(1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0),
+)
+"""Scales of GOST 2.302, millimetres of paper for one."""
+
 _BAND = 2.0  # mm: width of the hatched band of an active flank
 _DOT = 1.0  # mm: radius of a point's dot
 _HEAD = 4.0  # mm: arrowhead of a dimension
 _SHORTEST = 150.0  # mm: a line of centres that is broken is so long
-_ASIDE = 22.0  # mm: from the circles, their letters between, to the dimension of the distance of the axes
+_ASIDE = 22.0  # mm: from the circles to the dimension of the distance of the axes
 _OVER = 14.0  # mm: circles and lines go on beyond the teeth
 
 
@@ -113,6 +118,11 @@ class View:
         return wide
 
 
+def nearest_scale(most: float) -> float:
+    """Return the largest scale of GOST 2.302 that is not larger than ``most``."""
+    return max((scale for scale in SCALES if scale <= most * (1 + 1e-9)), default=SCALES[0])
+
+
 def view_for(solved: Solved, width: float, height: float) -> View:
     """Return how the picture of a pair fills a room best, in a scale of GOST 2.302.
 
@@ -123,20 +133,20 @@ def view_for(solved: Solved, width: float, height: float) -> View:
     tooth = max(float(d) for d in (pair.d_a - pair.d_f) / 2)
     unit = View(solved, 1.0, (1e9, 1e9))
     wide = 2 * unit.half_width
-    whole = series_near((height - 4 * _OVER) / float(pair.a_w), up=False)
-    scale = min(whole, series_near(max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide, up=False))
+    whole = nearest_scale((height - 4 * _OVER) / float(pair.a_w))
+    scale = min(whole, nearest_scale(max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide))
     if scale * tooth >= LEAST:
-        most = series_near(1.4 * HIGH / tooth, up=False)
+        most = nearest_scale(1.4 * HIGH / tooth)
         scale = min(scale, most)
         return View(solved, scale, View(solved, scale, (0.0, 0.0)).radii)
     limit = min(HIGH / tooth, max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide)
-    scale = series_near(limit, up=False)
+    scale = nearest_scale(limit)
     one, two = View(solved, scale, (0.0, 0.0)).radii
     room = height - 4 * _OVER
     if one + two <= room:
         return View(solved, scale, (one, two))
-    whole = [radius for radius in (one, two) if radius <= room - _SHORTEST]
-    below = room / 2 if not whole else one if one <= two else room - two
+    is_whole = min(one, two) <= room - _SHORTEST
+    below = room / 2 if not is_whole else one if one <= two else room - two
     return View(solved, scale, (below, min(two, room - below)))
 
 

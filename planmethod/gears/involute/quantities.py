@@ -263,10 +263,16 @@ class Solved:
                     yield q.key, f"{put(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
 
     def judged(self) -> Iterator[tuple[Limit, float, float]]:
-        """Yield every limit with what is compared with it, and its bound."""
+        """Yield every limit with what is compared with it, and its bound.
+
+        The contact ratio is that of the teeth as they are cut.
+        """
         for one in self.limits:
             if not (one.hard and one.kind in (LimitKind.TIP, LimitKind.OVERLAP)):
-                yield one, float(one.value(self.pair)), float(one.bound(self.pair))
+                value = float(one.value(self.pair))
+                if one.kind is LimitKind.OVERLAP:
+                    value = self.contact.overlap(self.pair)
+                yield one, value, float(one.bound(self.pair))
 
     def sentences(self, words: Language) -> list[tuple[Limit, bool, str]]:
         """Return every limit: whether it is kept, and what is said of it, rich text."""

@@ -7,7 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planmethod.errors import LayoutError
-from planmethod.gears.involute.diagrams import contour_picture, sliding_picture, sliding_scale
+from planmethod.gears.involute.diagrams import (
+    Contour,
+    contour_picture,
+    sliding_picture,
+    sliding_scale,
+)
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.model import MeshingProblem
 from planmethod.gears.involute.quantities import Solved, Told
@@ -84,10 +89,11 @@ def drawings(
     default = {"title": problem.title or words.meshing.sheet, "sheets": "1"}
     texts = merged(default, problem.stamp, furniture.numbers(1, 1), fields)
     solved = Solved(problem)
+    contour = Contour.of(solved)
     with using(lettering(problem.sheet.lettering or "B")):
         room = furniture.room(fmt)
         for manner in MANNERS:
-            placed = _composed(solved, manner, fmt, room, words)
+            placed = _composed(solved, contour, manner, fmt, room, words)
             if placed is not None:
                 drawing = Drawing(fmt.width, fmt.height, texts["title"])
                 drawing.extend(sheet_frame(fmt, texts, furniture).items)
@@ -101,24 +107,27 @@ def drawings(
 
 
 def _composed(
-    solved: Solved, manner: Manner, fmt: Format, room: Room, words: Language
+    solved: Solved, contour: Contour, manner: Manner, fmt: Format, room: Room, words: Language
 ) -> tuple[list[Item], View] | None:
     """Return the items inside the frame and the view of the meshing, or None without room."""
     wide, tall = room.inner[2] - room.inner[0], room.inner[3] - room.inner[1]
     say = words.meshing
     free = wide - STAMP_WIDTH - 2 * EDGE - 2 * GAP
     high = tall - 2 * EDGE - manner.title - 8.0
+    told = Column([*_checks(solved, words, manner), *_tables(solved, words, manner)], gap=4.0)
+    if told.height + room.stamp[3] + GAP > room.inner[3]:
+        return None
     view = view_for(solved, manner.share * 0.6 * free, manner.share * high)
     mesh = meshing_picture(view, words, manner.letter)
     width = manner.share * (free - mesh.width)
-    contour = contour_picture(solved, words, width, manner.share * 0.55 * high, manner.letter)
+    plane = contour_picture(contour, words, width, manner.share * 0.55 * high, manner.letter)
     sliding = sliding_picture(solved, words, width, manner.share * 0.3 * high, manner.letter)
     scale = _scale(sliding_scale(solved, width), words.say)
     blocks: list[Block] = [
         _titled(say.meshing.format(scale=_scale(view.scale, words.say)), mesh, manner),
-        _titled(say.contour, contour, manner),
+        _titled(say.contour, plane, manner),
         _titled(say.sliding.format(scale=scale), sliding, manner),
-        Column([*_told(solved, words, manner), *_tables(solved, words, manner)], gap=4.0),
+        told,
     ]
     corners = pack(Group(tuple(map(Part, blocks))), room.inner, room.stamp, room.taken)
     if corners is None:
@@ -142,7 +151,7 @@ def _scale(value: float, say: Notation) -> str:
 # Texts and tables -------------------------------------------------------------------------------
 
 
-def _told(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
+def _checks(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
     """Yield what is given and what the limits say."""
     say = words.meshing
     yield heading(say.checked, manner.title, width=TEXT_WIDTH)

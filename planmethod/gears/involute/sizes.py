@@ -206,7 +206,8 @@ class Pair:
         near = np.where(share < 1, np.tan(np.arccos(np.minimum(share, 1.0))), 0.0)
         shift = 2 * self.x * np.tan(self.rack.alpha) / z
         count = z / pi * (near - shift - involute(self.rack.alpha)) + 0.5
-        return np.asarray(np.maximum(2.0, np.floor(count + 0.5)))
+        # The tables take the smaller of two equally near ones: 2 of 18 teeth, not 3.
+        return np.asarray(np.maximum(2.0, np.ceil(count - 0.5 - 1e-9)))
 
     @cached_property
     def base_tangent(self) -> Reals:
