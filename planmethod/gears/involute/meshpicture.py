@@ -35,7 +35,8 @@ HIGH, LEAST = 50.0, 32.0
 
 SCALES = (
     *(1 / k for k in (1000, 800, 500, 400, 200, 100, 75, 50, 40, 25, 20, 15, 10, 5, 4, 2.5, 2)),
-    *(1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0),
+    *(1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0),
+    *(100.0, 200.0, 500.0, 1000.0),
 )
 """Scales of GOST 2.302, millimetres of paper for one."""
 
@@ -232,6 +233,8 @@ def _circle_sizes(view: View, wheel: int) -> list[tuple[float, Pen, str]]:
     found: list[tuple[float, Pen, str]] = []
     for name, pen, letters in told:
         radius = tooth.size(name) / 2 * view.scale
+        if view.is_broken(wheel) and view.radii[wheel] - radius > view.reach[wheel] - 5 * _OVER:
+            continue  # the base circle of a large wheel is beyond the break
         same = next((k for k, one in enumerate(found) if abs(one[0] - radius) < 0.1), None)
         if same is None:
             found.append((radius, pen, letters))

@@ -236,6 +236,9 @@ def _check_teeth(faults: Faults, pair: Pair) -> None:
         if not np.isfinite(tooth.size("rho_a")) or sizes["d_f"] <= 0:
             what = f"wheel {k + 1} has no involute teeth: {said}"
             faults.add("meshing.x", what, f"Take a larger x{k + 1}.")
+        elif not tooth.stands and not tooth.is_cut:
+            what = f"the tooth of wheel {k + 1} is pointed below its involute: x{k + 1} = "
+            faults.add("meshing.x", f"{what}{pair.x[k]:g}", f"Take a smaller x{k + 1}.")
         elif not tooth.stands:
             what = f"the rack cuts the tooth of wheel {k + 1} off: x{k + 1} = {pair.x[k]:g}"
             hint = f"Without undercut x{k + 1} is at least {tooth.size('x_min'):.3f}."

@@ -102,7 +102,7 @@ def drawings(
                 return [drawing]
     raise LayoutError(
         f"{problem.name}: the meshing, its contour, its diagram and its tables do not fit "
-        f"{fmt.name}. Take --paper {PAPER}."
+        f"{fmt.name}. Take --paper {PAPER if fmt.width < paper_format(PAPER).width else 'A0'}."
     )
 
 
