@@ -19,6 +19,7 @@ from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.teeth_model import TeethWording
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,10 +46,8 @@ class Language:
         The form to fill in, and what cannot be read in works.
     point : PointWording
         The moving point.
-    gears : GearWording
-        Gear trains.
-    meshing : MeshingWording
-        A pair of wheels in mesh.
+    gears, teeth, meshing : GearWording, TeethWording, MeshingWording
+        Gear trains, the choice of their teeth, two wheels in mesh.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -70,5 +69,6 @@ class Language:
     point: PointWording
     gears: GearWording
     meshing: MeshingWording
+    teeth: TeethWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]
