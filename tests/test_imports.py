@@ -10,6 +10,7 @@ import pytest
 from worked import PROBLEMS, path_of
 
 EX3 = str(path_of("linkages/ex3"))
+MESHING = str(PROBLEMS / "meshing/z12-30.toml")
 TRAIN = str(PROBLEMS / "gears/gears-ex2.toml")
 SIX_LINK = str(path_of("levers/six-link"))
 
@@ -95,6 +96,8 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
                 ("solve", EX3, "--ask", "v_E"),
                 ("protocol", EX3),
                 ("solve", TRAIN, "--json"),
+                ("solve", MESHING),
+                ("protocol", MESHING),
                 ("teeth", "--U", "6.5"),
             ),
             {"numpy"},
