@@ -42,7 +42,8 @@ def protocol_text(problem: MeshingProblem, lang: str, profile: Profile) -> str:
 
 def given_text(solved: Solved, words: Language) -> list[str]:
     """Return what is given and which shifts there are, rich text."""
-    problem, fields, say = solved.problem, solved.fields(words.say), words.meshing
+    problem, say = solved.problem, words.meshing
+    fields = {name: shown.strip("()") for name, shown in solved.fields(words.say).items()}
     further = ""
     if problem.a_w is not None:
         further = f", a_{{w}} = {words.say.given(problem.a_w)} {say.units['mm']}"
