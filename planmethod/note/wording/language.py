@@ -19,6 +19,7 @@ from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.synthesis_model import SynthesisWording
 from planmethod.note.wording.teeth_model import TeethWording
 
 
@@ -48,6 +49,8 @@ class Language:
         The moving point.
     gears, teeth, meshing : GearWording, TeethWording, MeshingWording
         Gear trains, the choice of their teeth, two wheels in mesh.
+    synthesis : SynthesisWording
+        Syntheses.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -69,6 +72,7 @@ class Language:
     point: PointWording
     gears: GearWording
     meshing: MeshingWording
+    synthesis: SynthesisWording
     teeth: TeethWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]
