@@ -213,7 +213,7 @@ def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tu
     what = f"no shifts from {LOW:g} to {HIGH:g} keep all limits"
     if total is not None:
         what += f", x1 + x2 being {total:.4f} by a_w"
-    if most > 0:
+    if most >= 1:
         return what, (
             f"Where the others are kept ε_α is at most {most:.3f}: give a smaller epsilon_min "
             f"than {overlap:g}, or x."
