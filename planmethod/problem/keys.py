@@ -24,6 +24,7 @@ TOP = (
     "loads",
     "gears",
     "point",
+    "meshing",
 )
 FRAME = ("guides",)
 GUIDE = ("through", "angle")
@@ -131,6 +132,8 @@ GEARS = (
 WHEEL = ("z", "r", "x", "axis")
 MESH = ("of", "kind", "carrier", "eta", "hand")
 PICTURE = ("mu_l", "longest_mm", "pole_mm")
+MESHING = ("z", "m", "alpha", "ha", "c", "x", "x1", "x2", "a_w", "s_a_min", "epsilon_min")
+"""Keys of ``[meshing]``."""
 
 KNOWN: dict[str, tuple[str, ...]] = {
     "top": TOP,
@@ -158,6 +161,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "wheel": WHEEL,
     "mesh": MESH,
     "picture": PICTURE,
+    "meshing": MESHING,
 }
 """All of them by the kind of table."""
 

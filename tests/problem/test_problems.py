@@ -176,6 +176,7 @@ SCHEMA_TABLES = {
     "wheel": SCHEMA["$defs"]["gearWheel"]["properties"],
     "mesh": SCHEMA["$defs"]["gearMesh"]["properties"],
     "picture": SCHEMA["$defs"]["gears"]["properties"]["picture"]["properties"],
+    "meshing": SCHEMA["$defs"]["meshing"]["properties"],
 }
 
 

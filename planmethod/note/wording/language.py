@@ -13,6 +13,7 @@ from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.gear_model import GearWording
+from planmethod.note.wording.meshing_model import MeshingWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
@@ -46,8 +47,8 @@ class Language:
         The form to fill in, and what cannot be read in works.
     point : PointWording
         The moving point.
-    gears, teeth : GearWording, TeethWording
-        Gear trains, and the choice of their teeth.
+    gears, teeth, meshing : GearWording, TeethWording, MeshingWording
+        Gear trains, the choice of their teeth, two wheels in mesh.
     synthesis : SynthesisWording
         Syntheses.
     layouts : mapping
@@ -70,6 +71,7 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    meshing: MeshingWording
     synthesis: SynthesisWording
     teeth: TeethWording
     layouts: Mapping[str, str]

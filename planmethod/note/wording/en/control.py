@@ -120,6 +120,7 @@ CONTROL = ControlWording(
         "hodograph": "polar diagrams",
         "trajectory": "trajectory",
         "structure": "structural schemes",
+        "meshing": "wheels in mesh",
         "stamp": "title block",
         "": "sheet",
     },

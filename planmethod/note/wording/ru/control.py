@@ -117,6 +117,7 @@ CONTROL = ControlWording(
         "hodograph": "годографы реакций",
         "trajectory": "траектория",
         "structure": "структурные схемы",
+        "meshing": "картина зацепления",
         "stamp": "основная надпись",
         "": "лист",
     },
