@@ -26,7 +26,7 @@ from planmethod.problem.load_records import (
 from planmethod.solved.forces.loads import MotionValues, external
 from planmethod.solved.reading import Reals
 from planmethod.solved.turn.curve import Curve, resolved
-from planmethod.solved.turn.motion import TurnMotion
+from planmethod.solved.turn.motion import Moved, TurnMotion
 
 NEVER = 1e-12
 """Share of the largest power below which a load does no work."""
@@ -122,13 +122,16 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
     edges[0], edges[-1] = 0.0, turn.cycle
     names = [load.name for load in dynamics.loads]
 
-    def read(turned: Reals) -> Reals:
-        found = reduce(turn.at(turned), machine)
-        nothing = np.zeros(len(turned))
+    def stacked(motion: Moved) -> Reals:
+        found = reduce(motion, machine)
+        nothing = np.zeros(motion.positions.shape)
         moments = [found.loads.get(name, nothing) for name in names]
         return np.stack([*moments, found.weights, found.inertia, found.slope], axis=1)
 
-    largest = np.max(np.abs(read(turn.curve.samples)), axis=0)
+    def read(turned: Reals) -> Reals:
+        return stacked(turn.at(turned))
+
+    largest = np.max(np.abs(stacked(turn.sampled)), axis=0)
     largest[:-2] = float(np.max(largest[:-2]))
     made = resolved(read, edges, np.where(largest > 0.0, largest, 1.0))
     peaks = np.max(np.abs(made(made.samples)), axis=0)

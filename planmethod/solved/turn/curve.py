@@ -103,16 +103,15 @@ class Curve:
         """Return where the first function, a continuous one, is largest, and its value there."""
         x = self.samples
         best = int(np.argmax(self.value(x)))
-        around = x[max(best - 1, 0) : best + 2]
-        low, high, slope = around[:-1], around[1:], self.slope
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2.0
-            rises = slope.value(middle) > 0.0
-            low, high = np.where(rises, middle, low), np.where(rises, high, middle)
-        found = np.append(x[best], (low + high) / 2.0)
+        found, slope = [float(x[best])], self.slope.terms[:, :, 0]
+        for piece in {max(best - 1, 0) // _SAMPLES, min(best // _SAMPLES, slope.shape[1] - 1)}:
+            low, high = self.edges[piece : piece + 2].tolist()
+            flat = np.polynomial.chebyshev.chebroots(slope[:, piece])
+            real = flat[(np.abs(flat.imag) < 1e-9) & (np.abs(flat.real) < 1.0)].real
+            found += ((low + high) / 2.0 + (high - low) / 2.0 * real).tolist()
         values = self.value(found)
         largest = int(np.argmax(values))
-        return float(found[largest]), float(values[largest])
+        return found[largest], float(values[largest])
 
 
 def nodes(edges: Reals) -> Reals:

@@ -190,6 +190,11 @@ class TurnMotion:
         }
         return Moved(self, self.problem, self.construction, self.phi(turned), points, links)
 
+    @cached_property
+    def sampled(self) -> Moved:
+        """The motion at angles that come near to everything that happens."""
+        return self.at(self.curve.samples)
+
     def column(self, point: str, direction: complex, *, velocity: bool = False) -> Curve:
         """Return the place or the velocity of a point along a direction, m or m/s."""
         weights = np.zeros(self.curve.terms.shape[2])
@@ -206,7 +211,7 @@ class TurnMotion:
 
     def course(self, point: str) -> complex:
         """Return the direction in which a point moves where it is quickest; 1 of what stands."""
-        velocity = self.at(self.curve.samples).points[point].velocity
+        velocity = self.sampled.points[point].velocity
         fastest = complex(velocity[int(np.argmax(np.abs(velocity)))])
         return fastest / abs(fastest) if fastest else 1.0 + 0j
 
@@ -232,7 +237,7 @@ class TurnMotion:
         way = self.course(point)
         dead = self.column(point, way, velocity=True).roots()
         first = self.at(np.zeros(1)).points[point]
-        speeds = np.abs(self.at(self.curve.samples).points[point].velocity)
+        speeds = np.abs(self.sampled.points[point].velocity)
         at_start = abs(first.velocity[0]) <= 1e-9 * float(np.max(speeds))
         near = 1e-6  # a dead position at the very start is found at either end of the cycle, or not
         if at_start:
@@ -248,7 +253,7 @@ class TurnMotion:
         along = (places * way.conjugate()).real
         low, high = complex(places[np.argmin(along)]), complex(places[np.argmax(along)])
         start, end = (low, high) if abs(places[0] - low) <= abs(places[0] - high) else (high, low)
-        everywhere = self.at(self.curve.samples).points[point].place
+        everywhere = self.sampled.points[point].place
         towards = end - start
         off = float(np.max(np.abs(((everywhere - start) * towards.conjugate()).imag)))
         if off > STRAIGHT * abs(towards) ** 2:
