@@ -251,7 +251,8 @@ class Wheel:
     Attributes
     ----------
     shape : Shape
-    density : float, kg/m³
+    density : float or None, kg/m³
+        None: steel.
     speed : float, m/s
         Greatest speed of the rim.
     ratio : float
@@ -259,7 +260,7 @@ class Wheel:
     """
 
     shape: Shape = Shape.DISC
-    density: float = 7800.0
+    density: float | None = None
     speed: float = 30.0
     ratio: float = 1.0
 

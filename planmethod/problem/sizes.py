@@ -16,6 +16,7 @@ from planmethod.problem.fields import (
     read_member,
     read_number,
     read_whole,
+    read_word,
     show,
 )
 from planmethod.problem.load_records import Interpolation, Law, Moving, Over, Phase, Turning
@@ -28,6 +29,9 @@ TURN = 360.0
 
 _TABLE = '{ over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear" }'
 _PHASES = 'phases = { phi = [90, 270] } or phases = { moving = "down" }'
+
+_OVERS = tuple(over.value for over in Over if over is not Over.STROKES)
+"""What a file may give a table over; the strokes are those of an indicator."""
 
 Spans = tuple[tuple[float, float], ...]
 
@@ -83,7 +87,7 @@ def _read_table(
     if law is not None:
         given = {**_LAWS[law], **given}
     for key, hint in (
-        ("over", f"Say what the values are over: {listed(item.value for item in Over)}."),
+        ("over", f"Say what the values are over: {listed(_OVERS)}."),
         ("values", f"For example: {_TABLE}."),
     ):
         if key not in given and whole:
@@ -199,12 +203,10 @@ _INDICATOR = (
 def _read_over(
     faults: Faults, path: str, value: object, drive: Drive | None, *, couple: bool
 ) -> Over | None:
-    over = read_member(faults, path, value, Over)
-    if over is None:
+    word = read_word(faults, path, value, _OVERS)
+    if word is None:
         return None
-    if over is Over.STROKES:
-        faults.add(path, "'strokes' is what an indicator diagram is over", _INDICATOR)
-        return None
+    over = Over(word)
     if over is Over.PATH and drive is not None and not drive.is_crank:
         faults.add(path, f"link {drive.link} slides: there is no stroke of a whole turn")
         return None

@@ -171,6 +171,8 @@ SCHEMA_TABLES = {
     "load": SCHEMA["$defs"]["load"]["properties"],
     "table": SCHEMA["$defs"]["table"]["properties"],
     "phases": SCHEMA["$defs"]["phases"]["properties"],
+    "machine": SCHEMA["$defs"]["machine"]["properties"],
+    "flywheel": SCHEMA["$defs"]["machine"]["properties"]["flywheel"]["properties"],
     "gears": SCHEMA["$defs"]["gears"]["properties"],
     "wheel": SCHEMA["$defs"]["gearWheel"]["properties"],
     "mesh": SCHEMA["$defs"]["gearMesh"]["properties"],

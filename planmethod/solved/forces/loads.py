@@ -28,9 +28,9 @@ from planmethod.problem.load_records import (
     Turning,
 )
 from planmethod.problem.model import Problem
+from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.reading import Complexes, Reals, Remembering
 from planmethod.solved.solution import LinkMotion, PointMotion
-from planmethod.solved.turn.motion import Moved, TurnMotion
 
 STILL = 1e-10
 """Share of the largest speed of a position below which a point or a link stands."""

@@ -9,19 +9,33 @@ delta²/4 (Artobolevsky, Theory of mechanisms, ch. 19).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
 
 import numpy as np
 
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import evaluate
 from planmethod.errors import Fault, ProblemError
-from planmethod.problem.load_records import Mean, Method, Ordinates, Side
+from planmethod.plans.forces.board import SCALE
+from planmethod.problem.load_records import (
+    Dynamics,
+    Fixed,
+    Load,
+    Mean,
+    Method,
+    Ordinates,
+    Side,
+    Signs,
+)
 from planmethod.problem.model import Problem
+from planmethod.solved.course.curve import Curve, joined
+from planmethod.solved.course.motion import TurnMotion
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.machine.reduced import Reduced, reduce, reduced_curves
-from planmethod.solved.reading import Reals, Remembering, remembered
-from planmethod.solved.turn.curve import Curve, joined
-from planmethod.solved.turn.motion import TurnMotion
+from planmethod.solved.reading import Reading, Reals, Remembering, remembered
+from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 BALANCE = 1e-9
 """Work of the cycle, as a share of the largest moment times the cycle, that counts as none."""
@@ -153,7 +167,7 @@ class Flywheel(Remembering):
     @property
     def turns(self) -> int:
         """Turns of the crank in a cycle."""
-        return round(self.cycle / (2.0 * pi))
+        return round(self.machine.cycle_deg / 360.0)
 
     def tangents(self, upper: float, lower: float, speed: float) -> Tangents:
         """Return the flywheel between tangents of slopes omega²/2 times ``upper`` and ``lower``."""
@@ -192,7 +206,6 @@ class Flywheel(Remembering):
 
     def _mean_in_time(self, middle: float) -> float:
         energy = self._energy(middle)
-        inverse = 0.0
         nodes, weights = np.polynomial.legendre.leggauss(12)
         low, high = self.gain.edges[:-1, np.newaxis], self.gain.edges[1:, np.newaxis]
         at = (low + high) / 2.0 + (high - low) / 2.0 * nodes
@@ -202,7 +215,7 @@ class Flywheel(Remembering):
             / (energy[1] + self.inertia.value(at.ravel()))
         )
         inverse = float(np.sum((weights * (high - low) / 2.0).ravel() / speeds))
-        return self.cycle / inverse
+        return float(self.cycle / inverse)
 
     def _energy(self, middle: float) -> tuple[float, float]:
         """Return the kinetic energy of position 0, J, and the flywheel, for a middle speed."""
@@ -222,7 +235,7 @@ class Flywheel(Remembering):
             speeds = np.sqrt(np.maximum(2.0 * (energy + gain) / inertia, 0.0))
             slow = speeds.max() + speeds.min() < 2.0 * middle
             low, high = (energy, high) if slow else (low, energy)
-        return (low + high) / 2.0
+        return float(low + high) / 2.0
 
     @cached_property
     def exact(self) -> Tangents:
@@ -250,8 +263,8 @@ class Flywheel(Remembering):
         """Greatest and least speed by integrating the equation of motion (проверка).
 
         Runge and Kutta's fourth order over each smooth piece, with the moments, the inertia and
-        its slope as they are, and without any work or energy: J·omega·domega/dphi = M - omega²·J'/2.
-        The steps begin at the speed of position 0.
+        its slope as they are, without any work or energy; the steps begin at the speed of
+        position 0: J·omega·domega/dphi = M - omega²·J'/2.
         """
         edges, fly = self.moment.edges, self.fitted
         most = 2.0 * pi / _STEPS
@@ -295,12 +308,36 @@ class Flywheel(Remembering):
 
     def turned(self, count: int) -> Reals:
         """Return the angles turned of so many even positions, rad."""
-        return self.cycle * np.arange(count) / count
+        return np.asarray(self.cycle * np.arange(count) / count, dtype=float)
 
     @remembered
     def reduced(self, count: int) -> Reduced:
         """Return what is reduced to the crank in so many even positions, by their own plans."""
         return reduce(self.turn.solved(self.turned(count)), self.machine)
+
+    @remembered
+    def lever(self, count: int) -> Reals:
+        """Return the reduced moment in so many positions by the Zhukovsky lever, N·m, shape (n,).
+
+        Loads and weights hang on the turned velocity plan of each position; no inertia.
+        """
+        problem, dynamics = self.turn.problem, self.problem.dynamics
+        assert dynamics is not None
+        down = Fixed(-90.0 if self.machine.signs is Signs.TRUE else 90.0)
+        weights = [
+            Load(f"G_{{{link}}}", link, mass.centre, mass.mass * dynamics.gravity, down)
+            for link, mass in dynamics.masses.items()
+            if mass.centre is not None and mass.mass and dynamics.gravity
+        ]
+        hung = Dynamics(0.0, {}, (*dynamics.loads, *weights))
+        positions = self.turn.phi(self.turned(count)).tolist()
+        statics = statics_of(Solution(replace(problem, dynamics=hung), positions=positions))
+        assert statics.lever_plan is not None, "the crank turns"
+        balance = statics.lever_plan.balance
+        program = statics.program.needed_for([balance])
+        data = statics.data({**UNIT_SCALES, SCALE: 1.0}, EVERY)
+        found = Reading(evaluate(program, data, Float64()), count).number(balance)
+        return np.asarray(self.turn.sense * found, dtype=float)
 
     @cached_property
     def rows(self) -> Rows:
@@ -353,6 +390,12 @@ class Flywheel(Remembering):
         found = (high - low) / (speed**2 * self.machine.delta)
         tangents = Tangents(found, high, low, float(turned[top]), float(turned[bottom]))
         return Points(moments, middles, work, gain, inertia, tangents)
+
+
+@remembered
+def flywheel_of(solution: Solution) -> Flywheel:
+    """Return the machine of a solution, worked out when it is first asked for."""
+    return Flywheel(solution.problem)
 
 
 def _hermite(one: float, two: float, slope_1: float, slope_2: float, share: float) -> float:

@@ -23,10 +23,10 @@ from planmethod.problem.load_records import (
     Signs,
     Table,
 )
+from planmethod.solved.course.curve import Curve, resolved
+from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.forces.loads import MotionValues, external
 from planmethod.solved.reading import Reals
-from planmethod.solved.turn.curve import Curve, resolved
-from planmethod.solved.turn.motion import Moved, TurnMotion
 
 NEVER = 1e-12
 """Share of the largest power below which a load does no work."""
@@ -199,6 +199,5 @@ def _all_turns(turn: TurnMotion, phi: Reals, period: float) -> Reals:
     """Return where the driver is at some angles, degrees, in every turn of the cycle."""
     first = turn.turned(phi)
     turns = max(round(turn.cycle / np.radians(period)), 1)
-    return np.mod(
-        np.concatenate([first + np.radians(period) * k for k in range(turns)]), turn.cycle
-    )
+    every = np.concatenate([first + np.radians(period) * k for k in range(turns)])
+    return np.asarray(np.mod(every, turn.cycle), dtype=float)

@@ -12,9 +12,9 @@ import numpy as np
 from planmethod.errors import Fault, ProblemError
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
+from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
-from planmethod.solved.turn.curve import Curve, resolved
 
 PANELS = 24
 """Pieces of a turn to begin with."""
@@ -66,7 +66,7 @@ class Stroke:
     def share(self, place: Complexes) -> Reals:
         """Return how far a place is along the path, from 0 at the start to 1, shape (n,)."""
         along = ((place - self.start) * self.towards.conjugate()).real / abs(self.towards) ** 2
-        return np.clip(np.asarray(along, dtype=float), 0.0, 1.0)
+        return np.asarray(np.clip(along, 0.0, 1.0), dtype=float)
 
     def progress(self, turned: Reals, place: Complexes, cycle: float) -> Reals:
         """Return how many strokes of the cycle are done, from 0 at the start, shape (n,)."""
@@ -109,15 +109,13 @@ class TurnMotion:
                 "The cycle of a machine is that of a driving crank: give phi and n.",
             )
         if not drive.rate:
-            raise _fault(
-                problem, "driver.omega", "the crank stands", "Give its speed, omega or n."
-            )
+            raise _fault(problem, "driver.omega", "the crank stands", "Give its speed, omega or n.")
         self.problem = replace(problem, drive=replace(drive, acceleration=0.0))
         self.sense = 1.0 if drive.rate > 0.0 else -1.0
         machine = problem.machine
         start = machine.start_deg if machine is not None else None
         self.start_deg = drive.positions[0] if start is None else start
-        self.cycle = np.radians(360.0 if machine is None else machine.cycle_deg)
+        self.cycle = float(np.radians(360.0 if machine is None else machine.cycle_deg))
         self._solution = Solution(self.problem, positions=[self.start_deg])
         self.construction = self._solution.construction
 

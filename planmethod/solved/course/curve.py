@@ -124,9 +124,7 @@ def joined(curves: Iterable[Curve]) -> Curve:
     """Return the functions of several curves of the same pieces as one."""
     several = list(curves)
     degrees = max(len(one.terms) for one in several)
-    padded = [
-        np.pad(one.terms, ((0, degrees - len(one.terms)), (0, 0), (0, 0))) for one in several
-    ]
+    padded = [np.pad(one.terms, ((0, degrees - len(one.terms)), (0, 0), (0, 0))) for one in several]
     return Curve(several[0].edges, np.concatenate(padded, axis=2))
 
 
