@@ -9,7 +9,7 @@ import numpy as np
 from planmethod.construct.drafting import Profile
 from planmethod.note.numbers import plain
 from planmethod.problem.load_records import Ordinates
-from planmethod.solved.machine.drawing import FlywheelDrawing, split
+from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import Extreme, Flywheel
 from planmethod.solved.machine.sizes import size_of
 
@@ -21,7 +21,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
     turning of the crank. A flywheel that is not needed is null, and ``reason`` says so.
     """
     machine, rows, middle = flywheel.machine, flywheel.rows, flywheel.middle_speed
-    drawing = FlywheelDrawing(flywheel, profile)
+    drawing = drawing_of(flywheel, profile)
     highest, lowest = flywheel.integrated
     lever = flywheel.lever(machine.count)
     exact = flywheel.exact.inertia

@@ -13,6 +13,7 @@ from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.gear_model import GearWording
+from planmethod.note.wording.machine_model import MachineWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
@@ -46,6 +47,8 @@ class Language:
         The moving point.
     gears : GearWording
         Gear trains.
+    machine : MachineWording
+        A machine and its flywheel.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -66,5 +69,6 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    machine: MachineWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

@@ -122,7 +122,7 @@ class Span:
 
 VIEW_KINDS = (
     "position", "velocity", "acceleration", "forces", "balance", "reactions", "hodograph",
-    "structure",
+    "structure", "flywheel", "diagram",
 )  # fmt: skip
 """Kinds of views: whoever tells of them has a word for each."""
 

@@ -12,19 +12,23 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
-from planmethod.construct.scale import choose_scale
+from planmethod.construct.scale import choose_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, Given, Places, build
 from planmethod.problem.load_records import Method, Ordinates
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.machine.flywheel import Flywheel, Points
-from planmethod.solved.reading import Reading
+from planmethod.solved.reading import Reading, remembered
 
 MOST_M, MOST_J = 85.0, 70.0
 """Longest ordinates of the moment and of the inertia where the program chooses a scale, mm."""
 
-_GAP = 12.0  # between two diagrams above each other, mm
+MOST_HIGH = 460.0
+"""Height of all diagrams above one another up to which the program enlarges their scales, mm."""
+
+_GAP = 24.0  # between two diagrams above each other, mm
+_BESIDE = 52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,13 +61,12 @@ class FlywheelDrawing:
         self.points: Points = flywheel.by_points(self.count, machine.ordinates, slopes)
         shown = np.append(self.points.ordinates, self.points.middles)
         phi = flywheel.cycle / machine.turn_mm
+        inertia = machine.mu_J or _fitting(self.points.inertia, MOST_J)
         moment = machine.mu_M or _fitting(shown, MOST_M)
-        self.scales = MachineScales(
-            phi,
-            moment,
-            moment * machine.pole_mm * phi,
-            machine.mu_J or _fitting(self.points.inertia, MOST_J),
-        )
+        self.scales = MachineScales(phi, moment, moment * machine.pole_mm * phi, inertia)
+        while machine.mu_M is None and self.height > MOST_HIGH:
+            moment = series_near(1.1 * moment, up=True)
+            self.scales = MachineScales(phi, moment, moment * machine.pole_mm * phi, inertia)
         half = self.scales.inertia * flywheel.middle_speed**2 / (2.0 * self.scales.work)
         self.psi = degrees(atan(half * slopes[0])), degrees(atan(half * slopes[1]))
 
@@ -92,23 +95,32 @@ class FlywheelDrawing:
         )
         return build(given, self.places)
 
+    def _reaches(self) -> list[tuple[float, float]]:
+        """Return the lowest and the highest of inertia, energy, work and moment, mm."""
+        points, scales = self.points, self.scales
+        cut = [points.tangents.upper, points.tangents.lower]
+        several = (
+            points.inertia / scales.inertia,
+            np.append(points.gain, cut) / scales.work,
+            points.work / scales.work,
+            self.flywheel.sign * np.append(points.ordinates, points.middles) / scales.moment,
+        )
+        return [(min(float(np.min(y)), 0.0), max(float(np.max(y)), 0.0)) for y in several]
+
+    @property
+    def height(self) -> float:
+        """Height of all diagrams above one another, mm."""
+        return sum(high - low + _GAP for low, high in self._reaches())
+
     @cached_property
     def places(self) -> Places:
         """Origins of the diagrams: one above the other, the energy-mass one to the right."""
-        machine, points, scales = self.flywheel.machine, self.points, self.scales
-        gap, at = _GAP, 0.0
-        origins: list[float] = []
-        for ordinates in (
-            points.inertia / scales.inertia,
-            points.gain / scales.work,
-            points.work / scales.work,
-            self.flywheel.sign * np.append(points.ordinates, points.middles) / scales.moment,
-        ):
-            low, high = min(float(np.min(ordinates)), 0.0), max(float(np.max(ordinates)), 0.0)
-            origins.append(at - low)
-            at += high - low + gap
-        inertia, energy, work, moment = (complex(0.0, y) for y in origins)
-        right = machine.turn_mm + 40.0
+        origins, at = [], 0.0
+        for low, high in self._reaches():
+            origins.append(complex(0.0, at - low))
+            at += high - low + _GAP
+        inertia, energy, work, moment = origins
+        right = self.flywheel.machine.turn_mm + _BESIDE
         return Places(moment, work, energy, inertia, complex(right, inertia.imag))
 
     @cached_property
@@ -148,6 +160,12 @@ class FlywheelDrawing:
     def sigma(self) -> float:
         """Drafting error of J_f, kg·m²."""
         return float(self.errors.spreads[self.made.J_f].sigma[0])
+
+
+@remembered
+def drawing_of(flywheel: Flywheel, profile: Profile) -> FlywheelDrawing:
+    """Return the diagrams of a flywheel as a hand draws them, made when first asked for."""
+    return FlywheelDrawing(flywheel, profile)
 
 
 def _fitting(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]], most: float) -> float:

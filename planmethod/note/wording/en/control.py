@@ -119,6 +119,8 @@ CONTROL = ControlWording(
         "reactions": "diagram of reactions",
         "hodograph": "polar diagrams",
         "structure": "structural schemes",
+        "flywheel": "diagrams of the flywheel",
+        "diagram": "diagram",
         "stamp": "title block",
         "": "sheet",
     },

@@ -16,6 +16,8 @@ UNITS = {
     "kg·m²": "kg·m²",
     "N": "N",
     "N·m": "N·m",
+    "J": "J",
+    "kg/m³": "kg/m³",
 }
 """Units as plain text, by those of SI."""
 

@@ -116,6 +116,8 @@ CONTROL = ControlWording(
         "reactions": "диаграмма реакций",
         "hodograph": "годографы реакций",
         "structure": "структурные схемы",
+        "flywheel": "диаграммы маховика",
+        "diagram": "диаграмма",
         "stamp": "основная надпись",
         "": "лист",
     },

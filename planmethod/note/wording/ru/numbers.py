@@ -16,6 +16,8 @@ UNITS = {
     "kg·m²": "кг·м²",
     "N": "Н",
     "N·m": "Н·м",
+    "J": "Дж",
+    "kg/m³": "кг/м³",
 }
 """Units as plain text, by those of SI."""
 
