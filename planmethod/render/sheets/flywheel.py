@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import degrees, hypot
 
 import numpy as np
 
@@ -100,8 +99,8 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
     scales, made = drawing.scales, drawing.made
     told = "; ".join(
         (
-            tell.scale("φ", scales.phi, "rad"),
             tell.scale("M", scales.moment, "N·m"),
+            tell.scale("φ", scales.phi, "rad"),
             tell.scale("A", scales.work, "J"),
             tell.scale("T", scales.work, "J"),
             tell.scale("J", scales.inertia, "kg·m²"),
@@ -175,8 +174,7 @@ class _Sketch:
             *arrowhead(tip, 1 + 0j, length=_HEAD, tag="diagram axis"),
             *arrowhead(top, 1j, length=_HEAD, tag="diagram axis"),
         ]
-        name = typeset(across, self.height)
-        self.items += name.at(tip + complex(-name.width, name.descent + 2.0))
+        self._label(across, tip - 2.0, -1j, f"axis {up}", large=True)
         name = typeset(up, self.height)
         beside = -name.width - 3.0 if left else 2.5
         self.items += name.at(top + complex(beside, -self.height))
@@ -233,7 +231,7 @@ class _Sketch:
             cuts.append(cut)
             self._thin(pole, cut)
         for place in self.places(made.middles):
-            self._thin(complex(place.real, foot.imag), place, pen=Pen.HIDDEN)
+            self._thin(complex(place.real, foot.imag), place)
             self._thin(complex(foot.real, place.imag), place)
         self._dots([pole])
         self._label("P", pole, -1.0, "pole", large=True)
@@ -499,15 +497,18 @@ def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
         items += [Stroke((complex(x, -bore), complex(x, bore)), Pen.MAIN) for x in (-half, half)]
     reach = radius + 4.0
     items += [
-        Stroke((complex(-half - 4.0, 0.0), complex(half + 4.0, 0.0)), Pen.AXIS),
+        Stroke((complex(-half - 8.0, 0.0), complex(half + 8.0, 0.0)), Pen.AXIS),
         Stroke((middle - reach, middle + reach), Pen.AXIS),
         Stroke((middle - 1j * reach, middle + 1j * reach), Pen.AXIS),
     ]
     size = max(3.5, height)
     items += _measure(complex(-half, -radius), complex(half, -radius), -9j, "b", size)
-    items += _measure(complex(-half, -radius), complex(-half, radius), -10.0, "D", size)
     if sizes.bore:
-        items += _measure(complex(half, -bore), complex(half, bore), 8.0, "D_{1}", size)
+        aside = -10.0 - 2.5 * size  # beside the other diameter, inside of it
+        items += _measure(complex(-half, -radius), complex(-half, radius), aside, "D", size)
+        items += _measure(complex(-half, -bore), complex(-half, bore), -10.0, "D_{1}", size)
+    else:
+        items += _measure(complex(-half, -radius), complex(-half, radius), -10.0, "D", size)
     picture = Picture(tuple(items), ink_bounds(items))
     told = ["; ".join(tell.size_lines(sizes))]
     lines = paragraph(told[0], height, manner.width(manner.sizes.column))
@@ -528,12 +529,11 @@ def _measure(one: complex, two: complex, aside: complex, letter: str, size: floa
         *arrowhead(tail, way if outside else -way, length=3.0),
         *arrowhead(head, -way if outside else way, length=3.0),
     ]
-    angle = degrees(float(np.angle(way)))
-    text = typeset(letter, size)
-    # above a level dimension, left of an upright one
-    place = (tail + head) / 2.0 + way * 1j * 1.2
-    if abs(angle) < 1.0:
-        items += text.at(place - text.width / 2.0)
+    text, middle = typeset(letter, size), (tail + head) / 2.0
+    if abs(way.imag) > 0.5:  # left of an upright dimension, off its middle where axes go
+        place = middle + complex(-text.width - 1.2, 0.25 * abs(head - tail))
+    elif outside:
+        place = head + complex(8.5, -size / 2.0)
     else:
-        items += text.at(place + complex(-text.width - hypot(0.0, 0.4), -size / 2.0))
-    return items
+        place = middle + complex(-text.width / 2.0, 1.2)
+    return [*items, *text.at(place)]
