@@ -24,6 +24,7 @@ LATE_OF = {
     "planmethod.note.tables.causes": "drafting errors",
     "planmethod.note.tables.forces": "forces",
     "planmethod.note.records.machine": "machines",
+    "planmethod.note.tables.machine": "machines",
     "planmethod.problem.dynamics": "forces",
     "planmethod.problem.machine": "machines",
     "planmethod.solved": "forces, drafting errors, the trust in float64",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import degrees
+from typing import TypeAlias
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from planmethod.construct.scale import Scale
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.numbers import alike
 from planmethod.note.wording import Language
 from planmethod.note.wording.machine_model import MachineWording
 from planmethod.problem.load_records import Ordinates, Side, Signs
@@ -17,6 +19,9 @@ from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Extreme, Flywheel
 from planmethod.solved.machine.sizes import Sizes, size_of
+from planmethod.solved.reading import Reals
+
+_Column: TypeAlias = tuple[str, str, list[str]]
 
 
 class MachineTeller:
@@ -198,6 +203,33 @@ class MachineTeller:
         turn = self.flywheel.machine.cycle_deg
         phi = self.flywheel.turn.sense * degrees(extreme.turned) + self.flywheel.turn.start_deg
         return self.said.extreme.format(angle=self.say.number(f"{phi % turn:.1f}"))
+
+    # Table -----------------------------------------------------------------------------------
+
+    def columns(self) -> list[_Column]:
+        """Return the table by positions: heads, units and cells of its columns, rich text."""
+        flywheel, say = self.flywheel, self.say
+        rows, turn = flywheel.rows, flywheel.machine.cycle_deg
+        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg.tolist()]
+
+        def column(head: str, values: Reals, unit: str, digits: int = 4) -> _Column:
+            peak = float(np.max(np.abs(values)))
+            clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
+            told = [say.number(text) for text in alike(clean.tolist(), digits)]
+            return head, self.unit(unit), told
+
+        return [
+            (self.words.note.number, "", [str(k) for k in range(len(angles))]),
+            (f"φ_{{{flywheel.problem.drive.link}}}", "°", [say.number(a) for a in angles]),
+            column(self.letter("M resisting"), rows.moment, "N·m"),
+            column(self.letter("lever"), flywheel.lever(flywheel.machine.count), "N·m"),
+            column(self.work, rows.work, "J"),
+            column(self.letter("T"), rows.gain, "J"),
+            column(self.letter("J"), rows.inertia, "kg·m²"),
+            column("dJ/dφ", rows.slope, "kg·m²"),
+            column("ω", rows.omega, "1/s", 5),
+            column("ε", rows.epsilon, "1/s²"),
+        ]
 
     # Sizes -----------------------------------------------------------------------------------
 

@@ -13,7 +13,6 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.numbers import alike
 from planmethod.problem.load_records import Load, Shape, Table
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Span, Stroke
 from planmethod.render.ink.extent import ink_bounds
@@ -441,32 +440,12 @@ def _fine(flywheel: Flywheel) -> Reals:
 
 def machine_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return what is reduced to the crank, work, energy and speed by positions."""
-    tell, flywheel = _teller(solution, manner), flywheel_of(solution)
-    rows, say = flywheel.rows, manner.words.say
+    tell = _teller(solution, manner)
     height = manner.text(min(manner.sizes.text, 3.5))
-    turn = flywheel.machine.cycle_deg
-    lever = flywheel.lever(flywheel.machine.count)
-    angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg.tolist()]
-
-    def column(head: str, values: Reals, unit: str = "", digits: int = 4) -> TableColumn:
-        peak = float(np.max(np.abs(values)))
-        clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
-        told = tuple(say.number(text) for text in alike(clean.tolist(), digits))
-        return TableColumn(head, told, unit=tell.unit(unit) if unit else "")
-
     columns = [
-        TableColumn(manner.words.note.number, tuple(map(str, range(len(angles)))), least=8.0),
-        TableColumn(f"φ_{{{solution.problem.drive.link}}}", tuple(map(say.number, angles)),
-                    unit="°"),
-        column(tell.letter("M resisting"), rows.moment, "N·m"),
-        column(tell.letter("lever"), lever, "N·m"),
-        column(tell.work, rows.work, "J"),
-        column(tell.letter("T"), rows.gain, "J"),
-        column(tell.letter("J"), rows.inertia, "kg·m²"),
-        column("dJ/dφ", rows.slope, "kg·m²"),
-        column("ω", rows.omega, "1/s", 5),
-        column("ε", rows.epsilon, "1/s²"),
-    ]  # fmt: skip
+        TableColumn(head, tuple(cells), unit=unit, least=8.0)
+        for head, unit, cells in tell.columns()
+    ]
     title = manner.entry.title or tell.said.table
     table = table_block(columns, height, max_width=table_width(manner), leading=2, title=title,
                         row_height=max(6.0, 2.0 * height))  # fmt: skip
