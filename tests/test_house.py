@@ -23,6 +23,7 @@ LATE_OF = {
     "planmethod.note.records.forcecolumns": "forces",
     "planmethod.note.tables.causes": "drafting errors",
     "planmethod.note.tables.forces": "forces",
+    "planmethod.note.audit.machine": "machines",
     "planmethod.note.records.machine": "machines",
     "planmethod.note.tables.machine": "machines",
     "planmethod.problem.dynamics": "forces",

@@ -16,6 +16,7 @@ from worked import ROOT, path_of
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
+from planmethod.note.audit.audit import Verdict, audit
 from planmethod.problem import load, loads
 from planmethod.problem.load_records import Ordinates
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
@@ -221,3 +222,23 @@ def test_the_record_has_what_is_promised() -> None:
         "m": 97.14247483,
         "b": 0.07560717,
     }
+
+
+def test_what_the_source_prints_stands_beside_what_it_should_be() -> None:
+    found = {item.published.name: item for item in audit(load(path_of("press/flywheel")))}
+    assert len(found) == 69
+    assert all(item.why is None for item in found.values())
+    kinetic = found["T3 4 (таблица 4)"]
+    assert near(kinetic.exact or 0.0, 11.1715871058343)
+    flywheel = found["Iм"]
+    assert near(flywheel.exact or 0.0, 2.54963071814211)
+    assert flywheel.verdict is Verdict.DIFFERS
+    # with the source's own signs table 3 is right but for its scale of velocities, 0.9 % too large
+    source = {
+        item.published.name: item
+        for item in audit(load(path_of("press/flywheel"), variant="source"))
+    }
+    for k in (1, 2, 3, 4, 7, 8, 9, 10, 11):
+        percent = source[f"M {k} (таблица 3)"].percent
+        assert percent is not None
+        assert abs(percent) < 1.4

@@ -42,17 +42,17 @@ class MachineTeller:
 
     def letter(self, name: str) -> str:
         """Return the letters of a quantity."""
-        return self.said.letters[name]
+        return self.say.symbol(name)
 
     @property
     def moment(self) -> str:
         """Letters of the moment that changes."""
-        return self.letter(f"M {self.changes}")
+        return self.letter(f"{self.changes} moment")
 
     @property
     def work(self) -> str:
         """Letters of its work."""
-        return self.letter(f"A {self.changes}")
+        return self.letter(f"{self.changes} work")
 
     def unit(self, name: str) -> str:
         """Return the letters of a unit."""
@@ -76,22 +76,22 @@ class MachineTeller:
         lines += mass_lines(problem.dynamics, self.say)
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
-            lines.append(f"{self.letter('J_crank')} = {inertia} {self.unit('kg·m²')}")
+            lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
         inverse = 1.0 / machine.delta
         fraction = abs(inverse - round(inverse)) < 1e-9 * inverse
         delta = f"1/{round(inverse)}" if fraction else self.say.given(machine.delta)
         lines.append(f"δ = {delta}")
         speed = self.say.found(abs(problem.drive.rate))
         mean = self.said.means[machine.mean.value]
-        lines.append(f"{self.letter('omega')} = {mean.format()} = {speed} {self.unit('1/s')}")
-        lines.append(self.said.sides[self.keeps].format(moment=self.letter(f"M {self.keeps}")))
+        lines.append(f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}")
+        lines.append(f"{self.letter(f'{self.keeps} moment')} = const")
         if machine.signs is Signs.SOURCE:
             lines.append(self.said.source_signs)
         return lines
 
     def wanted(self) -> str:
         """Return what is to be found."""
-        return self.said.wanted.format(flywheel=self.letter("J_f"))
+        return self.said.wanted.format(flywheel=self.letter("flywheel"))
 
     # Construction ----------------------------------------------------------------------------
 
@@ -105,9 +105,9 @@ class MachineTeller:
         places = {
             "M": self.moment,
             "A": self.work,
-            "J": self.letter("J"),
-            "A_const": self.letter(f"A {self.keeps}"),
-            "M_const": self.letter(f"M {self.keeps}"),
+            "J": self.letter("reduced inertia"),
+            "A_const": self.letter(f"{self.keeps} work"),
+            "M_const": self.letter(f"{self.keeps} moment"),
             "count": drawing.count,
             "mu_M": self.scale("M", scales.moment, "N·m"),
             "mu_A": self.scale("A", scales.work, "J"),
@@ -134,7 +134,7 @@ class MachineTeller:
     def formulas(self) -> list[str]:
         """Return scales, angles and the flywheel by the construction, with numbers."""
         drawing, machine, say = self.drawing, self.flywheel.machine, self.say
-        scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("omega")
+        scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("mean speed")
         turn = say.found(self.flywheel.cycle)
         lines = [
             f"μ_{{φ}} = {turn}/{say.given(machine.turn_mm)} = "
@@ -156,7 +156,7 @@ class MachineTeller:
         lines.append(self.said.read.format(text=told, exact=say.number(f"{exact:.2f}")))
         lines.append(
             self.said.construction.format(
-                symbol=self.letter("J_f"),
+                symbol=self.letter("flywheel"),
                 omega=omega,
                 value=say.found(drawing.read_inertia),
                 sigma=say.short(drawing.sigma, 2),
@@ -172,7 +172,9 @@ class MachineTeller:
         delta = say.number(f"{flywheel.delta_reached:.6f}")
         if exact <= 0.0:
             return [said.not_needed.format(delta=delta)]
-        lines = [said.exact.format(symbol=self.letter("J_f"), value=say.found(exact), unit=unit)]
+        lines = [
+            said.exact.format(symbol=self.letter("flywheel"), value=say.found(exact), unit=unit)
+        ]
         parts = split(self.drawing)
 
         def percent(value: float) -> str:
@@ -221,11 +223,11 @@ class MachineTeller:
         return [
             (self.words.note.number, "", [str(k) for k in range(len(angles))]),
             (f"φ_{{{flywheel.problem.drive.link}}}", "°", [say.number(a) for a in angles]),
-            column(self.letter("M resisting"), rows.moment, "N·m"),
-            column(self.letter("lever"), flywheel.lever(flywheel.machine.count), "N·m"),
+            column(self.letter("resisting moment"), rows.moment, "N·m"),
+            column(self.letter("moment by lever"), flywheel.lever(flywheel.machine.count), "N·m"),
             column(self.work, rows.work, "J"),
-            column(self.letter("T"), rows.gain, "J"),
-            column(self.letter("J"), rows.inertia, "kg·m²"),
+            column(self.letter("energy gain"), rows.gain, "J"),
+            column(self.letter("reduced inertia"), rows.inertia, "kg·m²"),
             column("dJ/dφ", rows.slope, "kg·m²"),
             column("ω", rows.omega, "1/s", 5),
             column("ε", rows.epsilon, "1/s²"),

@@ -5,22 +5,30 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+SYMBOLS = (
+    "resisting moment",
+    "driving moment",
+    "resisting work",
+    "driving work",
+    "energy gain",
+    "reduced inertia",
+    "flywheel",
+    "crank inertia",
+    "mean speed",
+    "moment by lever",
+)
+"""Quantities whose letters a language's `Notation` has."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MachineWording:
-    """Letters, names and sentences of the flywheel's sheet in one language, rich text.
+    """Names and sentences of the flywheel's sheet in one language, rich text.
 
-    Attributes
-    ----------
-    letters : mapping
-        Of the quantities: ``M`` and ``A`` of the side that changes, by whether it resists or
-        drives, and of the constant one; ``T``, ``J``, ``J_f``, ``J_crank``, ``omega``, ``lever``.
+    The letters of its quantities are symbols of the language's `Notation`.
     """
 
-    letters: Mapping[str, str]
     wanted: str
     means: Mapping[str, str]
-    sides: Mapping[str, str]
     source_signs: str
 
     diagrams: str

@@ -133,8 +133,8 @@ class _Sketch:
         length = self.drawing.flywheel.machine.turn_mm
         feet = {key: self.at(axes.origin) for key, axes in made.axes.items()}
         units = {"M": tell.moment + f", {tell.unit('N·m')}", "A": f"A, {tell.unit('J')}",
-                 "T": f"{tell.letter('T')}, {tell.unit('J')}",
-                 "J": f"{tell.letter('J')}, {tell.unit('kg·m²')}"}  # fmt: skip
+                 "T": f"{tell.letter('energy gain')}, {tell.unit('J')}",
+                 "J": f"{tell.letter('reduced inertia')}, {tell.unit('kg·m²')}"}  # fmt: skip
         points = {"M": made.moments, "A": made.work, "T": made.energies, "J": made.inertias}
         for key, names in points.items():
             ordinates = [z.imag - feet[key].imag for z in self.places(names)]
@@ -238,7 +238,7 @@ class _Sketch:
         constant = float(drawing.points.work[-1]) / flywheel.cycle / scales.moment
         level = foot + 1j * constant
         self._thin(level, level + length, pen=Pen.HIDDEN)
-        keeps = self.tell.letter(f"M {self.tell.keeps}")
+        keeps = self.tell.letter(f"{self.tell.keeps} moment")
         self._label(keeps, level + 0.9 * length, 1j, "constant", large=True)
 
     def _dimension(self, tail: complex, head: complex, low: float, letter: str) -> None:
@@ -260,7 +260,9 @@ class _Sketch:
         third = len(places) // 3
         along = places[0] + (places[-1] - places[0]) * 0.62
         side = 1j if (places[third] - places[0]).imag < (along - places[0]).imag / 2 else -1j
-        self._label(self.tell.letter(f"A {self.tell.keeps}"), along, side, "straight", large=True)
+        self._label(
+            self.tell.letter(f"{self.tell.keeps} work"), along, side, "straight", large=True
+        )
         k = 2 * len(places) // 3
         self._label(self.tell.work, places[k], -side, "work", large=True)
         for k in range(1, len(places) - 1):
@@ -298,8 +300,8 @@ class _Sketch:
         width = max((z - foot).real for z in curve)
         upper, lower = self.at(made.upper), self.at(made.lower)
         heights = [(z - foot).imag for z in (*curve, upper, lower)]
-        up = f"{tell.letter('T')}, {tell.unit('J')}"
-        self._axes(foot, width + 8.0, heights, up, tell.letter("J"), left=True)
+        up = f"{tell.letter('energy gain')}, {tell.unit('J')}"
+        self._axes(foot, width + 8.0, heights, up, tell.letter("reduced inertia"), left=True)
         self._curve([_smooth([*curve, curve[0]])], "E")
         self._dots(curve)
         every = max(1, self.drawing.count // 12)
@@ -358,7 +360,7 @@ def speed_diagram(solution: Solution, indices: Sequence[int], manner: Manner) ->
     unit = tell.unit("1/s")
     picture = diagram_picture(
         Abscissae("φ", marks, tuple(map(str, range(count + 1)))),
-        Ordinates(f"ω − {tell.letter('omega')}, {unit}", per_mm, tell.say),
+        Ordinates(f"ω − {tell.letter('mean speed')}, {unit}", per_mm, tell.say),
         [Curve("", (places,))],
         letter_height=manner.letter,
         name="speed",
@@ -449,7 +451,7 @@ def machine_table(solution: Solution, indices: Sequence[int], manner: Manner) ->
     title = manner.entry.title or tell.said.table
     table = table_block(columns, height, max_width=table_width(manner), leading=2, title=title,
                         row_height=max(6.0, 2.0 * height))  # fmt: skip
-    note = tell.said.lever_agrees.format(lever=tell.letter("lever"))
+    note = tell.said.lever_agrees.format(lever=tell.letter("moment by lever"))
     return Column([table, paragraph(note, height, table.width)], gap=3.0)
 
 

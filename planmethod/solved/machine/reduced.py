@@ -42,14 +42,17 @@ class Reduced:
         Reduced moment of each external load by its name; positive where it resists.
     weights : ndarray, N·m
         That of all weights, with the sign in which they are added.
+    links : mapping of str to ndarray, kg·m²
+        Share of each link that has mass in the reduced moment of inertia.
     inertia : ndarray, kg·m²
-        Reduced moment of inertia, that on the crank with it.
+        The whole of it, that on the crank with it.
     slope : ndarray, kg·m²
         Its derivative by the angle turned, rad.
     """
 
     loads: dict[str, Reals]
     weights: Reals
+    links: dict[str, Reals]
     inertia: Reals
     slope: Reals
 
@@ -85,21 +88,21 @@ def reduce(motion: MotionValues, machine: Machine) -> Reduced:
         for link in problem.mechanism.links
         for one in external(motion, dynamics, link)
     }
-    weights, energy, growth = nothing, nothing, nothing
+    weights, growth, links = nothing, nothing, {}
     for link, mass in dynamics.masses.items():
         turning = motion.links[link]
-        energy = energy + mass.inertia * turning.omega**2
+        links[link] = mass.inertia * turning.omega**2 / speed**2
         growth = growth + mass.inertia * turning.omega * turning.epsilon
         if mass.centre is None or not mass.mass:
             continue
         centre = motion.points[mass.centre]
         weights = weights + mass.mass * dynamics.gravity * centre.velocity.imag / speed
-        energy = energy + mass.mass * np.abs(centre.velocity) ** 2
+        links[link] = links[link] + mass.mass * np.abs(centre.velocity) ** 2 / speed**2
         growth = growth + mass.mass * (centre.velocity.conjugate() * centre.acceleration).real
     if machine.signs is Signs.SOURCE:
         weights = -weights
-    inertia = energy / speed**2 + machine.crank_inertia
-    return Reduced(loads, weights, inertia, 2.0 * growth / speed**3)
+    inertia = np.asarray(sum(links.values(), nothing), dtype=float) + machine.crank_inertia
+    return Reduced(loads, weights, links, inertia, 2.0 * growth / speed**3)
 
 
 def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:

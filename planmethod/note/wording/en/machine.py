@@ -3,21 +3,8 @@
 from planmethod.note.wording.machine_model import MachineWording
 
 MACHINE = MachineWording(
-    letters={
-        "M resisting": "M_{r}",
-        "M driving": "M_{d}",
-        "A resisting": "A_{r}",
-        "A driving": "A_{d}",
-        "T": "ΔT",
-        "J": "J_{r}",
-        "J_f": "J_{f}",
-        "J_crank": "J_{cr}",
-        "omega": "ω_{m}",
-        "lever": "M^{Zh}",
-    },
     wanted="{flywheel}, sizes of the flywheel",
     means={"half-sum": "(ω_{{max}} + ω_{{min}})/2", "time": "the mean in time"},
-    sides={"driving": "{moment} = const", "resisting": "{moment} = const"},
     source_signs="weights added with the sign of resistance, as the source adds them",
     diagrams="Diagrams of moments, work, energy, inertia, and the energy-mass diagram",
     by_middle="integrated by middle ordinates",

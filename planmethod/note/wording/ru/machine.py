@@ -3,21 +3,8 @@
 from planmethod.note.wording.machine_model import MachineWording
 
 MACHINE = MachineWording(
-    letters={
-        "M resisting": "M_{с}",
-        "M driving": "M_{д}",
-        "A resisting": "A_{с}",
-        "A driving": "A_{д}",
-        "T": "ΔT",
-        "J": "J_{п}",
-        "J_f": "J_{м}",
-        "J_crank": "J_{кр}",
-        "omega": "ω_{ср}",
-        "lever": "M^{Ж}",
-    },
     wanted="{flywheel}, размеры маховика",
     means={"half-sum": "(ω_{{max}} + ω_{{min}})/2", "time": "средняя по времени"},
-    sides={"driving": "{moment} = const", "resisting": "{moment} = const"},
     source_signs="силы тяжести прибавлены со знаком сопротивления, как в источнике",
     diagrams="Диаграммы моментов, работ, энергии, момента инерции и энергомасс",
     by_middle="интегрирование по средним ординатам",
