@@ -28,6 +28,7 @@ COMMANDS = (
     "specimen",
     "layouts",
     "new",
+    "teeth",
     "check",
     "bench",
     "form",

@@ -12,6 +12,7 @@ from planmethod.commands.problems import each, finish, guarded
 from planmethod.options import lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
 
 
@@ -36,16 +37,20 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
+    from planmethod.note.audit.audit import Audited
     from planmethod.note.audit.audit import audit as examine
     from planmethod.note.audit.table import Document
 
     if file is not None and file.lower().endswith(".toml"):
         raise click.UsageError(f"-o would write over the problem file {file}; name another one")
-    audits: list[tuple[Problem, Any]] = []
+    audits: list[tuple[Problem | KindProblem, Any]] = []
 
     def compare(problem: Problem) -> None:
         audits.append((problem, examine(problem, ruler=ruler)))
 
+    def compare_other(kind: Kind, problem: KindProblem) -> None:
+        audits.append((problem, [Audited(*pair) for pair in kind.published_values(problem)]))
+
     # A faulty problem ends the command here: the document is written whole or not at all.
-    finish(each(problems, variant, all_variants, compare))
+    finish(each(problems, variant, all_variants, compare, compare_other))
     put(Document(lang, ruler).markdown(audits), file)

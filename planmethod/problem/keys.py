@@ -38,7 +38,7 @@ POINT_FORMS = {
 }
 """The key that tells how a third point is given, and the keys that go with it."""
 POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
-CRANK = ("phi", "omega", "n", "epsilon")
+CRANK = ("phi", "omega", "n", "train", "epsilon")
 SLIDER = ("s", "v", "a")
 DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")

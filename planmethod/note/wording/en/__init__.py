@@ -15,6 +15,7 @@ from planmethod.note.wording.en.point import POINT
 from planmethod.note.wording.en.sheets import SHEETS
 from planmethod.note.wording.en.specimens import SPECIMENS
 from planmethod.note.wording.en.structure import STRUCTURE
+from planmethod.note.wording.en.teeth import TEETH
 from planmethod.note.wording.language import Language
 
 LANGUAGE = Language(
@@ -33,6 +34,7 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     machine=MACHINE,
+    teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,
 )
