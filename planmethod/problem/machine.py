@@ -35,8 +35,8 @@ from planmethod.problem.model import Drive
 M = TypeVar("M", bound=Enum)
 
 _EXAMPLE = '[machine] delta = "1/18", constant = "driving"'
-_MOST = 360
-"""Positions of a construction: one for each degree of a turn."""
+_MOST = 72
+"""Positions of a construction: what can be drawn on a sheet."""
 
 
 def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) -> Machine | None:

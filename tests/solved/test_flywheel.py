@@ -197,6 +197,12 @@ def test_wrong_data_are_told(message: str, change: tuple[str, str]) -> None:
     assert message in str(told.value)
 
 
+def test_an_indicator_has_as_many_strokes_as_the_cycle() -> None:
+    text = path_of("machines/engine").read_text("utf-8").replace("cycle_deg = 720", "")
+    with pytest.raises(ProblemError, match="4 strokes, point C makes 2 in a cycle of 360 degrees"):
+        Flywheel(loads(text, name="short"))
+
+
 def test_a_driving_slider_has_no_flywheel_and_loads_are_needed() -> None:
     text = path_of("linkages/ex1").read_text("utf-8") + "\n[machine]\ndelta = 0.05\n"
     with pytest.raises(ProblemError, match=r"there are no \[\[loads\]\]"):

@@ -283,6 +283,15 @@ def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | fl
             stroke = turn.stroke(load.at)
             if size.over is Over.PATH:
                 return _read(size, stroke.share(place))
+            given, there = round(size.at[-1]), len(stroke.dead)
+            if given != there:
+                fault = Fault(
+                    f"loads[{index}].force.strokes",
+                    f"{given} strokes, point {load.at} makes {there} in a cycle of "
+                    f"{np.degrees(turn.cycle):g} degrees",
+                    "A four-stroke engine has [machine] cycle_deg = 720.",
+                )
+                raise ProblemError(solution.problem.name, [fault])
             turned = turn.turned(solution.positions)
             return _read(size, stroke.progress(turned, place, turn.cycle))
 

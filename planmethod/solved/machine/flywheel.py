@@ -154,12 +154,14 @@ class Flywheel(Remembering):
             return
         driving = self.machine.constant is Side.DRIVING
         does, other = ("resist", "resisting") if driving else ("drive", "driving")
-        resisted = self.sign * self.work_per_cycle
+        done = -self.sign * self.work_per_cycle  # by the loads; positive where they drive
+        nothing = abs(done) <= least
         message = (
             f"a constant {self.machine.constant.value} moment cannot balance the work of the "
-            f"loads over the cycle: they do {-resisted:.6g} J and must {does}"
+            f"loads over the cycle: they do {0.0 if nothing else done:.6g} J and must {does}"
         )
-        hint = f'Check their directions and phases, or say constant = "{other}".'
+        hint = "Check their directions and phases"
+        hint += "." if nothing else f', or say constant = "{other}".'
         raise ProblemError(self.problem.name, [Fault("machine.constant", message, hint)])
 
     # Exactly ---------------------------------------------------------------------------------
