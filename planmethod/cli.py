@@ -28,6 +28,7 @@ COMMANDS = (
     "specimen",
     "layouts",
     "new",
+    "synthesize",
     "teeth",
     "check",
     "bench",

@@ -94,6 +94,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
                 ("solve", EX3, "--npz", "ex3.npz"),
                 ("solve", EX3, "--ask", "v_E"),
                 ("protocol", EX3),
+                ("synthesize", "slotted", "--K_v", "1.22", "--centres", "1.08"),
                 ("solve", TRAIN, "--json"),
                 ("teeth", "--U", "6.5"),
             ),

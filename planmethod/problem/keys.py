@@ -44,8 +44,10 @@ DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
-MOVING = ("x", "y", "r", "phi", "s", "radius", "t")
+MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "theta", "t", "show")
 """Keys of ``[point]``."""
+ROLLING = ("radius", "r", "angle", "on", "within", "arm")
+"""Keys of ``point.wheel``."""
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP: Mapping[str, str] = MappingProxyType(
     {
@@ -162,6 +164,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "span": SPAN,
     "rule": RULE,
     "moving": MOVING,
+    "rolling": ROLLING,
     "scales": SCALES,
     "stamp": tuple(STAMP),
     "sheet": SHEET,

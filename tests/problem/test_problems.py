@@ -161,6 +161,7 @@ SCHEMA_TABLES = {
     "span": SCHEMA["$defs"]["span"]["properties"],
     "rule": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
     "moving": SCHEMA["$defs"]["moving"]["properties"],
+    "rolling": SCHEMA["$defs"]["rolling"]["properties"],
     "scales": SCHEMA["$defs"]["scales"]["properties"],
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
     "sheet": SCHEMA["$defs"]["sheet"]["properties"],

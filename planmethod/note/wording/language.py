@@ -19,6 +19,7 @@ from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.synthesis_model import SynthesisWording
 from planmethod.note.wording.teeth_model import TeethWording
 
 
@@ -50,6 +51,8 @@ class Language:
         A machine and its flywheel.
     gears, teeth : GearWording, TeethWording
         Gear trains, and the choice of their teeth.
+    synthesis : SynthesisWording
+        Syntheses.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -71,6 +74,7 @@ class Language:
     point: PointWording
     gears: GearWording
     machine: MachineWording
+    synthesis: SynthesisWording
     teeth: TeethWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

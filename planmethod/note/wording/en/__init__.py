@@ -15,6 +15,7 @@ from planmethod.note.wording.en.point import POINT
 from planmethod.note.wording.en.sheets import SHEETS
 from planmethod.note.wording.en.specimens import SPECIMENS
 from planmethod.note.wording.en.structure import STRUCTURE
+from planmethod.note.wording.en.synthesis import SYNTHESIS
 from planmethod.note.wording.en.teeth import TEETH
 from planmethod.note.wording.language import Language
 
@@ -34,6 +35,7 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     machine=MACHINE,
+    synthesis=SYNTHESIS,
     teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,

@@ -6,6 +6,7 @@ UNITS = {
     "m": "m",
     "mm": "mm",
     "mm²": "mm²",
+    "s": "s",
     "m/s": "m/s",
     "m/s²": "m/s²",
     "1/min": "min⁻¹",

@@ -16,6 +16,7 @@ from planmethod.note.wording.ru.point import POINT
 from planmethod.note.wording.ru.sheets import SHEETS
 from planmethod.note.wording.ru.specimens import SPECIMENS
 from planmethod.note.wording.ru.structure import STRUCTURE
+from planmethod.note.wording.ru.synthesis import SYNTHESIS
 from planmethod.note.wording.ru.teeth import TEETH
 
 LANGUAGE = Language(
@@ -34,6 +35,7 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     machine=MACHINE,
+    synthesis=SYNTHESIS,
     teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,
