@@ -22,7 +22,7 @@ from planmethod.plans.diagrams.calculus import Integration, integrate
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """What the diagrams are drawn of (данные построения).
+    """What the diagrams are drawn of as numbers.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Places:
 
 @dataclass(frozen=True, slots=True)
 class EnergyMass:
-    """The diagrams as steps (построение диаграмм).
+    """The diagrams as steps (диаграмма энергомасс).
 
     Attributes
     ----------
