@@ -22,7 +22,7 @@ from planmethod.plans.diagrams.calculus import Integration, integrate
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """What the diagrams are drawn of as numbers.
+    """Numbers that the diagrams are drawn of.
 
     Attributes
     ----------
