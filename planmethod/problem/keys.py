@@ -22,6 +22,7 @@ TOP = (
     "variants",
     "dynamics",
     "loads",
+    "machine",
     "gears",
     "point",
     "meshing",
@@ -97,7 +98,27 @@ CONFIG = ("stamp", "sheet")
 DYNAMICS = ("gravity", "resultant", "links")
 MASS = ("mass", "centre", "inertia")
 LOAD = ("name", "link", "at", "force", "couple", "angle", "against", "phases")
-TABLE = ("over", "values", "interpolation")
+TABLE = ("law", "over", "values", "interpolation", "strokes", "area", "sides", "area_2")
+INDICATOR = ("strokes", "area", "sides", "area_2")
+"""Keys of a table that is an indicator diagram."""
+MACHINE = (
+    "delta",
+    "mean",
+    "constant",
+    "cycle_deg",
+    "J_crank",
+    "count",
+    "pole_mm",
+    "turn_mm",
+    "mu_M",
+    "mu_J",
+    "signs",
+    "ordinates",
+    "method",
+    "phi_0",
+    "flywheel",
+)
+FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
 ANSWER = (
@@ -157,6 +178,8 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "load": LOAD,
     "table": TABLE,
     "phases": PHASES,
+    "machine": MACHINE,
+    "flywheel": FLYWHEEL,
     "gears": GEARS,
     "wheel": WHEEL,
     "mesh": MESH,

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from planmethod.problem.load_records import Dynamics
+    from planmethod.problem.load_records import Dynamics, Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -359,6 +359,8 @@ class Problem:
         What students are asked for, in the order of the file; empty where it does not say.
     dynamics : Dynamics or None
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
+    machine : Machine or None
+        What the choice of a flywheel needs; None when the file has no ``[machine]``.
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
     """
@@ -381,6 +383,7 @@ class Problem:
     variants: tuple[str, ...] = ()
     variant: str | None = None
     dynamics: Dynamics | None = None
+    machine: Machine | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
 
     def is_block(self, slide: Slide) -> bool:

@@ -184,11 +184,15 @@ def _read_parts(
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
     assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
-    dynamics = None
+    dynamics = machine = None
+    if "machine" in given:
+        from planmethod.problem.machine import read_machine  # few files have one
+
+        machine = read_machine(faults, given, drive)
     if "dynamics" in given or "loads" in given:
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
-        dynamics = read_dynamics(faults, given, links, frame.points, drive)
+        dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     published = read_published(
         faults,
@@ -231,6 +235,7 @@ def _read_parts(
         published=published,
         answers=answers,
         dynamics=dynamics,
+        machine=machine,
         tables=tables,
     )
 

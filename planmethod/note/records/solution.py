@@ -171,12 +171,19 @@ def record(solution: Solution) -> dict[str, Any]:
 
             entry["forces"] = forces_record(solution, i)
         positions.append(entry)
+    machine = {}
+    if solution.problem.machine is not None:
+        from planmethod.note.records.machine import machine_record
+        from planmethod.solved.machine.flywheel import flywheel_of
+
+        machine["machine"] = machine_record(flywheel_of(solution), solution.profile)
     return {
         "schema": SCHEMA,
         "problem": solution.problem.name,
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
         "structure": structure_record(solution.structure),
         "positions": positions,
+        **machine,
     }
 
 

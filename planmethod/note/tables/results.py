@@ -64,6 +64,10 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
             lines += position_tables(solution, words, index, sigmas)
             lines += _forces(solution, words, index, sigmas)
             lines += _causes(solution, words, index) if sigma else []
+    if solution.problem.machine is not None:
+        from planmethod.note.tables.machine import machine_tables
+
+        lines += ["", *machine_tables(solution, words)]
     ruler = given(solution.hand.ruler, words)
     lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
     return "\n".join(lines)

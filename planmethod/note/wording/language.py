@@ -13,6 +13,7 @@ from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.gear_model import GearWording
+from planmethod.note.wording.machine_model import MachineWording
 from planmethod.note.wording.meshing_model import MeshingWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.point_model import PointWording
@@ -49,6 +50,8 @@ class Language:
         The moving point.
     gears, teeth, meshing : GearWording, TeethWording, MeshingWording
         Gear trains, the choice of their teeth, two wheels in mesh.
+    machine : MachineWording
+        A machine and its flywheel.
     synthesis : SynthesisWording
         Syntheses.
     layouts : mapping
@@ -71,6 +74,7 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    machine: MachineWording
     meshing: MeshingWording
     synthesis: SynthesisWording
     teeth: TeethWording

@@ -76,6 +76,13 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "balance-diagram": Kind(_late("cycle", "balance_diagram"), _DIAGRAM),
         "reaction-diagram": Kind(_late("cycle", "reaction_diagram"), _DIAGRAM[1:], each=True),
         "hodographs": Kind(_late("cycle", "hodographs"), (*_DIAGRAM, "per_row")),
+        "machine-statement": Kind(_late("flywheel", "statement_block"), _TEXT),
+        "flywheel-diagrams": Kind(_late("flywheel", "diagrams_view"), _VIEW[:-1]),
+        "machine-table": Kind(_late("flywheel", "machine_table"), _TEXT),
+        "flywheel-calculation": Kind(_late("flywheel", "calculation_block"), _TEXT),
+        "speed-diagram": Kind(_late("flywheel", "speed_diagram"), _DIAGRAM),
+        "load-diagram": Kind(_late("flywheel", "load_diagrams"), _DIAGRAM),
+        "flywheel": Kind(_late("flywheel", "wheel_view"), _DIAGRAM),
         "cycle-reactions": Kind(_late("cycletable", "reactions_table"), _TEXT),
     }
 )

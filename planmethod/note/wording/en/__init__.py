@@ -8,6 +8,7 @@ from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
 from planmethod.note.wording.en.gears import GEARS
 from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.en.machine import MACHINE
 from planmethod.note.wording.en.meshing import MESHING
 from planmethod.note.wording.en.note import NOTE
 from planmethod.note.wording.en.numbers import NOTATION
@@ -34,6 +35,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    machine=MACHINE,
     meshing=MESHING,
     synthesis=SYNTHESIS,
     teeth=TEETH,

@@ -121,6 +121,8 @@ CONTROL = ControlWording(
         "trajectory": "trajectory",
         "structure": "structural schemes",
         "meshing": "wheels in mesh",
+        "flywheel": "diagrams of the flywheel",
+        "diagram": "diagram",
         "stamp": "title block",
         "": "sheet",
     },

@@ -9,6 +9,7 @@ from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
 from planmethod.note.wording.ru.gears import GEARS
 from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.ru.machine import MACHINE
 from planmethod.note.wording.ru.meshing import MESHING
 from planmethod.note.wording.ru.note import NOTE
 from planmethod.note.wording.ru.numbers import NOTATION
@@ -34,6 +35,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    machine=MACHINE,
     meshing=MESHING,
     synthesis=SYNTHESIS,
     teeth=TEETH,

@@ -118,6 +118,8 @@ CONTROL = ControlWording(
         "trajectory": "траектория",
         "structure": "структурные схемы",
         "meshing": "картина зацепления",
+        "flywheel": "диаграммы маховика",
+        "diagram": "диаграмма",
         "stamp": "основная надпись",
         "": "лист",
     },
