@@ -165,9 +165,10 @@ def angle_of_ratio(ratio: float) -> float:
         The ratio is less than 1.
     """
     if ratio < 1.0:
+        other = f"--K_v {1.0 / ratio:.10g}" if ratio > 0.0 else "1 or more"
         raise AskedError(
             f"K_v = {ratio:.10g} is less than 1, but it is the slow stroke's time over the quick "
-            f"one's. Give --K_v {1.0 / ratio:.10g}."
+            f"one's. Give {other}."
         )
     return 180.0 * (ratio - 1.0) / (ratio + 1.0)
 

@@ -152,6 +152,16 @@ def test_both_sides_of_a_piston_work_one_stroke_apart() -> None:
     assert near(Flywheel(loads(rod, name="rod")).work_per_cycle, 1.5 * one.work_per_cycle)
 
 
+def test_a_path_begins_at_the_end_that_position_0_is_nearer_to() -> None:
+    text = PRESS.replace("phi_0 = 98.918918918919", "phi_0 = START")
+    before, after = (
+        Flywheel(loads(text.replace("START", start), name="press", variant="path"))
+        for start in ("98.9", "98.94")  # one short of the dead position, one past it
+    )
+    assert abs(before.exact.inertia - after.exact.inertia) < 1e-9
+    assert near(before.exact.inertia, CASES["rod/path/true"]["J_f"]["exact"], 1e-6)
+
+
 def test_a_crank_that_turns_the_other_way_sees_the_mirror_image() -> None:
     text = path_of("machines/compressor").read_text("utf-8").replace("= 9.81", "= 0")
     one = Flywheel(loads(text, name="ccw"))

@@ -218,6 +218,7 @@ REFUSED = {
     "slotted --K_v 1 --centres 1": (4, "swing through 0 deg"),
     "slotted --swing 180 --centres 1": (4, "less than 180"),
     "slotted --K_v 0.999 --centres 1": (2, "less than 1"),
+    "slotted --K_v -1 --centres 1": (2, "Give 1 or more"),
     "slotted --K_v 3.5 --centres 0.4 --stroke 0.3 --rod 0.05": (4, "longer than 0.0544084"),
     "slotted --K_v 1.2 --swing 30 --centres 1": (2, "Given:"),
     "slotted --K_v nan --centres 1": (2, "out of range"),

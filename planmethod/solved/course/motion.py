@@ -54,9 +54,10 @@ class Stroke:
     Attributes
     ----------
     start, towards : complex, m
-        The end of the path where the stroke of position 0 begins, and the vector to its other end.
+        The end of the path that position 0 is nearer to, and the vector to its other end.
     dead : ndarray of shape (m,), rad
-        Where the point stands, angles turned from position 0; the first not after position 0.
+        Where the point stands, angles turned from position 0, rising within a cycle. The first is
+        the last before position 0 or the next after it, whichever is nearer along the path.
     """
 
     start: complex
@@ -245,7 +246,8 @@ class TurnMotion:
             raise _fault(
                 self.problem, "loads", f"point {point} does not move to and fro", "Check `at`."
             )
-        if not at_start:  # the stroke of position 0 began before it
+        last, following = np.abs(first.place[0] - places[[-1, 0]])
+        if not at_start and last <= following:
             dead = np.append(dead[-1] - self.cycle, dead[:-1])
             places = np.roll(places, 1)
         along = (places * way.conjugate()).real
