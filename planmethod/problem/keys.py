@@ -24,6 +24,7 @@ TOP = (
     "loads",
     "gears",
     "point",
+    "cycle",
 )
 FRAME = ("guides",)
 GUIDE = ("through", "angle")
@@ -45,6 +46,8 @@ RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
 MOVING = ("x", "y", "r", "phi", "s", "radius", "t")
 """Keys of ``[point]``."""
+CYCLE = ("output", "zero", "count", "length", "pole", "differentiation")
+POLE = ("v", "a")
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP: Mapping[str, str] = MappingProxyType(
     {
@@ -141,6 +144,8 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "span": SPAN,
     "rule": RULE,
     "moving": MOVING,
+    "cycle": CYCLE,
+    "pole": POLE,
     "scales": SCALES,
     "stamp": tuple(STAMP),
     "sheet": SHEET,
@@ -163,6 +168,7 @@ LINK_POINT_LIMIT = 60
 LINK_KEY_LIMIT = 200
 LINK_LIMIT = 60
 POSITION_LIMIT = 10_000
+CYCLE_LIMIT = 360
 VARIANT_LIMIT = 400
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200
