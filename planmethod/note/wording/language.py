@@ -9,6 +9,7 @@ from planmethod.note.numbers import Notation
 from planmethod.note.wording.audit_model import AuditWording
 from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.control_model import ControlWording
+from planmethod.note.wording.cycle_model import CycleWording
 from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
@@ -46,6 +47,8 @@ class Language:
         The moving point.
     gears : GearWording
         Gear trains.
+    cycle : CycleWording
+        The turn of a crank.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -66,5 +69,6 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    cycle: CycleWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

@@ -93,6 +93,22 @@ class Graph:
         return np.array([float(np.reshape(y, -1)[0]) for y in drawn])
 
 
+@dataclass(frozen=True, slots=True)
+class Deviation:
+    """How far a way is off the exact diagram, mm: the greatest and the mean square (отклонение)."""
+
+    most: float
+    rms: float
+
+    @classmethod
+    def of(cls, found: Reals, exact: Reals) -> Deviation:
+        """Compare ordinates with exact ones; what does not exist is left out."""
+        off = (found - exact)[np.isfinite(found - exact)]
+        if not off.size:
+            return cls(np.nan, np.nan)
+        return cls(float(np.max(np.abs(off))), float(np.sqrt(np.mean(off**2))))
+
+
 class Diagrams(Remembering):
     """Diagrams of a turn.
 
@@ -239,10 +255,10 @@ class Diagrams(Remembering):
     # Plans ---------------------------------------------------------------------------------------
 
     @cached_property
-    def plans(self) -> tuple[Reals, Reals] | None:
-        """Velocities and accelerations read off the plans with the ruler, mm of the diagrams.
+    def plans(self) -> tuple[Deviation, Deviation] | None:
+        """How far velocities and accelerations read off the plans are off, mm of the diagrams.
 
-        Their senses are those of the exact ones. None where a position has no plans.
+        None where there are no plans in some position, or the crank stands still.
         """
         turn = self.turn
         solution = Solution(
@@ -252,19 +268,17 @@ class Diagrams(Remembering):
         )
         if self.mu_v is None or self.mu_a is None:
             return None
-        rates = turn.output.rates(solution, solution.read(Float64()))
-        _, sign = self._start
+        exact = turn.output.rates(solution, solution.read(Float64()))
         letters = ("v", "a") if turn.output.slide is not None else ("omega", "epsilon")
         of = turn.output.point if turn.output.slide is not None else turn.output.link
         try:
-            sizes = [np.abs(solution.read_off(f"{letter}_{of}")) for letter in letters]
+            read = [np.abs(solution.read_off(f"{letter}_{of}")) for letter in letters]
         except AssemblyError:
             return None
-        v, a = (
-            sign * np.sign(rate) * size / mu
-            for rate, size, mu in zip(rates, sizes, (self.mu_v, self.mu_a), strict=True)
+        v, a = (np.abs(one) for one in exact)
+        return Deviation.of(read[0] / self.mu_v, v / self.mu_v), Deviation.of(
+            read[1] / self.mu_a, a / self.mu_a
         )
-        return v, a
 
 
 def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
@@ -316,22 +330,6 @@ def _taken_off(board: Board, axes: Axes, at: Reals, path: Reals) -> list[PointNa
         )
         for k, (x, place) in enumerate(zip(at, places, strict=True))
     ]
-
-
-@dataclass(frozen=True, slots=True)
-class Deviation:
-    """How far a way is off the exact diagram, mm: the greatest and the mean square (отклонение)."""
-
-    most: float
-    rms: float
-
-    @classmethod
-    def of(cls, found: Reals, exact: Reals) -> Deviation:
-        """Compare ordinates with exact ones; what does not exist is left out."""
-        off = (found - exact)[np.isfinite(found - exact)]
-        if not off.size:
-            return cls(np.nan, np.nan)
-        return cls(float(np.max(np.abs(off))), float(np.sqrt(np.mean(off**2))))
 
 
 def deviations(

@@ -20,8 +20,6 @@ from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointN
 from planmethod.errors import Fault, ProblemError
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import CycleTask, Problem, Zero
-from planmethod.solved.failures import Failure
-from planmethod.solved.impossible import explain
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import PointMotion, Solution
 from planmethod.solved.turn.output import Output, find_output, pressure_on
@@ -122,10 +120,10 @@ class Turn(Remembering):
     # Range ---------------------------------------------------------------------------------------
 
     @cached_property
-    def _closing(self) -> list[Name]:
-        """Steps of the position plan that may find no meeting, in their order."""
+    def _closing(self) -> list[tuple[tuple[str, ...], Name]]:
+        """Steps of the position plan that may find no meeting, after the links of their group."""
         return [
-            step.out
+            (section.group.links if section.group else (), step.out)
             for section in self.unit.construction.sections
             if section.kind is PlanKind.POSITION
             for step in section.steps
@@ -158,7 +156,7 @@ class Turn(Remembering):
         looks = start + _ASIDE + TURN * np.arange(LOOKS) / LOOKS
         # A closing that fails between two looks only: where its margin is least.
         reading, narrow = self.read(looks), []
-        for name in self._closing:
+        for _, name in self._closing:
             margin = np.broadcast_to(
                 np.asarray(reading.trace.margin[name], dtype=float), looks.shape
             )
@@ -191,7 +189,7 @@ class Turn(Remembering):
 
     def _limit(self, inside: float, outside: float) -> float:
         """Return the position between two where the mechanism just closes."""
-        failing = [n for n in self._closing if self._margin(n, np.array([outside]))[0] < 0]
+        failing = [n for _, n in self._closing if self._margin(n, np.array([outside]))[0] < 0]
         if failing:
             return root(lambda p: self._margin(failing[0], p), inside, outside)
 
@@ -200,14 +198,22 @@ class Turn(Remembering):
 
         return root(able, inside, outside)
 
-    def beyond(self, limit: float) -> Failure:
-        """Return why nothing is assembled beyond a limit of the range."""
+    def stopping(self, limit: float) -> tuple[str, ...]:
+        """Return the links of the group that does not close beyond a limit of the range."""
         assert self.range is not None
-        low, high = self.range
-        off = 1e-3 * max(1.0, high - low) * (1 if limit == high else -1)
-        at = np.array([limit + off])
-        made = Solution(self.unit.problem, positions=at.tolist())
-        return explain(made.construction.draft, made.construction.program, made.read(Float64()), at)
+        outside = np.array([limit + (1e-3 if limit == self.range[1] else -1e-3)])
+        return next((own for own, name in self._closing if self._margin(name, outside)[0] < 0), ())
+
+    @cached_property
+    def tightest(self) -> tuple[tuple[str, ...], float] | None:
+        """Links of the group that comes nearest to not closing in a turn, and where, degrees."""
+        looks, reading, _ = self._looks
+        found = []
+        for own, name in self._closing:
+            margin = np.broadcast_to(np.asarray(reading.trace.margin[name], float), looks.shape)
+            k = int(np.argmin(margin))
+            found.append((float(margin[k]), own, float(looks[k])))
+        return min(found)[1:] if found else None
 
     # Output --------------------------------------------------------------------------------------
 
