@@ -66,7 +66,7 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     return {
         "output": turn.output.name,
         "zero_deg": plain(turn.zero),
-        "positions_deg": _listed(turn.positions) if diagrams is not None else None,
+        "positions_deg": _listed(turn.positions),
         "extremes": [
             {"phi_deg": plain(one.phi), "value": plain(one.value)} for one in turn.extremes
         ],

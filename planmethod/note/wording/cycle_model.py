@@ -49,4 +49,3 @@ class CycleWording:
 
     # Sheet
     wanted: str
-    chosen: str

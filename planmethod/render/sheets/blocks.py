@@ -76,6 +76,12 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "balance-diagram": Kind(_late("cycle", "balance_diagram"), _DIAGRAM),
         "reaction-diagram": Kind(_late("cycle", "reaction_diagram"), _DIAGRAM[1:], each=True),
         "hodographs": Kind(_late("cycle", "hodographs"), (*_DIAGRAM, "per_row")),
+        "turn-statement": Kind(_late("turn", "turn_statement"), _TEXT),
+        "kinematic-diagrams": Kind(_late("turn", "diagrams_view"), _DIAGRAM),
+        "chosen-plans": Kind(_late("turn", "chosen_plans"), ("of", *_VIEW[:-1])),
+        "hodograph": Kind(_late("turn", "hodograph_view"), ("of", *_DIAGRAM)),
+        "turn-table": Kind(_late("turn", "turn_table"), _TEXT),
+        "deviations": Kind(_late("turn", "deviations_table"), _TEXT),
         "cycle-reactions": Kind(_late("cycletable", "reactions_table"), _TEXT),
     }
 )

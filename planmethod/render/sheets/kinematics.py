@@ -24,6 +24,7 @@ from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 from planmethod.solved.scaling import Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import turn_of
 
 MOST_POSITIONS = 120
 """Most positions drawn in one call: ten sheets of a dozen plans."""
@@ -149,16 +150,18 @@ def kinematics_sheets(
     CompositionError
         When the composition is faulty.
     """
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
+    if positions is None and made is not None and made.turn:
+        positions = turn_of(Solution(problem)).positions.tolist()
     asked = problem.drive.positions if positions is None else tuple(positions)
     if len(asked) > MOST_POSITIONS:
         raise LayoutError(
             f"{problem.name}: sheets are drawn for at most {MOST_POSITIONS} positions, "
             f"{len(asked)} are asked. Ask fewer (--phi 0:360:30); for tables take solve --csv."
         )
-    if layout is None:
-        layout = "one-position" if len(asked) == 1 else "many-positions"
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    made = layout if isinstance(layout, Composition) else composition(layout, words.lang)
+    if made is None:
+        made = composition("one-position" if len(asked) == 1 else "many-positions", words.lang)
     _check_positions(made, len(asked))
     paper = paper or problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)

@@ -381,7 +381,14 @@ class Turn(Remembering):
 
     @cached_property
     def positions(self) -> Reals:
-        """Positions of the cycle, numbered as the driver goes, ndarray of shape (count,)."""
+        """Positions of the cycle, numbered as the driver goes, ndarray of shape (count,).
+
+        Of a crank that does not turn fully so many within its range, the limits left out.
+        """
+        if self.range is not None:
+            shares = (np.arange(self.task.count) + 0.5) / self.task.count
+            low, high = self.range[:: self.sense]
+            return low + (high - low) * shares
         return self.at(np.arange(self.task.count) / self.task.count)
 
     def at(self, shares: Reals) -> Reals:

@@ -35,19 +35,19 @@ CYCLE = CycleWording(
     "s_{{k}} are the distances of the point (arcs of the link) from position 0, taken off the "
     "scheme.",
     ray_steps={
-        "chords": "From the pole P_{{v}} (K_{{v}} = {pole} mm) rays parallel to the chords k–(k+1) "
+        "chords": "From the pole P_{{v}} (K_{{1}} = {pole} mm) rays parallel to the chords k–(k+1) "
         "of the diagram of s; what they cut off on the axis of v is carried to the middles of the "
         "intervals; the ends are joined by a smooth curve.",
-        "tangents": "From the pole P_{{v}} (K_{{v}} = {pole} mm) rays parallel to the tangents of "
+        "tangents": "From the pole P_{{v}} (K_{{1}} = {pole} mm) rays parallel to the tangents of "
         "the diagram of s (that in k is parallel to the chord (k−1)–(k+1)); what they cut off on "
         "the axis of v is carried to the positions k; the ends are joined by a smooth curve.",
-        "curve": "From the pole P_{{v}} (K_{{v}} = {pole} mm) rays parallel to the chords of the "
+        "curve": "From the pole P_{{v}} (K_{{1}} = {pole} mm) rays parallel to the chords of the "
         "diagram of s; what they cut off on the axis of v is carried to the middles of the "
         "intervals; a smooth curve goes through the ends and is read in the positions k.",
     },
-    again="The diagram of a is made of that of v in the same way, K_{{a}} = {pole} mm.",
-    scales="Scales: {scales}; μ_{{v}} = μ_{{s}}/(μ_{{t}}·K_{{v}}), μ_{{a}} = "
-    "μ_{{v}}/(μ_{{t}}·K_{{a}}).",
+    again="The diagram of a is made of that of v in the same way, K_{{2}} = {pole} mm.",
+    scales="Scales: {scales}; μ_{{v}} = μ_{{s}}/(μ_{{t}}·K_{{1}}), μ_{{a}} = "
+    "μ_{{v}}/(μ_{{t}}·K_{{2}}).",
     table="The turn by positions",
     analogues="Transfer functions of the output",
     deviations="Deviations of the diagrams from the exact ones, mm",
@@ -60,5 +60,4 @@ CYCLE = CycleWording(
     mean="RMS",
     wanted="To find: the extreme positions, the stroke, K_{v}, the pressure angle; to draw the "
     "plans of positions, velocities and accelerations, the hodograph and the diagrams.",
-    chosen="Acceleration plan, position {number}",
 )
