@@ -26,6 +26,7 @@ class CycleWording:
     pressure: str
 
     # Diagrams
+    of: Mapping[str, str]
     diagrams: str
     hodograph: Mapping[str, str]
     drawn: str

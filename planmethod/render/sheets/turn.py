@@ -46,7 +46,12 @@ def turn_statement(solution: Solution, indices: Sequence[int], manner: Manner) -
     return stated(facts[1:], words.cycle.wanted, manner, found)
 
 
-def _without(manner: Manner) -> Block:
+def _whose(turn: Turn, manner: Manner) -> str:
+    output = turn.output
+    return manner.words.cycle.of[output.unit].format(name=output_name(output))
+
+
+def _without(turn: Turn, manner: Manner) -> Block:
     """Return why there are no diagrams."""
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     said = manner.words.cycle
@@ -60,9 +65,9 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
     """Return the diagrams of s, v and a under one another."""
     diagrams, words = diagrams_of(solution), manner.words
     if diagrams is None:
-        return _without(manner)
+        return _without(turn_of(solution), manner)
     picture = kinematic_picture(diagrams, manner.letter, words.say)
-    title = words.cycle.diagrams.format(of=output_name(diagrams.turn.output))
+    title = words.cycle.diagrams.format(of=_whose(diagrams.turn, manner))
     scales = diagram_scales(diagrams, words)
     k = [
         f"K_{{{number}}} = {words.say.given(pole)} {words.say.units['mm']}"
@@ -166,7 +171,7 @@ def turn_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     """Return the table of the turn by positions."""
     diagrams = diagrams_of(solution)
     if diagrams is None:
-        return _without(manner)
+        return _without(turn_of(solution), manner)
     return _table(cycle_columns(diagrams, manner.words), 2, manner.words.cycle.table, manner)
 
 
@@ -174,6 +179,6 @@ def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner)
     """Return how far the diagrams are off by every way."""
     diagrams = diagrams_of(solution)
     if diagrams is None:
-        return _without(manner)
+        return _without(turn_of(solution), manner)
     columns = deviation_columns(diagrams, manner.words)
     return _table(columns, 2, manner.words.cycle.deviations, manner)

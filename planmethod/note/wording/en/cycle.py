@@ -24,10 +24,11 @@ CYCLE = CycleWording(
     range="the crank does not turn fully: the mechanism assembles for φ from {low} to {high}, "
     "beyond them links {links} do not close",
     pressure="pressure angle: greatest {most} at φ = {most_at}, least {least} at φ = {least_at}",
+    of={"m": "point {name}", "deg": "link {name}"},
     diagrams="Kinematic diagrams of {of}",
     hodograph={
-        "velocity": "Hodograph of the velocity of {of}",
-        "acceleration": "Hodograph of the acceleration of {of}",
+        "velocity": "Hodograph of the velocity of point {of}",
+        "acceleration": "Hodograph of the acceleration of point {of}",
     },
     drawn="Thick lines: the construction ({way}); thin lines: the exact curves",
     chords={"chords": "chords", "tangents": "tangents", "curve": "chords of the curve"},

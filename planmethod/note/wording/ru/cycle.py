@@ -25,8 +25,12 @@ CYCLE = CycleWording(
     "замыкается группа звеньев {links}",
     pressure="угол давления: наибольший {most} при φ = {most_at}, наименьший {least} при "
     "φ = {least_at}",
+    of={"m": "точки {name}", "deg": "звена {name}"},
     diagrams="Кинематические диаграммы {of}",
-    hodograph={"velocity": "Годограф скорости {of}", "acceleration": "Годограф ускорения {of}"},
+    hodograph={
+        "velocity": "Годограф скорости точки {of}",
+        "acceleration": "Годограф ускорения точки {of}",
+    },
     drawn="Толстые линии — построение ({way}), тонкие — точные кривые",
     chords={"chords": "хорды", "tangents": "касательные", "curve": "по кривой"},
     scheme_steps="Ось φ длиной {length} мм делится на {count} частей; ординаты s_{{k}} — "
