@@ -48,7 +48,7 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         low, high = (degrees(limit, words) for limit in turn.range)
         links = tuple(dict.fromkeys(link for end in turn.range for link in turn.stopping(end)))
         facts.append(said.range.format(low=low, high=high, links=", ".join(links)))
-    facts.append(said.zero.format(phi=degrees(turn.zero, words)))
+    facts.append(said.zero.format(phi=degrees(float(turn.positions[0]), words)))
     if turn.extremes:
         ends = (f"{degrees(one.phi, words)} ({size(one.value)})" for one in turn.extremes)
         facts.append(said.extremes.format(extremes=", ".join(ends)))

@@ -131,7 +131,7 @@ def diagram_picture(
             name=f"{name}: position {k}",
         )
         for k, (x, number) in enumerate(zip(across.at, across.numbers, strict=True))
-        if k % every == 0
+        if number and k % every == 0
     ]
     return lettered(items, [*numbers, *labels, *_letters(curves, letter_height, name)])
 

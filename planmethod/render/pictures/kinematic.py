@@ -28,7 +28,7 @@ EXACT = "exact"
 """Letter of the thin exact curves in their tags."""
 
 _FINE = 361  # places of a smooth curve
-_NUMBERED = 12  # rays with numbers at the most
+_NUMBERED = 12  # positions at the most that rays and all axes have numbers of
 _APART = 4.0  # mm between two diagrams
 _CLEAR = 3.2  # mm between numbers of rays on the axis
 
@@ -43,7 +43,7 @@ def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -
     trace = evaluate(graph.program, dict(graph.data), Float64())
     pictures = [
         diagram_picture(
-            _across(diagrams),
+            _across(diagrams, numbered=not number or diagrams.count <= _NUMBERED),
             Ordinates(f"{symbol}, {say.units[unit]}", scale.per_mm, say),
             _curves(diagrams, graph, trace, number),
             letter_height=letter_height,
@@ -73,9 +73,10 @@ def _axes(diagrams: Diagrams) -> Iterator[tuple[str, str, Scale]]:
             yield f"{letter}_{index}", scales[name].unit, scales[name]
 
 
-def _across(diagrams: Diagrams) -> Abscissae:
+def _across(diagrams: Diagrams, *, numbered: bool) -> Abscissae:
+    """Return the axis of φ; of many positions only the first diagram has the numbers."""
     at = diagrams.task.length * diagrams.shares
-    numbers = [*map(str, range(diagrams.count)), "0"]
+    numbers = [str(k % diagrams.count) if numbered else "" for k in range(diagrams.count + 1)]
     return Abscissae("φ", tuple(at.tolist()), tuple(numbers))
 
 

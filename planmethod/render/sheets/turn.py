@@ -19,18 +19,18 @@ from planmethod.note.narrate.turn import (
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.layout.block import Block, paragraph
+from planmethod.render.layout.block import Block, Spacer, paragraph
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import table_width
+from planmethod.render.sheets.results import results_block, table_width
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import PlanViewed, Viewed, named, plan_grid
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.turn import Turn, Why, turn_of
+from planmethod.solved.turn.turn import TURN, Turn, Why, turn_of
 
 SIDE = 0.5
 """Side of a hodograph as a part of the width of a text."""
@@ -51,21 +51,15 @@ def _whose(turn: Turn, manner: Manner) -> str:
     return manner.words.cycle.of[output.unit].format(name=output_name(output))
 
 
-def _without(turn: Turn, manner: Manner) -> Block:
-    """Return why there are no diagrams."""
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    said = manner.words.cycle
-    told = said.none.format(
-        what=said.diagrams.format(of="").strip(), why=said.why[Why.PARTIAL.name]
-    )
-    return paragraph(told + ".", height, width=width)
-
-
 def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the diagrams of s, v and a under one another."""
     diagrams, words = diagrams_of(solution), manner.words
     if diagrams is None:
-        return _without(turn_of(solution), manner)
+        turn, said = turn_of(solution), words.cycle
+        what = said.diagrams.format(of=_whose(turn, manner))
+        told = said.none.format(what=what, why=said.why[Why.PARTIAL.name])
+        height = manner.text(manner.sizes.text)
+        return paragraph(told + ".", height, width=manner.width(manner.sizes.column))
     picture = kinematic_picture(diagrams, manner.letter, words.say)
     title = words.cycle.diagrams.format(of=_whose(diagrams.turn, manner))
     scales = diagram_scales(diagrams, words)
@@ -103,7 +97,7 @@ def hodograph_point(turn: Turn) -> str | None:
     bodies, drive = turn.unit.problem.bodies, turn.unit.problem.drive.link
     own = [p for link in bodies if link not in (FRAME, drive) for p in bodies[link].points]
     plan = turn.unit.construction.kinematics.velocity
-    reading = turn.read(turn.at(np.arange(72) / 72))
+    reading = turn.read(turn.positions)
     wide = []
     for point in dict.fromkeys(own):
         if point in bodies[FRAME].points or point in bodies[drive].points:
@@ -122,12 +116,12 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
     assert kind is not None
     turn, words = turn_of(solution), manner.words
     point = hodograph_point(turn)
-    if point is None or turn.range is not None:
+    if point is None:
         point = turn.output.point
     drive, kin = solution.problem.drive, turn.unit.construction.kinematics
 
-    def vectors(shares: Reals) -> Complexes:
-        reading = turn.read(turn.at(shares))
+    def vectors(positions: Reals) -> Complexes:
+        reading = turn.read(positions)
         v, a = (
             reading.point(motion.point[motion.named[point]])
             for motion in (kin.velocity, kin.acceleration)
@@ -136,8 +130,9 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
             return np.asarray(v * drive.rate, dtype=complex)
         return np.asarray(a * drive.rate**2 + v * drive.acceleration, dtype=complex)
 
-    ends = vectors(np.arange(turn.task.count) / turn.task.count)
-    curve = vectors(np.linspace(0.0, 1.0, 361))
+    first, last = float(turn.positions[0]), float(turn.positions[-1])
+    last = last if turn.range is not None else first + turn.sense * TURN
+    ends, curve = vectors(turn.positions), vectors(np.linspace(first, last, 361))
     there = np.concatenate([[0j], curve[np.isfinite(curve)], ends[np.isfinite(ends)]])
     side = SIDE * manner.width(manner.sizes.column)
     size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
@@ -168,10 +163,10 @@ def _table(columns: Columns, lead: int, title: str, manner: Manner) -> Block:
 
 
 def turn_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the table of the turn by positions."""
+    """Return the table of the turn by positions; without diagrams the results of all of them."""
     diagrams = diagrams_of(solution)
     if diagrams is None:
-        return _without(turn_of(solution), manner)
+        return results_block(solution, indices, manner)
     return _table(cycle_columns(diagrams, manner.words), 2, manner.words.cycle.table, manner)
 
 
@@ -179,6 +174,6 @@ def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner)
     """Return how far the diagrams are off by every way."""
     diagrams = diagrams_of(solution)
     if diagrams is None:
-        return _without(turn_of(solution), manner)
+        return Spacer(1.0, 1.0)
     columns = deviation_columns(diagrams, manner.words)
     return _table(columns, 2, manner.words.cycle.deviations, manner)

@@ -33,6 +33,9 @@ from planmethod.solved.turn.turn import Turn, turn_of
 HEIGHT = 80.0
 """Height that the diagram of the path shall have where the file gives no scale of lengths, mm."""
 
+HIGHEST = 140.0
+"""Height that those of velocity and acceleration then keep to, mm."""
+
 LOW, HIGH = 20.0, 120.0
 """Heights between which it is drawn in the scale of lengths, mm: as it is taken off the scheme."""
 
@@ -175,12 +178,15 @@ class Diagrams(Remembering):
         """Of the path, m or radians per mm: the file's ``mu_l`` where the diagram is then fit."""
         problem, output = self.turn.solution.problem, self.turn.output
         fine = np.linspace(0.0, 1.0, 181)
-        reach = float(np.nan_to_num(np.ptp(self.path(fine)[np.isfinite(self.path(fine))])))
+        one, two = self.rates(fine)
+        by = self.mu_phi * self.task.pole_v
+        drawn = self.path(fine), one * by, two * by * self.mu_phi * self.task.pole_a
+        s, v, a = (float(np.ptp(np.append(y[np.isfinite(y)], 0.0))) for y in drawn)
         given = problem.scales.mu_l
-        if given is not None and output.slide is not None and LOW <= reach / given <= HIGH:
+        if given is not None and output.slide is not None and LOW <= s / given <= HIGH:
             return given
         inverse = problem.scales.convention is Convention.MM_PER_UNIT
-        return choose_scale((0.0, reach), (1.0, HEIGHT), mm_per_unit=inverse)
+        return choose_scale((s, max(v, a)), (HEIGHT, HIGHEST), mm_per_unit=inverse)
 
     @property
     def mu_t(self) -> float | None:
