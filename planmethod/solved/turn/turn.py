@@ -15,11 +15,12 @@ from functools import cached_property, partial
 import numpy as np
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import TANGENT
+from planmethod.construct.evaluate import TANGENT, evaluate
 from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointName, Touch
 from planmethod.errors import Fault, ProblemError
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import CycleTask, Problem, Zero
+from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import PointMotion, Solution
 from planmethod.solved.turn.output import Output, find_output, pressure_on
@@ -110,8 +111,9 @@ class Turn(Remembering):
     def read(self, positions: Reals | Sequence[float]) -> Reading:
         """Return the exact reading at unit scales and one radian a second; gaps are NaN."""
         at = np.asarray(positions, dtype=float)
-        made = Solution(self.unit.problem, positions=at.tolist())
-        return made.read(Float64())
+        draft = self.unit.construction.draft
+        data = drive_data(self.unit.problem, draft, at)
+        return Reading(evaluate(self.unit.construction.program, data, Float64()), len(at))
 
     def rate(self, positions: Reals) -> Reals:
         """Return the first transfer function of the output, in its own unit per radian."""
