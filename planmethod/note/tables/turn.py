@@ -40,7 +40,11 @@ def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
     ]
     columns: Columns = [
         (words.note.number, "", tuple(str(k) for k in range(diagrams.count))),
-        ("φ", "deg", tuple(say.number(f"{p % 360.0:.2f}") for p in turn.at(shares))),
+        (
+            "φ",
+            "deg",
+            tuple(say.number(f"{round(p % 360.0, 2) % 360.0:.2f}") for p in turn.at(shares)),
+        ),
     ]
     for head, unit, values in found:
         peak = float(np.nanmax(np.abs(values), initial=0.0))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
@@ -167,14 +168,18 @@ def kinematics_sheets(
     furniture = furniture or Furniture.of(problem.sheet)
     extras = Extras(words, errors, sigma)
     papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
-    task = _Task(problem, made, tuple(asked), ruler, profile, extras)
+    scales = problem.scales
+    tasks = [_Task(problem, made, tuple(asked), ruler, profile, extras)]
+    if made.turn and (scales.mu_v, scales.mu_a) != (None, None):
+        # Scales for one position may be too fine for a dozen plans on one sheet.
+        free = replace(problem, scales=replace(scales, mu_v=None, mu_a=None))
+        tasks.append(replace(tasks[0], problem=free))
     with using(lettering(problem.sheet.lettering or "B")):
-        for name in papers:
+        for name, task in product(papers, tasks):
             fmt = paper_format(name)
             pages = task.on(Paper(name, partial(furniture.room, fmt), forced=paper is not None))
             if pages is not None:
                 return _drawn(problem, pages, fmt, fields or {}, furniture)
-    scales = problem.scales
     given = any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
     advice = (
         "Take coarser scales in [scales], or leave them out"

@@ -299,7 +299,7 @@ class Turn(Remembering):
         return 0.0 if TURN - way < _SAME else way
 
     @cached_property
-    def _ends(self) -> tuple[Extreme, Extreme] | None:
+    def ends(self) -> tuple[Extreme, Extreme] | None:
         """The extreme from which the quicker stroke starts, and the other one."""
         found = self._turnings
         if len(found) < 2 or self.gain:
@@ -323,23 +323,23 @@ class Turn(Remembering):
             return Why.STILL
         if self.gain:
             return Why.ROUND
-        if self._ends is not None:
+        if self.ends is not None:
             return None
         return Why.NO_EXTREME if self.range is None else Why.PARTIAL
 
     @cached_property
     def stroke(self) -> float | None:
         """Stroke H, m, or swing psi, degrees (ход, угол размаха)."""
-        if self._ends is None:
+        if self.ends is None:
             return 0.0 if self.is_still else None
-        return abs(self._ends[0].value - self._ends[1].value)
+        return abs(self.ends[0].value - self.ends[1].value)
 
     @cached_property
     def phases(self) -> tuple[float, float] | None:
         """Degrees of the crank of the quicker stroke, from ``extreme``, and of the way back."""
-        if self._ends is None or self.range is not None:
+        if self.ends is None or self.range is not None:
             return None
-        working = self._ahead(self._ends[0].phi, self._ends[1].phi)
+        working = self._ahead(self.ends[0].phi, self.ends[1].phi)
         return working, TURN - working
 
     @cached_property
@@ -347,7 +347,7 @@ class Turn(Remembering):
         """Why there is no K_v."""
         if self.phases is None:
             return self.why_no_stroke or Why.PARTIAL
-        ends = [value for end in self._ends or () for value in (end.value,)]
+        ends = [value for end in self.ends or () for value in (end.value,)]
         near = _SAME * abs(ends[0] - ends[1])
         at_ends = [e for e in self._turnings if min(abs(e.value - v) for v in ends) <= near]
         return Why.SEVERAL if len(at_ends) > 2 else None
@@ -367,11 +367,11 @@ class Turn(Remembering):
         asked = self.task.zero
         if not isinstance(asked, Zero):
             return asked
-        if self._ends is None:
+        if self.ends is None:
             single = self._turnings
             found = single[0].phi if single else float(self.unit.problem.drive.positions[0])
         else:
-            found = self._ends[0 if asked is Zero.EXTREME else 1].phi
+            found = self.ends[0 if asked is Zero.EXTREME else 1].phi
         if self.range is not None:
             return found
         return TURN / 2 - (TURN / 2 - found) % TURN
@@ -379,7 +379,7 @@ class Turn(Remembering):
     @cached_property
     def zero_is_asked(self) -> bool:
         """Whether position zero is what was asked: the output has the extreme."""
-        return self._ends is not None or not isinstance(self.task.zero, Zero)
+        return self.ends is not None or not isinstance(self.task.zero, Zero)
 
     @cached_property
     def positions(self) -> Reals:
