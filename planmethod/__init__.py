@@ -12,9 +12,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from planmethod.kinds import load as load
+    from planmethod.kinds import loads as loads
     from planmethod.problem import Problem as Problem
-    from planmethod.problem import load as load
-    from planmethod.problem import loads as loads
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw
     from planmethod.solved.errors.motion import drafting_of as drafting
     from planmethod.solved.forces.statics import statics_of as statics
@@ -39,8 +39,8 @@ _HOMES = {
     "Sweep": ("planmethod.solved.many.sweep", "Sweep"),
     "drafting": ("planmethod.solved.errors.motion", "drafting_of"),
     "draw": ("planmethod.render.sheets.kinematics", "kinematics_sheets"),
-    "load": ("planmethod.problem", "load"),
-    "loads": ("planmethod.problem", "loads"),
+    "load": ("planmethod.kinds", "load"),
+    "loads": ("planmethod.kinds", "loads"),
     "statics": ("planmethod.solved.forces.statics", "statics_of"),
 }
 

@@ -28,6 +28,8 @@ COMMANDS = (
     "specimen",
     "layouts",
     "new",
+    "synthesize",
+    "teeth",
     "check",
     "bench",
     "form",

@@ -14,8 +14,38 @@ from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-    from planmethod.problem.model import SheetSettings
+    from planmethod.note.audit.audit import Audited
+    from planmethod.problem.fields import Faults
+    from planmethod.problem.model import Geared, Problem, SheetSettings
     from planmethod.render.ink.drawing import Drawing
+
+
+def load(path: str | Path, *, variant: str | None = None) -> Problem:
+    """Read the file of a linkage; a crank may be driven by the train of the same file.
+
+    Raises
+    ------
+    ProblemError
+    """
+    problem: Problem = _of("planmethod.problem", "load")(path, variant=variant, train=_driven)
+    return problem
+
+
+def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
+    """Read the same from a text; ``name`` stands for the stem of the file."""
+    read = _of("planmethod.problem", "loads")
+    problem: Problem = read(text, name=name, variant=variant, train=_driven)
+    return problem
+
+
+def _driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
+    geared: Geared | None = _of("planmethod.gears", "driven")(faults, table, label)
+    return geared
+
+
+def _of(package: str, name: str) -> Any:
+    """Return a function of a package that is imported only now."""
+    return getattr(import_module(package), name)
 
 
 class KindProblem(Protocol):
@@ -32,6 +62,10 @@ class KindProblem(Protocol):
     @property
     def title(self) -> str:
         """Title of the problem."""
+
+    @property
+    def source(self) -> str:
+        """Where it is from."""
 
     @property
     def stamp(self) -> Mapping[str, str]:
@@ -54,8 +88,8 @@ class Kind:
         Where its functions are: ``load(path, *, variant)``, ``record(problem, lang)``,
         ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
         ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
-        before, total)`` and ``protocol_text(problem, lang, profile)``. It is imported when one of
-        them is called.
+        before, total)`` and ``protocol_text(problem, lang, profile)``; of printed values
+        ``audited(problem, ruler)``. It is imported when one of them is called.
     """
 
     table: str
@@ -119,10 +153,21 @@ class Kind:
         """
         return str(self._asked("protocol_text", problem)(problem, lang, profile))
 
+    def audited(self, problem: KindProblem, ruler: float) -> list[Audited]:
+        """Return printed values beside the exact ones and those read with a ruler.
+
+        Raises
+        ------
+        ProblemError
+            Such problems have no audit.
+        """
+        told: list[Audited] = self._asked("audited", problem)(problem, ruler)
+        return told
+
     def _asked(self, name: str, problem: KindProblem) -> Any:
         """Return a function that not every kind has."""
         if not hasattr(import_module(self.package), name):
-            what = "sheets" if name == "drawings" else "protocol"
+            what = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}[name]
             fault = Fault(
                 self.table, f"such a problem has no {what}; its numbers: planmethod solve"
             )
@@ -130,7 +175,7 @@ class Kind:
         return self._function(name)
 
     def _function(self, name: str) -> Any:
-        return getattr(import_module(self.package), name)
+        return _of(self.package, name)
 
 
 KINDS = (Kind("gears", "planmethod.gears"), Kind("point", "planmethod.moving"))

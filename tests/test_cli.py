@@ -16,7 +16,7 @@ from click.testing import CliRunner, Result
 from worked import ROOT, path_of
 
 from planmethod.cli import cli
-from planmethod.problem import FAMILIES, load
+from planmethod.problem import FAMILIES, OTHER_FAMILIES, load
 from planmethod.render.backends.output import write
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
@@ -433,7 +433,18 @@ def test_a_protocol_in_a_file() -> None:
 def test_the_families_are_listed() -> None:
     shown = run("new", "--list")
     assert shown.exit_code == 0
-    assert [line.split()[0] for line in shown.output.splitlines()] == list(FAMILIES)
+    listed = [line.split()[0] for line in shown.output.splitlines()]
+    assert listed == [*FAMILIES, *OTHER_FAMILIES]
+
+
+@pytest.mark.parametrize("family", OTHER_FAMILIES)
+def test_a_new_train_or_point_is_ready_to_solve(family: str) -> None:
+    assert run("new", family, "mine.toml").exit_code == 0
+    text = Path("mine.toml").read_text("utf-8")
+    assert text.count("#") >= 5  # it is commented
+    assert run("solve", "mine.toml", "--json").exit_code == 0
+    Path("mine.toml").write_text(text.replace("# [v", "[v").replace('# "', '"'), "utf-8")
+    assert run("solve", "mine.toml", "--variant", "Б").exit_code == 0
 
 
 @pytest.mark.parametrize("family", FAMILIES)

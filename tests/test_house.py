@@ -20,12 +20,16 @@ LATE_OF = {
     # Only problems with loads have forces, only some ask for the drafting errors.
     "planmethod.solved.selected.forces": "forces",
     "planmethod.note.narrate.forces": "forces",
+    "planmethod.note.audit": "printed values",
     "planmethod.note.records.forcecolumns": "forces",
     "planmethod.note.tables.causes": "drafting errors",
     "planmethod.note.tables.forces": "forces",
     "planmethod.problem.dynamics": "forces",
     "planmethod.solved": "forces, drafting errors, the trust in float64",
     "planmethod.construct.drafting": "the hand",
+    "planmethod.moving.audit": "printed values",
+    "planmethod.moving.protocol": "what is drawn",
+    "planmethod.moving.sheet": "what is drawn",
     "planmethod.note.wording": "words of drafting errors",
     "planmethod.render.ink.lettering.skeleton": "strokes of letters that a format asks for",
     # Third parties that take long to import; a mistake in a file is rare.

@@ -123,13 +123,13 @@ def test_many_positions_fit_when_the_scales_are_free(name: str) -> None:
     assert marks(kinematics_sheets(problem, positions=MANY[name])) == []
 
 
-@each("seed", range(some(30, few=12)))
+@each("seed", range(some(30, few=6)))
 def test_sheets_of_random_mechanisms(seed: int) -> None:
     problem = loads(random_problem(seed)[0], name=f"random-{seed}")
     assert marks(kinematics_sheets(problem)) == []
 
 
-@each("seed", range(some(10, few=3)))
+@each("seed", range(some(10, few=2)))
 def test_many_positions_of_random_mechanisms(seed: int) -> None:
     problem = loads(random_problem(seed)[0], name=f"random-{seed}")
     step = 2.0 if problem.drive.is_crank else 0.004

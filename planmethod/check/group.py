@@ -12,7 +12,8 @@ from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Checked, Work
 from planmethod.check.task import Item, Task
-from planmethod.problem import load, variant_names
+from planmethod.kinds import load
+from planmethod.problem import variant_names
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
 

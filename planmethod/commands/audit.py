@@ -12,6 +12,7 @@ from planmethod.commands.problems import each, finish, guarded
 from planmethod.options import lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
 
 
@@ -41,11 +42,14 @@ def audit(
 
     if file is not None and file.lower().endswith(".toml"):
         raise click.UsageError(f"-o would write over the problem file {file}; name another one")
-    audits: list[tuple[Problem, Any]] = []
+    audits: list[tuple[Problem | KindProblem, Any]] = []
 
     def compare(problem: Problem) -> None:
         audits.append((problem, examine(problem, ruler=ruler)))
 
+    def compare_other(kind: Kind, problem: KindProblem) -> None:
+        audits.append((problem, kind.audited(problem, ruler)))
+
     # A faulty problem ends the command here: the document is written whole or not at all.
-    finish(each(problems, variant, all_variants, compare))
+    finish(each(problems, variant, all_variants, compare, compare_other))
     put(Document(lang, ruler).markdown(audits), file)

@@ -20,16 +20,17 @@ from planmethod.options import lang_option
 @guarded
 def new(family: str | None, file: Path | None, show: bool, force: bool, lang: str) -> None:
     """Write a commented problem file of a FAMILY, ready to edit."""
-    from planmethod.problem import FAMILIES, template
+    from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
 
+    known = (*FAMILIES, *OTHER_FAMILIES)
     if show or family is None:
         from planmethod.note.wording import language
 
-        width, meanings = max(map(len, FAMILIES)), language(lang).families
-        for name in FAMILIES:
+        width, meanings = max(map(len, known)), language(lang).families
+        for name in known:
             click.echo(f"{name.ljust(width)}  {meanings[name]}")
         if not show:
             raise click.UsageError("give one of these families: planmethod new FAMILY [FILE]")
         return
-    refuse_unknown("family", family, FAMILIES)
+    refuse_unknown("family", family, known)
     write_new(file or Path(f"{family}.toml"), template(family), force=force)

@@ -14,6 +14,7 @@ import click
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 from planmethod.kinds import Kind, KindProblem, kind_of
+from planmethod.kinds import load as load_linkage
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -49,9 +50,7 @@ def guarded(command: F) -> F:
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
     """Read a problem file: one problem, or one for each variant."""
-    from planmethod.problem import load
-
-    return [load(path, variant=name) for name in _variants(path, variant, all_variants)]
+    return [load_linkage(path, variant=name) for name in _variants(path, variant, all_variants)]
 
 
 def _load_other(
@@ -119,6 +118,22 @@ def finish(code: ExitCode) -> None:
     """End the command here if something failed."""
     if code is not ExitCode.DONE:
         sys.exit(code)
+
+
+def refuse_plans(kind: Kind, **options: object) -> None:
+    """Refuse options that only the plans of linkages have.
+
+    Raises
+    ------
+    click.UsageError
+        Naming the options that were given.
+    """
+    given = [f"--{name.replace('_', '-')}" for name, value in options.items() if value]
+    if given:
+        told = ", ".join(given)
+        raise click.UsageError(
+            f"{told}: only plans of linkages have such options; leave them out for [{kind.table}]"
+        )
 
 
 def watched(found: list[T]) -> Iterator[T]:

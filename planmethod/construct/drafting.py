@@ -229,6 +229,10 @@ class Sampled(Pencil, Float64):
         """Return normal errors."""
         return np.asarray(self._random.normal(0.0, sigma, self.draws))
 
+    def normals(self, count: int) -> npt.NDArray[np.float64]:
+        """Return standard normal numbers of shape (count, draws)."""
+        return self._random.standard_normal((count, self.draws))
+
     def drawn_at_all(self, length: Number) -> Number:
         """Return 0 if a length is zero on every sheet."""
         return 1.0 if np.any(length) else 0.0
@@ -236,3 +240,12 @@ class Sampled(Pencil, Float64):
     def rounded(self, out: str, length: Number) -> Number:
         """Return the length rounded to the step of the ruler."""
         return self._hand.ruled(length)
+
+
+class Dithered(Sampled):
+    """Strokes at random, and rounding as an error spread evenly over a step, as to first order."""
+
+    def rounded(self, out: str, length: Number) -> Number:
+        """Return the length off by up to half a step."""
+        half = self.profile.ruler / 2
+        return length + self._random.uniform(-half, half, self.draws)

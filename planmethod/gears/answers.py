@@ -9,7 +9,9 @@ from fractions import Fraction
 from planmethod.gears.asked import Asked, parse
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.efficiency import efficiency
-from planmethod.gears.motion import Motion
+from planmethod.gears.model import GearProblem
+from planmethod.gears.motion import Motion, solve_motion
+from planmethod.problem.model import Published
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,17 @@ def answer(motion: Motion, name: str) -> Answer:
         most = satellites_held(motion, body) if body in motion.train.carriers else None
         return _exact(name, Fraction(most)) if most is not None else _none(name, "satellites")
     return _size(motion, name, asked)
+
+
+def published_values(problem: GearProblem) -> list[tuple[Published, float | None]]:
+    """Return what the source prints, each with the exact value where there is one.
+
+    Raises
+    ------
+    ProblemError
+    """
+    motion = solve_motion(problem)
+    return [(one, answer(motion, one.what).value) for one in problem.published]
 
 
 def _exact(name: str, value: Fraction, unit: str = "") -> Answer:
@@ -107,8 +120,8 @@ def _size(motion: Motion, name: str, asked: Asked) -> Answer:
     if asked.kind != "a_w" and label not in sizes:
         return _none(name, "wheel", label)
     if asked.kind == "z":
-        return _exact(name, sizes[label]) if train.toothed else _none(name, "teeth")
-    if train.toothed and train.module is None:
+        return _exact(name, sizes[label]) if train.counted(label) else _none(name, "teeth")
+    if train.toothed and train.module is None and (asked.kind == "a_w" or train.counted(label)):
         return _none(name, "module")
     if asked.kind == "r":
         return _exact(name, sizes[label] * train.unit_m * 1000, "mm")

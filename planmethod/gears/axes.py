@@ -13,7 +13,7 @@ from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles
 
 MOST_CHOSEN = 10
-"""Most meshes between wheels off the main axis: each may be on either side."""
+"""Most meshes in loops between wheels off the main axis: each may be on either side."""
 
 HINT = "Check the teeth, and which wheels share an axis."
 
@@ -152,16 +152,18 @@ def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
 
 
 def _solve(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[Axes | None, list[Fault]]:
-    chosen = [m for m in meshes if lines.main not in {lines.line[b] for b in train.ends(m)}]
+    beside = [m for m in meshes if lines.main not in {lines.line[b] for b in train.ends(m)}]
+    likely = {mesh: _likely_side(train, lines, mesh, meshes) for mesh in beside}
+    chosen = [mesh for mesh in _in_loops(train, lines, meshes) if mesh in likely]
     if len(chosen) > MOST_CHOSEN:
-        told = f"{len(chosen)} meshes off the main axis, the limit is {MOST_CHOSEN}"
+        told = f"{len(chosen)} meshes in loops off the main axis, the limit is {MOST_CHOSEN}"
         return None, [Fault("gears.meshes", told)]
     unknown = [("z", label) for label in train.unknown]
     reached = dict.fromkeys(lines.line[b] for mesh in meshes for b in train.ends(mesh))
     names = [*unknown, *(("h", name) for name in reached if name != lines.main)]
     best: Fault | None = None
-    for signs in product((1, -1), repeat=len(chosen)):
-        side = dict(zip(chosen, signs, strict=True))
+    for turns in product((1, -1), repeat=len(chosen)):
+        side = likely | {m: likely[m] * turn for m, turn in zip(chosen, turns, strict=True)}
         rows = [_equation(train, lines, mesh, side.get(mesh)) for mesh in meshes]
         found = solve(names, rows)
         fault = _judge(train, found, unknown)
@@ -174,6 +176,45 @@ def _solve(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[Axes | 
     if best is not None and "coaxial" in best.message:
         best = _say_why(train, lines, meshes) or best
     return None, [] if best is None else [best]
+
+
+def _in_loops(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> list[Mesh]:
+    """Return the meshes without those that only lead to an axis where nothing else meets."""
+    left = list(meshes)
+    while True:
+        ends = [lines.line[b] for mesh in left for b in train.ends(mesh)]
+        loose = {name for name in ends if ends.count(name) == 1} - {lines.main}
+        kept = [m for m in left if not loose & {lines.line[b] for b in train.ends(m)}]
+        if kept == left:
+            return left
+        left = kept
+
+
+def _likely_side(train: Train, lines: _Lines, mesh: Mesh, meshes: Sequence[Mesh]) -> int:
+    """Return +1 if the second of two axes beside the main one is more likely the higher.
+
+    The axis that fewer meshes part from the main one is the nearer; the other lies beyond it, or
+    within where only the nearer one runs in a ring.
+    """
+    steps = {lines.main: 0}
+    ringed: set[str] = set()
+    for _ in meshes:
+        for one in meshes:
+            ends = [lines.line[body] for body in train.ends(one)]
+            for near, far in (ends, ends[::-1]):
+                if near in steps:
+                    steps.setdefault(far, steps[near] + 1)
+            if one.kind is MeshKind.INTERNAL and lines.main in ends:
+                out = train.ends(one)[1 if ends[0] == lines.main else 0]
+                if lines.main == lines.line[train.body_of[_ring_label(train, one, out)]]:
+                    ringed.add(lines.line[out])
+    first, second = (lines.line[body] for body in train.ends(mesh))
+    near, far, side = first, second, 1
+    if steps.get(second, 0) < steps.get(first, 0):
+        near, far, side = second, first, -1
+    if near in lines.below:
+        side = -side
+    return -side if near in ringed and far not in ringed else side
 
 
 def _equation(train: Train, lines: _Lines, mesh: Mesh, side: int | None) -> Row[tuple[str, str]]:

@@ -59,7 +59,11 @@ Terms = tuple[tuple[int, str], ...]
 def _coaxial(motion: Motion) -> Iterator[Condition]:
     """Tell each mesh that comes back to an axis already reached: the sums of both ways."""
     train, axes = motion.train, motion.axes
-    left = [mesh for mesh in train.meshes if mesh.kind in PARALLEL]
+    left = [
+        mesh
+        for mesh in train.meshes
+        if mesh.kind in PARALLEL and all(body in axes.heights for body in train.ends(mesh))
+    ]
     reached: dict[str, Terms] = {}
     while left:
         start = axes.axis_of[train.ends(left[0])[0]]

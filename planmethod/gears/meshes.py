@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from planmethod.gears.model import Mesh, MeshKind, Wheel
+from planmethod.gears.model import FLEXIBLE, HALF_MODULES, Mesh, MeshKind, Wheel
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -135,13 +135,11 @@ def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Dra
     elif "r" in given:
         radius = read_length(faults, f"{path}.r", given["r"])
         size = Fraction(1) if radius is None else fraction(radius)
-        if draft.toothed and draft.module is None:
-            hint = "Give module = ... (mm), or every wheel by its radius."
-            faults.add(f"{path}.r", "a radius beside teeth needs the module", hint)
-        elif draft.toothed and draft.module is not None:
-            size = 2 * size / draft.module
+        if draft.toothed:
+            size *= HALF_MODULES if draft.module is None else 2 / draft.module
     shift = read_number(faults, f"{path}.x", given.get("x", 0), "a shift", low=-5, high=5)
-    return Wheel(label, size, fraction(shift or 0.0), _read_axis(faults, path, given.get("axis")))
+    axis = _read_axis(faults, path, given.get("axis"))
+    return Wheel(label, size, fraction(shift or 0.0), axis, "r" in given and draft.toothed)
 
 
 def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, float] | None:
@@ -174,11 +172,28 @@ def read_meshes(faults: Faults, value: object, draft: Draft) -> tuple[Mesh, ...]
             if {mesh.first, mesh.second} in [{m.first, m.second} for m in found]:
                 faults.add(path, f"the mesh {mesh.name} is given twice")
             found.append(mesh)
+    _check_radii(faults, found, draft)
     meshing = {label for mesh in found for label in (mesh.first, mesh.second)}
     for label in draft.wheels:
         if label not in meshing and len(found) == len(value):
             faults.add(f"gears.wheels.{segment(label)}", f"wheel {label} meshes with none")
     return tuple(found)
+
+
+def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: Draft) -> None:
+    """Check the radii beside teeth: of two wheels, only a belt's need not make whole teeth."""
+    for mesh in meshes:
+        pair = [w for w in (draft.wheels.get(x) for x in (mesh.first, mesh.second)) if w]
+        flexible = mesh.kind in FLEXIBLE and all(wheel.plain for wheel in pair)
+        for wheel in pair:
+            path = f"gears.wheels.{segment(wheel.label)}.r"
+            if not wheel.plain or wheel.size is None or flexible:
+                continue
+            if draft.module is None:
+                hint = "Give module = ... (mm), or every wheel by its radius."
+                faults.add(path, "a radius beside teeth needs the module", hint)
+            elif wheel.size.denominator != 1:
+                faults.add(path, f"2r/m = {float(wheel.size):g} teeth, not whole")
 
 
 def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | None:
@@ -207,6 +222,8 @@ def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | No
         faults.add(f"{path}.of", f"{first} and {second} are one body, and mesh with each other")
         return None
     if rack:
+        if carrier is not None:
+            faults.add(f"{path}.carrier", "a rack is guided in the frame and has no carrier")
         if second in wheels:
             hint = "The second of a rack is the rack; it has no teeth to count."
             faults.add(f"{path}.of[1]", f"{second} is a wheel", hint)

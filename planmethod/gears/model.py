@@ -23,8 +23,15 @@ class MeshKind(Enum):
     WORM = "worm"
 
 
+FLEXIBLE = (MeshKind.BELT, MeshKind.CROSSED, MeshKind.CHAIN)
+"""Those that couple wheels at any distance, which may have radii beside wheels with teeth."""
+
 PARALLEL = (MeshKind.EXTERNAL, MeshKind.INTERNAL)
 """Meshes whose axes are parallel and at a distance that the wheels give."""
+
+
+HALF_MODULES = 1000
+"""In a metre, for pictures without a module: it is then 2 mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +47,15 @@ class Wheel:
         Shift x of the rack that cuts it, in modules.
     axis : tuple of float or None
         Of a bevel wheel: direction of its axis from the apex towards the wheel.
+    plain : bool
+        Given by a radius beside wheels with teeth: a pulley, where there is no module.
     """
 
     label: str
     size: Fraction | None
     shift: Fraction = Fraction(0)
     axis: tuple[float, float, float] | None = None
+    plain: bool = False
 
     @property
     def number(self) -> str:
@@ -146,7 +156,11 @@ class Train:
         """Metres of a unit of size; without a module, that of 2 mm stands for any."""
         if not self.toothed:
             return Fraction(1)
-        return Fraction(1, 1000) if self.module is None else self.module / 2
+        return Fraction(1, HALF_MODULES) if self.module is None else self.module / 2
+
+    def counted(self, label: str) -> bool:
+        """Whether the size of a wheel is a number of teeth."""
+        return self.toothed and (self.module is not None or not self.wheels[label].plain)
 
     def ends(self, mesh: Mesh) -> tuple[str, str]:
         """Bodies of the two wheels of a mesh."""

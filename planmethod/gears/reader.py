@@ -56,7 +56,7 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     stamp = read_stamp(faults, given.get("stamp", {}))
     sheet = read_sheet(faults, given.get("sheet", {}))
     body = read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
-    train = None if body is None else _read_train(faults, body)
+    train = None if body is None else read_train(faults, body)
     published = _read_published(faults, given.get("published", {}), train)
     if faults or train is None:
         raise ProblemError(str(path), faults.found)
@@ -65,7 +65,9 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     )
 
 
-def _read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
+def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
+    """Read the table ``[gears]``; None where it has faults."""
+    before = len(faults)
     given = read_keys(faults, "gears", table, keys.GEARS)
     module = None
     if "module" in given:
@@ -95,9 +97,12 @@ def _read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     output = None
     if "output" in given:
         output = read_label(faults, "gears.output", given["output"], known)
+        for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
+            if output is not None and body_of[output] in {body_of[label] for label in held}:
+                faults.add("gears.output", f"{output} is {what}, no power comes out of it")
     picture = _read_picture(faults, given.get("picture", {}))
     ask = _read_ask(faults, given.get("ask", []), known)
-    if faults:
+    if len(faults) != before:
         return None
     speeds: dict[str, Fraction] = {}
     for label, speed in inputs.items():

@@ -26,13 +26,14 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
     motion = solve_motion(problem)
     words = language(lang).gears
     train = motion.train
-    sizes = {label: _number(size) for label, size in motion.axes.sizes.items()}
+    sizes = motion.axes.sizes
+    metres = {x: size * train.unit_m for x, size in sizes.items() if not train.counted(x)}
     told: dict[str, Any] = {
         "mobility": motion.structure.mobility,
         "kind": motion.structure.kind.value,
         "redundant": motion.structure.spatial,
-        "teeth": sizes if train.toothed else {},
-        "radii_m": {} if train.toothed else sizes,
+        "teeth": {x: _number(size) for x, size in sizes.items() if train.counted(x)},
+        "radii_m": {x: _number(size) for x, size in metres.items()},
         "unit": "1/min" if train.unit == "n" else "1/s",
         "bodies": {label: _body(motion, label) for label in train.body_of},
         "asked": {name: _answer(answer(motion, name), words.reasons) for name in train.ask},

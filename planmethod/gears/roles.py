@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -58,8 +59,9 @@ def _split(train: Train, carrier: str) -> tuple[list[str], list[str]]:
     elsewhere = {
         body for mesh in train.meshes if mesh not in own for body in train.ends(mesh)
     } | set(train.carriers)
-    sure = {b for b in ends if b in train.fixed or b in train.inputs or b in elsewhere}
+    sure = {b for b in ends if b in train.fixed or b in elsewhere}
     sure |= {b for mesh in own if (b := _ring(train, mesh)) is not None}
+    sure |= {b for b in ends if b in train.inputs and not _is_between(train, own, b, sure)}
     for group in train.coaxial:
         if carrier in group or sure & set(group):
             sure |= set(group) & set(ends)
@@ -72,10 +74,19 @@ def _split(train: Train, carrier: str) -> tuple[list[str], list[str]]:
     return middle, [body for body in dict.fromkeys(ends) if body not in middle]
 
 
+def _is_between(train: Train, own: list[Mesh], body: str, sure: set[str]) -> bool:
+    """Whether a body meshes with several that can only be central: then it is a satellite."""
+    ends = [train.ends(mesh) for mesh in own]
+    mates = {b for both in ends if body in both for b in both} - {body}
+    once = {b for b in mates if sum(b in both for both in ends) == 1}
+    return body not in sure and len(mates) > 1 and mates <= sure | once
+
+
 def _ring(train: Train, mesh: Mesh) -> str | None:
     """Body of the wheel with internal teeth, where its size is known."""
-    sizes = [train.wheels[label].size for label in (mesh.first, mesh.second)]
-    one, other = sizes if mesh.kind is MeshKind.INTERNAL else (None, None)
+    if mesh.kind is not MeshKind.INTERNAL:
+        return None
+    one, other = (train.wheels[label].size for label in (mesh.first, mesh.second))
     if one is None or other is None:
         return None
     return train.ends(mesh)[0 if one > other else 1]
@@ -94,6 +105,7 @@ def _bevels(
     first wheel in mesh with a satellite lies below it on the main axis, the next above.
     """
     around = {body for bodies in satellites.values() for body in bodies}
+    main = _main_axis(train, around)
     across: dict[str, bool] = {}
     above: dict[tuple[str, str], bool] = {}
     senses: dict[Mesh, int] = {}
@@ -101,7 +113,7 @@ def _bevels(
         if mesh.kind is not MeshKind.BEVEL:
             continue
         one, other = train.ends(mesh)
-        turned = _is_across(train, mesh, (one, other), across, around)
+        turned = _is_across(train, mesh, main, across, around)
         across.setdefault(one, turned)
         across.setdefault(other, not turned)
         if across[one] == across[other]:
@@ -116,31 +128,48 @@ def _bevels(
         label = mesh.second if across[one] else mesh.first
         axis = train.wheels[label].axis
         if axis is not None:
-            senses[mesh] = _side(axis)
+            senses[mesh] = -(_sign(axis, main) or 1)
         across_axis = given[0] if across[one] else given[1]
         if across_axis is not None:
-            x, y, _ = across_axis
-            senses[mesh] *= 1 if (x, y) > (0, 0) else -1
+            senses[mesh] *= 1 if across_axis > (0.0, 0.0, 0.0) else -1
     return senses, frozenset(body for body, is_across in across.items() if is_across)
 
 
 def _is_across(
     train: Train,
     mesh: Mesh,
-    ends: tuple[str, str],
+    main: Vector,
     across: Mapping[str, bool],
     around: set[str],
 ) -> bool:
     """Whether the first wheel of a bevel mesh is the one across the main axis."""
+    ends = train.ends(mesh)
     axes = [train.wheels[label].axis for label in (mesh.first, mesh.second)]
     for body, axis, flip in zip(ends, axes, (False, True), strict=True):
         if body in across:
             return across[body] != flip
         if axis is not None:
-            return (axis[0] != 0 or axis[1] != 0) != flip
+            return (_sign(axis, main) == 0) != flip
     return ends[0] in around and ends[1] not in around
 
 
-def _side(axis: Vector) -> int:
-    """Return the sense of a wheel on the main axis: +1 for one below the apex."""
-    return 1 if axis[2] < 0 else -1
+def _main_axis(train: Train, around: set[str]) -> Vector:
+    """Return the direction of the main axis, z upwards unless a central wheel has another."""
+    wheels = [
+        train.wheels[label]
+        for mesh in sorted(train.meshes, key=lambda mesh: mesh.carrier is None)
+        if mesh.kind is MeshKind.BEVEL
+        for label in (mesh.first, mesh.second)
+    ]
+    axes = [w.axis for w in wheels if w.axis is not None and train.body_of[w.label] not in around]
+    if not axes:
+        return 0.0, 0.0, 1.0
+    x, y, z = axes[0]
+    return axes[0] if (z, x, y) > (0.0, 0.0, 0.0) else (-x, -y, -z)
+
+
+def _sign(axis: Vector, main: Vector) -> int:
+    """Return +1 for an axis along the main one, -1 for one against it, 0 for one across."""
+    along = sum(a * b for a, b in zip(axis, main, strict=True))
+    size = math.hypot(*axis) * math.hypot(*main)
+    return 0 if abs(along) < (1 - 1e-9) * size else (1 if along > 0 else -1)

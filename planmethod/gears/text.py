@@ -11,8 +11,9 @@ from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import Motion, Structure, TrainKind, analyse, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
+from planmethod.gears.tabular import Turns, tabular
 from planmethod.note.numbers import MINUS
-from planmethod.note.plaintext import found, heading, spoken, table, wrap
+from planmethod.note.plaintext import columns_text, found, heading, spoken, table, wrap
 from planmethod.note.wording import Language, language
 
 
@@ -26,13 +27,15 @@ def solved_text(problem: GearProblem, lang: str) -> str:
     motion = solve_motion(problem)
     words = language(lang)
     say = words.gears
-    lines = heading(say.title.format(title=problem.title), "═")
+    lines = heading(say.title.format(title=problem.title or problem.name), "═")
     lines += _structure(problem, motion.roles, motion.structure, words)
     lines += ["", say.equations]
     for mesh in motion.train.meshes:
         lines += wrap(_equation(motion, mesh, words), rest="  ")
     lines += ["", say.wheels, *_wheels(motion, words)]
     lines += ["", say.speeds, *_speeds(motion, words)]
+    for turns in tabular(motion):
+        lines += ["", *_tabular(motion, turns, words)]
     if motion.train.ask:
         lines += ["", say.asked, *_asked(motion, words)]
     judged = conditions(motion)
@@ -55,7 +58,7 @@ def structure_text(problem: GearProblem, lang: str) -> str:
     """
     roles, _, structure = analyse(problem)
     words = language(lang)
-    lines = heading(words.gears.title.format(title=problem.title), "═")
+    lines = heading(words.gears.title.format(title=problem.title or problem.name), "═")
     return "\n".join([*lines, *_structure(problem, roles, structure, words)])
 
 
@@ -120,6 +123,8 @@ def _wheels(motion: Motion, words: Language) -> list[str]:
         height = motion.axes.heights.get(train.body_of[label])
         mark = "*" if label in train.unknown else ""
         shown = [_size(x, words) if x is not None else "—" for x in (size, height)]
+        if train.toothed and not train.counted(label):
+            shown[0] = f"r = {shown[0]} {say.units['mm']}"
         rows.append([label + mark, *shown])
     return table([head.format(**said) for head in say.columns_wheels], rows)
 
@@ -158,6 +163,19 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
         if body in motion.roles.across:
             notes += wrap(say.across.format(label=label), rest="  ")
     return table([head.format(**said) for head in say.columns_speeds], rows) + notes
+
+
+def _tabular(motion: Motion, turns: Turns, words: Language) -> list[str]:
+    say = words.gears
+    letter = "n" if motion.train.unit == "n" else "ω"
+    said = {"carrier": turns.carrier, "wheel": ", ".join(turns.started)}
+    head = wrap(say.tabular.format(**said), rest="  ")
+    total = {body: speed + turns.held[body] for body, speed in turns.together.items()}
+    rows = [
+        [name.format(letter=letter, carrier=turns.carrier), *(_shown(part[body]) for body in total)]
+        for name, part in zip(say.tabular_rows, (turns.together, turns.held, total), strict=True)
+    ]
+    return [*head, *columns_text(list(zip(("", *total), *rows, strict=True)), 1)]
 
 
 def _asked(motion: Motion, words: Language) -> list[str]:

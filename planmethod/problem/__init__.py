@@ -1,7 +1,7 @@
 """Problem files: reading, checking, variants, and templates for new ones."""
 
-from planmethod.problem.families import FAMILIES, template
+from planmethod.problem.families import FAMILIES, OTHER_FAMILIES, template
 from planmethod.problem.model import Problem
 from planmethod.problem.reader import load, loads, variant_names
 
-__all__ = ["FAMILIES", "Problem", "load", "loads", "template", "variant_names"]
+__all__ = ["FAMILIES", "OTHER_FAMILIES", "Problem", "load", "loads", "template", "variant_names"]

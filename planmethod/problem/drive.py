@@ -25,7 +25,7 @@ from planmethod.problem.fields import (
     unmask,
 )
 from planmethod.problem.links import LinkText
-from planmethod.problem.model import Convention, Drive, Rule, Scales, Where
+from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
 
 Span = tuple[float, ...]
@@ -37,8 +37,9 @@ def read_drive(
     links: Mapping[str, LinkText],
     fixed: Collection[str],
     hosts: Mapping[str, str],
+    geared: Geared | None = None,
 ) -> Drive | None:
-    """Read ``[driver]``; ``hosts`` maps each slider to its host."""
+    """Read ``[driver]``; ``hosts`` maps each slider to its host, ``geared`` is its train."""
     before = len(faults)
     given = read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
     if given is None:
@@ -68,7 +69,7 @@ def read_drive(
             hint = f"Link {link.name} is {kind}: {listed(own)}."
             faults.add(f"driver.{key}", f"does not go with {kind}", hint)
     required: tuple[str, ...] = ("phi",) if pivots else ("s", "v")
-    if pivots and "n" not in given:
+    if pivots and not {"n", "train"} & {*given}:
         required += ("omega",)
     for key in required:
         if key not in given and whole:
@@ -76,7 +77,7 @@ def read_drive(
     if pivots:
         _check_crank_axis(faults, link, pivots[0])
         positions = _read_positions(faults, given, "phi")
-        rate = _read_turning(faults, given)
+        rate = _read_turning(faults, given, geared)
         acceleration = _read_rate(faults, given, "epsilon", "an angular acceleration in 1/s²")
     else:
         positions = _read_positions(faults, given, "s")
@@ -84,7 +85,8 @@ def read_drive(
         acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
     if len(faults) != before or positions is None or rate is None or acceleration is None:
         return None
-    return Drive(link.name, pivots[0] if pivots else None, positions, rate, acceleration)
+    pivot = pivots[0] if pivots else None
+    return Drive(link.name, pivot, positions, rate, acceleration, geared if pivots else None)
 
 
 def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:
@@ -216,11 +218,15 @@ def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | Non
     return read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
 
 
-def _read_turning(faults: Faults, given: Table) -> float | None:
-    """Angular velocity, 1/s, from omega or n."""
-    if "omega" in given and "n" in given:
-        faults.add("driver.n", "omega and n are both given", "Keep one of them.")
+def _read_turning(faults: Faults, given: Table, geared: Geared | None) -> float | None:
+    """Angular velocity, 1/s, from omega, n or the train."""
+    one, *others = [key for key in ("omega", "n", "train") if key in given] or ["omega"]
+    for other in others:
+        faults.add(f"driver.{other}", f"{one} and {other} are both given", "Keep one of them.")
+    if others:
         return None
+    if "train" in given:
+        return None if geared is None else geared.rate
     if "n" in given:
         turns = _read_rate(faults, given, "n", "a rotational speed in rev/min")
         return None if turns is None else turns * math.pi / 30.0

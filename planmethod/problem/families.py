@@ -11,7 +11,10 @@ FAMILIES = (
     "six-link",
     "driving-slider",
 )
-"""Their names; what they are stands in `planmethod.note.wording`."""
+"""Names of those of linkages; what they are stands in `planmethod.note.wording`."""
+
+OTHER_FAMILIES = ("ordinary-train", "planetary-train", "differential-train", "moving-point")
+"""Names of those of the other kinds of problem."""
 
 
 def template(family: str) -> str:
@@ -20,9 +23,9 @@ def template(family: str) -> str:
     Raises
     ------
     KeyError
-        The family is not in `FAMILIES`.
+        The family is none of these.
     """
-    if family not in FAMILIES:
+    if family not in (*FAMILIES, *OTHER_FAMILIES):
         raise KeyError(family)
     from importlib.resources import files  # not for those who only read
 

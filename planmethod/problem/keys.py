@@ -38,16 +38,18 @@ POINT_FORMS = {
 }
 """The key that tells how a third point is given, and the keys that go with it."""
 POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
-CRANK = ("phi", "omega", "n", "epsilon")
+CRANK = ("phi", "omega", "n", "train", "epsilon")
 SLIDER = ("s", "v", "a")
 DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
-MOVING = ("x", "y", "r", "phi", "s", "radius", "t")
+MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "theta", "t", "show")
 """Keys of ``[point]``."""
 CYCLE = ("output", "zero", "count", "length", "pole", "differentiation")
 POLE = ("v", "a")
+ROLLING = ("radius", "r", "angle", "on", "within", "arm")
+"""Keys of ``point.wheel``."""
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP: Mapping[str, str] = MappingProxyType(
     {
@@ -146,6 +148,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "moving": MOVING,
     "cycle": CYCLE,
     "pole": POLE,
+    "rolling": ROLLING,
     "scales": SCALES,
     "stamp": tuple(STAMP),
     "sheet": SHEET,

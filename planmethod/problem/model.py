@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
+from fractions import Fraction
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -146,6 +147,30 @@ FORCE = Balancing("force", "balancing force", "F", "N", turns=False)
 
 
 @dataclass(frozen=True, slots=True)
+class Geared:
+    """Gear train through which a crank is driven (привод через зубчатый механизм).
+
+    Attributes
+    ----------
+    label : str
+        Its body that turns with the crank.
+    inputs : tuple of (str, float)
+        Labels and speeds of its inputs, in `unit`.
+    unit : str
+        ``n`` for rev/min, ``omega`` for 1/s.
+    ratio : Fraction or None
+        U from a single input to the crank; None where it has no value.
+    rate : float, 1/s
+    """
+
+    label: str
+    inputs: tuple[tuple[str, float], ...]
+    unit: str
+    ratio: Fraction | None
+    rate: float
+
+
+@dataclass(frozen=True, slots=True)
 class Drive:
     """Law of motion of the driving link (начальное звено) in the positions asked for.
 
@@ -159,6 +184,8 @@ class Drive:
         guide's base point, m.
     rate, acceleration : float
         omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s².
+    geared : Geared or None
+        The train that drives a crank, where one is given.
     """
 
     link: str
@@ -166,6 +193,7 @@ class Drive:
     positions: tuple[float, ...]
     rate: float
     acceleration: float
+    geared: Geared | None = None
 
     @property
     def is_crank(self) -> bool:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.mechanism.model import FRAME
@@ -18,15 +18,20 @@ from planmethod.problem.extras import read_heading, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, read_links
-from planmethod.problem.model import Body, Problem, Slide
+from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import fold, listed, near
 from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.variants import apply_variant, read_variants
 
+TrainReader: TypeAlias = Callable[[Faults, Mapping[str, Any], object], Geared | None]
+"""What reads ``[gears]`` for the driver's ``train``: faults, that table, the label."""
 
-def load(path: str | Path, *, variant: str | None = None) -> Problem:
+
+def load(
+    path: str | Path, *, variant: str | None = None, train: TrainReader | None = None
+) -> Problem:
     """Read a problem file (файл задачи).
 
     Parameters
@@ -35,6 +40,8 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
         TOML file as ``docs/problem-file.md`` describes it.
     variant : str, optional
         Name of a ``[variants]`` table to lay over the main part.
+    train : callable, optional
+        Reads the train that drives the crank (`planmethod.kinds`); without it there is none.
 
     Raises
     ------
@@ -43,7 +50,7 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     """
     path = Path(path)
     table = parse(read_source(path), name=str(path))
-    return read_parsed(table, source=str(path), name=path.stem, variant=variant)
+    return read_parsed(table, source=str(path), name=path.stem, variant=variant, train=train)
 
 
 def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
@@ -64,9 +71,12 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
     return apply_variant(table, variants[variant]), faults
 
 
-def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
+def loads(
+    text: str, *, name: str, variant: str | None = None, train: TrainReader | None = None
+) -> Problem:
     """Read a problem from a text; ``name`` stands for the stem of the file."""
-    return read_parsed(parse(text, name=name), source=name, name=name, variant=variant)
+    table = parse(text, name=name)
+    return read_parsed(table, source=name, name=name, variant=variant, train=train)
 
 
 def variant_names(path: str | Path) -> tuple[str, ...]:
@@ -87,7 +97,12 @@ def variant_names(path: str | Path) -> tuple[str, ...]:
 
 
 def read_parsed(
-    table: Mapping[str, Any], *, source: str, name: str, variant: str | None = None
+    table: Mapping[str, Any],
+    *,
+    source: str,
+    name: str,
+    variant: str | None = None,
+    train: TrainReader | None = None,
 ) -> Problem:
     """Read a problem from what TOML made of its text.
 
@@ -97,6 +112,8 @@ def read_parsed(
         What messages call the file.
     name : str
         Name of the problem.
+    variant, train
+        As of `load`.
 
     Raises
     ------
@@ -108,7 +125,7 @@ def read_parsed(
         if variant not in variants:
             raise ProblemError(source, [*faults.found, unknown_variant(variant, variants)])
         table = apply_variant(table, variants[variant])
-    problem = _read_parts(faults, table, name)
+    problem = _read_parts(faults, table, name, train)
     if faults or problem is None:
         raise ProblemError(source, faults.found)
     return replace(problem, variants=tuple(variants), variant=variant)
@@ -125,7 +142,9 @@ def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     return Fault("variants", f"there is no variant '{variant}'", hint)
 
 
-def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem | None:
+def _read_parts(
+    faults: Faults, table: Mapping[str, Any], name: str, train: TrainReader | None
+) -> Problem | None:
     given = read_keys(faults, "", table, keys.TOP)
     title = read_heading(faults, given, "title")
     source = read_heading(faults, given, "source")
@@ -153,7 +172,8 @@ def _read_parts(faults: Faults, table: Mapping[str, Any], name: str) -> Problem 
     slides = _read_slides(faults, links, frame, hosts, guides, bodies)
     drive = None
     if "driver" in given and links:
-        drive = read_drive(faults, given["driver"], links, frame.points, hosts)
+        geared = _read_geared(faults, given, train)
+        drive = read_drive(faults, given["driver"], links, frame.points, hosts, geared)
     driver = drive.link if drive else str(_driver_name(given))
     complete = (
         bool(links)
@@ -236,6 +256,23 @@ def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
             )
             return
     faults.add("links", "missing", 'Give the links: [links.1] points = ["A", "B"], AB = 0.1.')
+
+
+def _read_geared(
+    faults: Faults, given: Mapping[str, Any], train: TrainReader | None
+) -> Geared | None:
+    """Read the train that the driver names."""
+    driver = given["driver"]
+    if not isinstance(driver, Mapping) or "train" not in driver:
+        return None
+    if not isinstance(given.get("gears"), Mapping):
+        faults.add("driver.train", "the file has no train", "Describe it in [gears].")
+        return None
+    if train is None:
+        hint = "Read the file by planmethod.load or planmethod.loads."
+        faults.add("driver.train", "trains are not read here", hint)
+        return None
+    return train(faults, given["gears"], driver["train"])
 
 
 def _driver_name(given: Mapping[str, Any]) -> object:

@@ -30,6 +30,9 @@ _HOLDERS = (Mapping, list)
 _MOTION = ("frame", "links", "driver", "assembly", "gears", "point")
 """Tables on which all published values depend."""
 
+TURNING = ("omega", "n", "train")
+"""Keys of the driver of which one replaces the others."""
+
 _CONTACT = ("slides", "length")
 """Key of a link on which none of them depends."""
 
@@ -198,10 +201,9 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> di
         for part, after in pairwise(path):
             level = _opened(level, part, after)
         level[_key(level, path[-1])] = value
-        if path == ("driver", "n"):
-            level.pop("omega", None)
-        elif path == ("driver", "omega"):
-            level.pop("n", None)
+        if path[:-1] == ("driver",) and path[-1] in TURNING:
+            for other in {*TURNING} - {path[-1]}:
+                level.pop(other, None)
     return result
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cases import each
+from cases import each, some
 from worked import every_file
 
 from benchmarks.generator import random_problem
@@ -188,7 +188,7 @@ def both(
     return line, out
 
 
-@each("seed", range(60))
+@each("seed", range(some(60, few=20)))
 def test_a_tape_is_what_it_was_made_of(seed: int) -> None:
     rng, tape = random.Random(seed), Tape()
     made = drawn(rng, tape, 40)

@@ -125,6 +125,19 @@ def test_errors_of_the_sources_stand_beside_the_exact_values() -> None:
     assert printed["planetary-k10", "omega_2"] == (24, "25/1")
 
 
+def test_the_audit_compares_what_the_sources_print() -> None:
+    done = run("audit", *map(str, FILES), "--lang", "en")
+    assert done.exit_code == ExitCode.DONE, done.output
+    rows = [[cell.strip("| ") for cell in line.split(" | ")] for line in done.stdout.splitlines()]
+    differs = [(row[0], row[2], row[3]) for row in rows if "**differs**" in row]
+    assert differs == [
+        ("n_5", "−384.6", "−375.00"),
+        ("n_4", "531.2", "530.92"),
+        ("U_1_H", "−7.75", "19.750"),
+        ("omega_2", "24", "25.000"),
+    ]
+
+
 def test_a_ratio_to_what_stands_is_null_with_a_reason(tmp_path: Path) -> None:
     text = FILES[1].read_text("utf-8").replace('"U_1_5"', '"U_1_5", "U_1_3"')
     path = tmp_path / "zero.toml"
@@ -182,6 +195,10 @@ ROW = "wheels = { 1 = 20, 2 = 36 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
         (ROW + 'unknown = ["2"]', "wheel 2 has a size, and is listed in unknown"),
         (ROW.replace(", 2 = 36", "") + 'unknown = ["2"]', "does not tell the teeth of 2"),
         (ROW + "coaxial = [[1, 2]]", "1 and 2 mesh, and would turn about one axis"),
+        (ROW + 'output = "1"', "gears.output: 1 is an input"),
+        (SET + 'output = "3"', "gears.output: 3 is fixed"),
+        (ROW.replace("] }", '], kind = "rack", carrier = "H" }'), "a rack is guided in the frame"),
+        (ROW.replace("36", "{ r = 0.0305 }") + "module = 2", "2r/m = 30.5 teeth, not whole"),
         ("wheels = 3\nmeshes = 4", "gears.wheels: expected a table"),
         ("", "gears.wheels: missing"),
         (ROW + "[published.x]\nvalue = 1", "published.x.what: unknown quantity 'x'"),

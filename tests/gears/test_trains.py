@@ -18,8 +18,9 @@ from planmethod.gears.efficiency import efficiency
 from planmethod.gears.linear import solve
 from planmethod.gears.motion import Motion, TrainKind
 from planmethod.gears.picture import draw
+from planmethod.gears.tabular import tabular
 
-SEEDS = range(60)
+SEEDS = range(100)  # 500 trains
 EXTERNAL_RING = 'wheels = { 1 = 20, 2 = 40, 3 = 100 }\nmeshes = [{ of = [1, 2], carrier = "H"%s },\
  { of = [2, 3], kind = "internal", carrier = "H"%s }]\nfixed = ["3"]\n'
 SET = EXTERNAL_RING % ("", "")
@@ -33,6 +34,10 @@ def test_speeds_are_those_of_the_step_by_step_formulas(
     motion = solved(tmp_path, made.text)
     for label, speed in made.speeds.items():
         assert motion.speed(label) == speed, (made.text, label)
+    for turns in tabular(motion):
+        sums = {body: speed + turns.held[body] for body, speed in turns.together.items()}
+        assert sums == {body: motion.speeds[body] for body in sums}
+        assert turns.held[turns.carrier] == 0
     if maker is not bevel:
         assert_contacts_meet(motion)
 
@@ -88,6 +93,36 @@ def test_an_axis_turns_the_sense_of_a_bevel_wheel(tmp_path: Path) -> None:
     )
     assert solved(tmp_path, text.format(1)).speed("3") == -2
     assert solved(tmp_path, text.format(-1)).speed("3") == 2
+
+
+@pytest.mark.parametrize(("main", "side"), [("0, 0, 1", "1, 0, 0"), ("-1, 0, 0", "0, 1, 0")])
+def test_axes_are_vectors_of_any_frame(main: str, side: str, tmp_path: Path) -> None:
+    text = (
+        f"wheels = {{ 1 = {{ z = 20, axis = [{main}] }}, 2 = {{ z = 15, axis = [{side}] }},"
+        " 3 = 20 }\n"
+        'meshes = [{ of = [1, 2], kind = "bevel", carrier = "H" },'
+        ' { of = [2, 3], kind = "bevel", carrier = "H" }]\nn = { 1 = 100, H = 60 }\n'
+    )
+    turned = ", ".join(str(-int(x)) for x in main.split(", "))
+    told = text.replace("3 = 20 }", f"3 = {{ z = 20, axis = [{turned}] }} }}")
+    assert solved(tmp_path, told).speed("3") == 20
+
+
+def test_pulleys_with_radii_drive_wheels_with_teeth(tmp_path: Path) -> None:
+    text = 'wheels = { 1 = { r = 0.05 }, 2 = { r = 0.15 }, "2\'" = 20, 3 = 40 }\nmeshes = [\
+{ of = [1, 2], kind = "belt" }, { of = ["2\'", 3] }]\nn = { 1 = 60 }\n'
+    motion = solved(tmp_path, text)
+    assert motion.speed("3") == -10
+    assert (answer(motion, "z_1").reason, answer(motion, "r_2").value) == ("teeth", 150)
+    assert not [one for one in conditions(motion) if one.name == "coaxiality"]
+
+
+def test_a_row_of_any_length_and_a_satellite_as_input(tmp_path: Path) -> None:
+    wheels = ", ".join(f"{k} = {19 + k}" for k in range(1, 21))
+    meshes = ", ".join(f"{{ of = [{k}, {k + 1}] }}" for k in range(1, 20))
+    row = solved(tmp_path, f"wheels = {{ {wheels} }}\nmeshes = [{meshes}]\nn = {{ 1 = 39 }}\n")
+    assert row.speed("20") == -20
+    assert solved(tmp_path, SET + "n = { 2 = 10 }\n").speed("1") == -40
 
 
 @pytest.mark.parametrize(
@@ -184,6 +219,15 @@ def test_undercutting_is_said_and_a_shift_avoids_it(tmp_path: Path) -> None:
 
 
 # Efficiency --------------------------------------------------------------------------------------
+
+
+def test_the_tabular_method_turns_the_fixed_wheel_back(tmp_path: Path) -> None:
+    """+1 turn of all, -1 of the ring with the carrier held: wheel 1 by +5, in all 6."""
+    (turns,) = tabular(solved(tmp_path, SET + "n = { H = 1 }\n"))
+    assert turns.started == ("3",)
+    assert turns.together == dict.fromkeys(("H", "1", "2", "3"), 1)
+    assert turns.held == {"H": 0, "1": 5, "2": Fraction(-5, 2), "3": -1}
+    assert not tabular(solved(tmp_path, SET.replace('["3"]', '["H"]') + "n = { 1 = 1 }\n"))
 
 
 def test_the_efficiency_of_a_set_is_that_of_the_textbook(tmp_path: Path) -> None:

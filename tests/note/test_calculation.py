@@ -22,7 +22,7 @@ from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
 
 NAMES = [path.relative_to(PROBLEMS).with_suffix("") for path in every_file()]
-SEEDS = range(some(60, few=20))
+SEEDS = range(some(60, few=8))
 PLANS = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
 
 

@@ -14,7 +14,7 @@ from planmethod.note.protocol import protocol
 from planmethod.note.wording import UnknownLanguageError, wording
 from planmethod.plans.model import PlanKind
 
-SEEDS = range(some(60, few=30))
+SEEDS = range(some(60, few=12))
 """Random mechanisms: enough for every dyad, driver and kind of step."""
 
 SENTENCES = {

@@ -107,7 +107,7 @@ def test_tables_fit_the_terminal(name: str, lang: str) -> None:
 
 
 @each("lang", LANGUAGES)
-@each("seed", range(some(40, few=15)))
+@each("seed", range(some(40, few=5)))
 def test_tables_of_any_mechanism_fit_the_terminal(seed: int, lang: str) -> None:
     assert_readable(result_tables(drawn(seed), lang, sigma=True))
 

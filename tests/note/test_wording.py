@@ -1,11 +1,11 @@
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from string import Formatter
+from types import CodeType
 
 import pytest
 
@@ -14,7 +14,7 @@ from planmethod.errors import ExitCode
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
-from planmethod.problem import FAMILIES
+from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.problem.model import FORCE, MOMENT
 from planmethod.solved.selected.asking import NoAnswer
 
@@ -88,7 +88,7 @@ def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol, *lever}
     for balance in (words.note.balance, words.sheets.balance, words.forces.and_balance):
         assert set(balance) == {MOMENT.quantity, FORCE.quantity}
-    assert list(words.families) == list(FAMILIES)
+    assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]
     assert set(words.audit.whys) == {why.value for why in NoAnswer}
     assert list(words.audit.verdicts) == list(words.audit.counted) == [v.value for v in Verdict]
 
@@ -116,12 +116,25 @@ def test_no_word_stands_outside_the_folders_of_the_languages() -> None:
 
 
 def literals(path: Path) -> Iterator[str]:
-    """Yield the texts of a module that are no docstrings."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    alone = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in alone:
-            yield node.value
+    """Yield the texts of a module that are no docstrings: those that its code keeps."""
+    text = path.read_text(encoding="utf-8")
+    if not CYRILLIC.search(text):
+        return
+    codes = [compile(text, path.name, "exec", optimize=2, dont_inherit=True)]
+    while codes:
+        for kept in codes.pop().co_consts:
+            if isinstance(kept, CodeType):
+                codes.append(kept)
+            else:
+                yield from _texts(kept)
+
+
+def _texts(kept: object) -> Iterator[str]:
+    if isinstance(kept, str):
+        yield kept
+    elif isinstance(kept, (tuple, frozenset)):
+        for one in kept:
+            yield from _texts(one)
 
 
 def test_every_sentence_of_the_forces_is_said() -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 import pytest
+from cases import some
 
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
@@ -149,7 +150,7 @@ def test_a_parallelogram_stays_one_and_goes_on_where_continuous_does(seed: int) 
     assert changed_branches(solution) == []
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(some(6, few=2)))
 def test_all_readings_of_a_position_agree_alone_and_together(seed: int) -> None:
     keep = ', keep = "continuous"'
     for problem, at in (

@@ -21,7 +21,7 @@ from planmethod.problem.model import Problem
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
-SEEDS = range(some(200, few=50))
+SEEDS = range(some(200, few=25))
 UNIT_SCALES = {"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0}
 
 

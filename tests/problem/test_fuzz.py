@@ -119,7 +119,7 @@ def spoiled(draw: st.DrawFn) -> dict[str, Any]:
     return table
 
 
-@settings(FEW, max_examples=some(1000, few=500))
+@settings(FEW, max_examples=some(1000, few=200))
 @given(spoiled())
 def test_spoiled_files(table: dict[str, Any]) -> None:
     try_read(table)

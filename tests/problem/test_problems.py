@@ -163,6 +163,7 @@ SCHEMA_TABLES = {
     "moving": SCHEMA["$defs"]["moving"]["properties"],
     "cycle": SCHEMA["$defs"]["cycle"]["properties"],
     "pole": SCHEMA["$defs"]["cycle"]["properties"]["pole"]["properties"],
+    "rolling": SCHEMA["$defs"]["rolling"]["properties"],
     "scales": SCHEMA["$defs"]["scales"]["properties"],
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
     "sheet": SCHEMA["$defs"]["sheet"]["properties"],

@@ -231,7 +231,7 @@ def test_chords_are_told() -> None:
     assert RU.sheets.chords in texts and errors(sheet) == []
 
 
-@each("seed", range(some(8, few=3)))
+@each("seed", range(some(8, few=2)))
 def test_random_mechanisms(seed: int) -> None:
     """All dyads and driving sliders, every link loaded: a sheet without errors."""
     problem, _ = loaded_problem(seed)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import pytest
-from cases import each
+from cases import each, thinned
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reading import texts
@@ -188,7 +188,7 @@ ALL_FIELDS = {**FIELDS, "first_use": "ТММ.КП.12.00.00.000", "inventory": "1
 
 
 @each("form", FORMS)
-@each("name", FORMATS)
+@each("name", thinned(list(FORMATS), 3))
 def test_frame_is_20_mm_from_the_left_and_5_from_the_other_edges(name: str, form: str) -> None:
     fmt = FORMATS[name]
     for sheet in (1, 2):

@@ -73,15 +73,18 @@ def test_twelve_positions_too() -> None:
     assert 0 < given_up < checked / 10  # near the poles of a plan segments get short
 
 
-def test_where_first_order_is_given_up_sigma_is_that_of_the_sheets() -> None:
-    solution = Solution(problem_of("linkages/ex3"), positions=list(range(0, 360, 30)))
-    drafting = Drafting(solution, draws=2000, seed=3)
-    (label, spread) = next(
-        (label, spread) for label, spread in drafting.spreads.items() if spread.drawn.any()
-    )
-    i = int(np.flatnonzero(spread.drawn)[0])
-    low, high = np.quantile(drafting.sample(i)[label], [0.158655, 0.841345])
-    assert spread.sigma[i] == pytest.approx((high - low) / 2, rel=1e-4)
+@pytest.mark.parametrize("name", ["linkages/ex3", "press/press"])
+def test_where_first_order_is_given_up_sigma_is_that_of_the_sheets(name: str) -> None:
+    """A ruler as fine as here rounds nothing: of rounded lengths the quantiles jump."""
+    solution = Solution(problem_of(name), positions=list(range(0, 360, 30)), ruler=1e-6)
+    drafting = Drafting(solution, draws=4000, seed=3)
+    found = []
+    for label, spread in drafting.spreads.items():
+        for i in np.flatnonzero(spread.drawn):
+            low, high = np.quantile(drafting.sample(int(i))[label], [0.158655, 0.841345])
+            found.append(spread.sigma[i] / ((high - low) / 2))
+    assert len(found) >= 15
+    assert max(np.abs(np.log(found))) < 0.1
 
 
 # Single strokes -----------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ from planmethod.solved.solution import Solution
 Array = npt.NDArray[Any]
 
 FILES = [path for path in every_file() if load(path).dynamics is not None]
-SEEDS = range(some(60, few=15))
+SEEDS = range(some(60, few=9))
 
 CHANGING = """
 [dynamics.links.1]

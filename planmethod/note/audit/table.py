@@ -4,16 +4,36 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import Protocol
 
 from planmethod.note.audit.audit import DRAFTING_MM, Audited, count
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, given, spoken
 from planmethod.note.wording import language
-from planmethod.problem.model import Problem
 
 NONE = "—"
 DIGITS = 5
 """Significant digits of an exact and of a read value."""
+
+
+class Headed(Protocol):
+    """What a problem of any kind has for its section."""
+
+    @property
+    def name(self) -> str:
+        """Name of the problem."""
+
+    @property
+    def variant(self) -> str | None:
+        """Which variant it is; None for the main part."""
+
+    @property
+    def title(self) -> str:
+        """Title of the problem."""
+
+    @property
+    def source(self) -> str:
+        """Where it is from."""
 
 
 class Document:
@@ -36,7 +56,7 @@ class Document:
         self.words, self.says = found.note, found.audit
         self.ruler = ruler
 
-    def markdown(self, audits: Sequence[tuple[Problem, Sequence[Audited]]]) -> str:
+    def markdown(self, audits: Sequence[tuple[Headed, Sequence[Audited]]]) -> str:
         """Return the whole document: what the columns mean, the counts, a table a problem."""
         limits = {
             "ruler": given(self.ruler, self.words),
@@ -48,7 +68,7 @@ class Document:
         parts += [self._section(problem, items) for problem, items in audits]
         return "\n\n".join(parts) + "\n"
 
-    def _counts(self, audits: Sequence[tuple[Problem, Sequence[Audited]]]) -> str:
+    def _counts(self, audits: Sequence[tuple[Headed, Sequence[Audited]]]) -> str:
         says = self.says
         rows = [
             [_plain(name(problem)), str(len(items)), *map(str, count(items).values())]
@@ -56,7 +76,7 @@ class Document:
         ]
         return _table([says.problem, says.values, *says.counted.values()], rows, "lrrrrr")
 
-    def _section(self, problem: Problem, items: Sequence[Audited]) -> str:
+    def _section(self, problem: Headed, items: Sequence[Audited]) -> str:
         says = self.says
         head = [f"## {_plain(name(problem))}: {_plain(problem.title)}"]
         if problem.source:
@@ -92,7 +112,7 @@ class Document:
         return NONE if value is None else fixed(round(value, 2), self.words)
 
 
-def name(problem: Problem) -> str:
+def name(problem: Headed) -> str:
     """Return what the document calls a problem: its file, and its variant."""
     return problem.name if problem.variant is None else f"{problem.name}, {problem.variant}"
 

@@ -10,7 +10,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.problem.model import Body, Problem, Slide
+from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.solved.solution import Solution
 
 
@@ -63,13 +63,28 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
             name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
             lines.append(f"e_{{{name}}} = {number(slide.offset)} {units['m']}")
     if drive.is_crank:
+        lines += [] if drive.geared is None else _through(drive.geared, words)
         constant = "" if drive.acceleration else " = const"
-        lines.append(f"ω_{{{drive.link}}} = {number(drive.rate)} {units['1/s']}{constant}")
+        wheel = "" if drive.geared is None else f" = ω_{{{drive.geared.label}}}"
+        lines.append(f"ω_{{{drive.link}}}{wheel} = {number(drive.rate)} {units['1/s']}{constant}")
         if drive.acceleration:
             lines.append(f"ε_{{{drive.link}}} = {number(drive.acceleration)} {units['1/s²']}")
     else:
         lines.append(f"v = {number(drive.rate)} {units['m/s']}")
         lines.append(f"a = {number(drive.acceleration)} {units['m/s²']}")
+    return lines
+
+
+def _through(geared: Geared, words: Language) -> list[str]:
+    """Return what drives the crank: the speeds of the inputs, and the ratio to it."""
+    letter, unit = ("n", "1/min") if geared.unit == "n" else ("ω", "1/s")
+    lines = [
+        f"{letter}_{{{label}}} = {words.say.given(speed)} {words.say.units[unit]}"
+        for label, speed in geared.inputs
+    ]
+    if geared.ratio is not None:
+        source, ratio = geared.inputs[0][0], words.say.given(float(geared.ratio))
+        lines.append(f"U_{{{source}-{geared.label}}} = {ratio}")
     return lines
 
 

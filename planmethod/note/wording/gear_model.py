@@ -37,6 +37,8 @@ class GearWording:
     relative: str
     across: str
     rack: str
+    tabular: str
+    tabular_rows: tuple[str, ...]
     asked: str
     columns_asked: tuple[str, ...]
     checked: str

@@ -19,6 +19,8 @@ from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.synthesis_model import SynthesisWording
+from planmethod.note.wording.teeth_model import TeethWording
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,10 +47,12 @@ class Language:
         The form to fill in, and what cannot be read in works.
     point : PointWording
         The moving point.
-    gears : GearWording
-        Gear trains.
     cycle : CycleWording
         The turn of a crank.
+    gears, teeth : GearWording, TeethWording
+        Gear trains, and the choice of their teeth.
+    synthesis : SynthesisWording
+        Syntheses.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -70,5 +74,7 @@ class Language:
     point: PointWording
     gears: GearWording
     cycle: CycleWording
+    synthesis: SynthesisWording
+    teeth: TeethWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

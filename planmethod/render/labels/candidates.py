@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import tau
 from typing import TypeAlias
 
@@ -22,7 +23,7 @@ _BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
 _OTHER_SIDE = 3.0  # being on the other side of its segment than preferred, mm of distance
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Candidates:
     """Places of one label.
 
@@ -43,17 +44,24 @@ class Candidates:
     starts: Complexes
     ends: Complexes
 
-    @property
+    @cached_property
     def led(self) -> NDArray[np.bool_]:
         """Which places are so far that they need a leader line."""
         return np.abs(self.ends - self.starts) > self.label.manner.leader_from
 
-    @property
+    @cached_property
     def leaders(self) -> Floats:
         """Leader lines as segments, shape (n, 2, 2), NaN where there is none."""
         segments = as_segments(self.starts, self.ends)
         segments[~self.led] = np.nan
         return segments
+
+    @cached_property
+    def around(self) -> Floats:
+        """Boxes around the places and their leader lines, shape (n, 4), mm."""
+        low = np.fmin(self.boxes[:, :2], np.fmin(self.leaders[:, 0], self.leaders[:, 1]))
+        high = np.fmax(self.boxes[:, 2:], np.fmax(self.leaders[:, 0], self.leaders[:, 1]))
+        return np.concatenate([low, high], axis=1)
 
 
 def near(label: Label) -> Candidates:
@@ -152,33 +160,25 @@ def as_segments(starts: Complexes, ends: Complexes) -> Floats:
     return np.stack([pairs.real, pairs.imag], axis=2)
 
 
-def around(boxes: Floats, leaders: Floats) -> Floats:
-    """Return boxes (n, 4) around labels and their leader lines (n, 2, 2)."""
-    low = np.fmin(boxes[:, :2], np.fmin(leaders[:, 0], leaders[:, 1]))
-    high = np.fmax(boxes[:, 2:], np.fmax(leaders[:, 0], leaders[:, 1]))
-    return np.concatenate([low, high], axis=1)
-
-
 def inside(segments: Floats, boxes: Floats) -> Floats:
     """Return the length of each segment inside its box, mm; -1 where they do not meet.
 
     Clipping after Liang and Barsky, for arrays of segments (..., 2, 2) and boxes (..., 4) that
     broadcast together. A segment of NaN meets nothing.
     """
-    first, last, length = np.asarray(0.0), np.asarray(1.0), np.asarray(0.0)
-    for axis in (0, 1):
-        start = segments[..., 0, axis]
-        way = segments[..., 1, axis] - start
-        low, high = boxes[..., axis], boxes[..., axis + 2]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            one, two = (low - start) / way, (high - start) / way
+    start, low, high = segments[..., 0, :], boxes[..., :2], boxes[..., 2:]
+    way = segments[..., 1, :] - start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, two = (low - start) / way, (high - start) / way
+        enter, leave = np.minimum(one, two), np.maximum(one, two)
         still = way == 0
-        between = (start >= low) & (start <= high)
-        enter = np.where(still, np.where(between, -np.inf, np.inf), np.minimum(one, two))
-        leave = np.where(still, np.where(between, np.inf, -np.inf), np.maximum(one, two))
-        first, last = np.maximum(first, enter), np.minimum(last, leave)
-        length = np.hypot(length, way)
-    with np.errstate(invalid="ignore"):
+        if still.any():
+            between = (start >= low) & (start <= high)
+            enter = np.where(still, np.where(between, -np.inf, np.inf), enter)
+            leave = np.where(still, np.where(between, np.inf, -np.inf), leave)
+        first = np.maximum(np.maximum(enter[..., 0], enter[..., 1]), 0.0)
+        last = np.minimum(np.minimum(leave[..., 0], leave[..., 1]), 1.0)
+        length = np.hypot(way[..., 0], way[..., 1])
         return np.where(last >= first, np.maximum(last - first, 0.0) * length, -1.0)
 
 
@@ -192,8 +192,12 @@ def crossing(one: Floats, two: Floats) -> NDArray[np.bool_]:
         return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
 
     with np.errstate(invalid="ignore"):
-        apart = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
-    return np.asarray(apart)
+        apart = np.asarray(side(a, b, c) * side(a, b, d) < 0)
+        if a.shape == c.shape and a.ndim == 2:  # of many pairs few get so far
+            a, b, c, d = a[apart], b[apart], c[apart], d[apart]
+            apart[apart] = side(c, d, a) * side(c, d, b) < 0
+            return apart
+        return apart & (side(c, d, a) * side(c, d, b) < 0)
 
 
 def crossed(leaders: Sequence[Floats]) -> int:

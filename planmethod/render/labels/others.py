@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from planmethod.render.labels.candidates import Candidates, Floats, around, crossing, inside
+from planmethod.render.labels.candidates import Candidates, Floats, crossing, inside
 from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import FORBIDDEN
 
@@ -25,12 +25,14 @@ class Others:
         self._widest = float(self._beside.max())
         self._boxes = np.full((len(labels), 4), np.nan)
         self._leaders = np.full((len(labels), 2, 2), np.nan)
+        self._around = np.full((len(labels), 4), np.nan)
         self._there: dict[int, None] = {}
 
     def put(self, k: int, candidates: Candidates, row: int) -> None:
         """Note the place that a label takes."""
         self._boxes[k] = candidates.boxes[row]
         self._leaders[k] = candidates.leaders[row]
+        self._around[k] = candidates.around[row]
         self._there[k] = None
 
     def lift(self, k: int) -> None:
@@ -50,35 +52,33 @@ class Others:
 
     def each(self, candidates: Candidates, rows: NDArray[np.intp], there: list[int]) -> Floats:
         """Return what each label costs each place, shape (n, len(there))."""
-        boxes, own = candidates.boxes[rows], candidates.leaders[rows]
         costs = np.zeros((len(rows), len(there)))
         others = np.asarray(there)
-        # Only labels near one of the places can meet it.
-        x0, y0, x1, y1 = around(boxes, own).T
-        a0, b0, a1, b1 = around(self._boxes[others], self._leaders[others]).T
-        near = np.flatnonzero(
-            (a0 < x1.max() + self._widest)
-            & (a1 > x0.min() - self._widest)
-            & (b0 < y1.max() + self._widest)
-            & (b1 > y0.min() - self._widest)
+        # Only a label near a place can meet it.
+        mine, theirs, white = candidates.around[rows], self._around[others], self._widest
+        (row, other) = np.nonzero(
+            (mine[:, None, 0] - white < theirs[:, 2])
+            & (mine[:, None, 2] + white > theirs[:, 0])
+            & (mine[:, None, 1] - white < theirs[:, 3])
+            & (mine[:, None, 3] + white > theirs[:, 1])
         )
-        if not len(near):
+        if not len(row):
             return costs
-        a, b = boxes[:, None, :], self._boxes[others[near]][None, :, :]
-        wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0])
-        wide += np.maximum(self._beside[others[near]], candidates.label.manner.beside)
-        tall = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + APART
+        at, of = rows[row], others[other]
+        a, b = candidates.boxes[at], self._boxes[of]
+        size = np.minimum(a[:, 2:], b[:, 2:]) - np.maximum(a[:, :2], b[:, :2])
+        wide = size[:, 0] + np.maximum(self._beside[of], candidates.label.manner.beside)
+        tall = size[:, 1] + APART
         found = np.where((wide > 0) & (tall > 0), FORBIDDEN + wide * tall, 0.0)
-        white = np.array([-1, -1, 1, 1]) * _OFF_LEADERS
-        theirs = self._leaders[others[near]]
-        led = np.flatnonzero(~np.isnan(theirs[:, 0, 0]))
-        if len(led):
-            found[:, led] += FORBIDDEN * (inside(theirs[led][None], a + white) >= 0)
-        mine = np.flatnonzero(~np.isnan(own[:, 0, 0]))
-        if len(mine):
-            lines = own[mine][:, None]
-            found[mine] += FORBIDDEN * (inside(lines, b + white) >= 0)
-            if len(led):
-                found[np.ix_(mine, led)] += LEADERS_CROSS * crossing(lines, theirs[led][None])
-        costs[:, near] = found
+        own, led = candidates.leaders[at], self._leaders[of]
+        lines = np.concatenate([led, own])
+        is_led = ~np.isnan(lines[:, 0, 0])
+        if is_led.any():
+            grown = np.concatenate([a, b]) + np.array([-1, -1, 1, 1]) * _OFF_LEADERS
+            hit = np.zeros(len(lines))
+            hit[is_led] = inside(lines[is_led], grown[is_led]) >= 0
+            found += FORBIDDEN * hit[: len(row)]
+            found += FORBIDDEN * hit[len(row) :]
+            found += LEADERS_CROSS * crossing(own, led)
+        costs[row, other] = found
         return costs

@@ -8,7 +8,7 @@ from math import acos
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, box, intersects, linestrings, points, polygons
+from shapely import STRtree, box, linestrings, points, polygons
 
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
 from planmethod.render.ink.extent import arc_points
@@ -128,16 +128,14 @@ class Paper:
             np.add.at(costs, found, np.where(self.breakable[line[met]], _BETWEEN, heavy[found]))
         ask = np.flatnonzero(led & (so_far < CROSSED))
         if self._areas is not None and len(ask):
-            lines = linestrings(paths[ask])
-            which, area = self._areas.query(lines)
-            met = intersects(lines[which], self._areas.geometries[area])
+            which, area = self._areas.query(linestrings(paths[ask]), predicate="intersects")
             # A leader may start inside what it names: a joint, a slider.
             owner = np.repeat(np.arange(len(many)), [len(c.boxes) for c in many])[ask[which]]
             anchors = np.asarray([c.label.anchor for c in many])
             at = points(anchors.real, anchors.imag)
-            own = {(int(k), int(a)) for k, a in self._areas.query(at, predicate="intersects").T}
-            pairs = zip(owner.tolist(), area.tolist(), strict=True)
-            met &= np.fromiter((pair not in own for pair in pairs), bool, len(area))
+            own, inner = self._areas.query(at, predicate="intersects")
+            count = len(self._areas.geometries)
+            met = ~np.isin(owner * count + area, own * count + inner)
             np.add.at(costs, ask[which[met]], _THROUGH)
         return costs
 

@@ -1,7 +1,8 @@
 """How far what a program draws may be off: sigma of every quantity, how they err together.
 
-The strokes are those of a pencil (`planmethod.construct.drafting`). First order where it holds,
-random sheets where it does not.
+The strokes are those of a pencil (`planmethod.construct.drafting`). First order where it holds. Of
+what is nearly nothing only the last readings are drawn at random, from points that are off to first
+order; where a step itself is as good as impossible, whole sheets are.
 """
 
 from __future__ import annotations
@@ -15,11 +16,21 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Number
-from planmethod.construct.drafting import Counted, Propagated, Sampled
+from planmethod.construct.drafting import Counted, Dithered, Propagated, Sampled
 from planmethod.construct.dual import as_dual
-from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.evaluate import Trace, evaluate, go_on
 from planmethod.construct.program import Program
-from planmethod.construct.steps import Name, PointName, operands
+from planmethod.construct.steps import (
+    Compute,
+    LineName,
+    Measure,
+    Name,
+    PointName,
+    Step,
+    Total,
+    makes,
+    operands,
+)
 from planmethod.errors import PlanMethodError
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.reading import Flags, Reals
@@ -31,6 +42,9 @@ DRAWS = 4000
 
 STRAINED = 0.1
 """Sigma of a step's margin, in parts of it, from which first order is not believed."""
+
+BENT = 0.03
+"""The same from which what is nearly nothing is not believed to be off to first order."""
 
 SHORT = 3.0
 """Sigmas that a length must have for first order to be believed."""
@@ -117,6 +131,7 @@ class Errors:
             {name: column(margin) for name, margin in trace.margin.items()},
             {name: slopes(margin) for name, margin in trace.margin.items()},
             {name: slopes(trace.value[name]) for name in self.drawing.points},
+            {name: (column(trace.value[name]), slopes(trace.value[name])) for name in self._leaves},
             pencil.of,
         )
 
@@ -125,15 +140,105 @@ class Errors:
         """What first order says in all positions; slopes of one are found anew when asked for."""
         count = self.drawing.count
         parts = [
-            _reduced(self._propagate(np.arange(start, min(start + BLOCK, count))))
+            self._reduced(self._propagate(np.arange(start, min(start + BLOCK, count))))
             for start in range(0, count, BLOCK)
         ]
         return _First(
             _joined([part.values for part in parts]),
             _joined([part.sigmas for part in parts]),
-            _joined([part.strained for part in parts]),
+            _joined([part.strain for part in parts]),
             _joined([part.points for part in parts]),
+            _joined([part.short for part in parts]),
         )
+
+    def _reduced(self, part: _Slopes) -> _First:
+        sigmas = {label: _sigma(slopes) for label, slopes in part.slopes.items()}
+        short = {
+            label: (sigmas[label] > 0) & (_size(item, part.values[label]) < SHORT * sigmas[label])
+            for label, item in self.items.items()
+            if item.kind is not DrawnKind.NUMBER
+        }
+        for label, item in self.items.items():
+            if item.direction:
+                short[label] = short[label] | short[item.direction]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            strain = {
+                name: _sigma(part.margin_slopes[name]) / np.abs(margin)
+                for name, margin in part.margins.items()
+            }
+        return _First(
+            part.values,
+            sigmas,
+            strain,
+            {name: _covariance(slopes) for name, slopes in part.points.items()},
+            {label: self._read_again(label, part, where) for label, where in short.items()},
+        )
+
+    # What is nearly nothing --------------------------------------------------------------------
+
+    @cached_property
+    def _readings(self) -> dict[str, tuple[tuple[Step, ...], tuple[Name, ...]]]:
+        """The last steps of every length and direction: what is read, and from which names."""
+        made = {step.out: step for step in self.drawing.program.steps}
+        order = {name: k for k, name in enumerate(made)}
+        found: dict[str, tuple[tuple[Step, ...], tuple[Name, ...]]] = {}
+        for label, item in self.items.items():
+            if item.kind is DrawnKind.NUMBER:
+                continue
+            steps, leaves, left = set[Name](), set[Name](), list(item.needs)
+            while left:
+                name = left.pop()
+                if isinstance(made[name], (Compute, Total, Measure)):
+                    if name not in steps:
+                        steps.add(name)
+                        left += [one for one, _ in operands(made[name])]
+                else:
+                    leaves.add(name)
+            if any(makes(made[name]) is LineName for name in leaves):
+                continue  # a line has two values
+            last = tuple(made[name] for name in sorted(steps, key=order.__getitem__))
+            found[label] = last, tuple(sorted(leaves, key=order.__getitem__))
+        return found
+
+    @cached_property
+    def _leaves(self) -> tuple[Name, ...]:
+        return tuple({name: None for _, leaves in self._readings.values() for name in leaves})
+
+    def _read_again(self, label: str, part: _Slopes, where: Flags) -> Reals:
+        """Return the sigma where a length is nearly nothing, NaN elsewhere; shape (n,).
+
+        Infinite where it cannot be told so.
+        What it is read from is drawn at random as first order has it, and is read.
+        """
+        found = np.full(len(where), np.nan)
+        (chosen,) = np.nonzero(where)
+        if not len(chosen):
+            return found
+        if label not in self._readings:
+            found[chosen] = np.inf
+            return found
+        (steps, leaves), item = self._readings[label], self.items[label]
+        values = [part.leaves[name][0][chosen] for name in leaves]
+        slopes = [part.leaves[name][1][:, chosen] for name in leaves]
+        rows = np.array([side for slope in slopes for side in (slope.real, slope.imag)])
+        size, turned = np.linalg.eigh(np.einsum("amn,bmn->nab", rows, rows))
+        root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
+        pencil = Dithered(self.profile, self.drawing.free, self.draws, self.seed)
+        off = root @ pencil.normals(len(rows))
+        env = {
+            name: value[:, None] + off[:, 2 * k] + (1j * off[:, 2 * k + 1])
+            if np.iscomplexobj(value)
+            else value[:, None] + off[:, 2 * k]
+            for k, (name, value) in enumerate(zip(leaves, values, strict=True))
+        }
+        with np.errstate(all="ignore"):
+            taken = item.take(go_on(Trace(env, {}), steps, {}, pencil))
+        drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), self.draws))
+        if _turns(item):
+            drawn = np.array([_unwound(row) for row in drawn])
+        low, high = np.quantile(drawn, CENTRAL, axis=1)
+        found[chosen] = (high - low) / 2
+        return found
 
     def _at(self, index: int) -> _Slopes:
         """Return the slopes in one position."""
@@ -147,16 +252,16 @@ class Errors:
     def _ancestors(self) -> dict[Name, frozenset[Name]]:
         return _ancestors(self.drawing.program)
 
-    def strained(self, *names: Name) -> Flags:
+    def strained(self, *names: Name, limit: float = STRAINED) -> Flags:
         """Tell where a step that some others hang on is as good as impossible for this hand.
 
         Its margin there is not much larger than its own error.
         """
         found = np.zeros(self.drawing.count, dtype=bool)
         above = frozenset[Name]().union(*(self._ancestors[name] for name in names))
-        for step, flags in self._first.strained.items():
+        for step, strain in self._first.strain.items():
             if step in above:
-                found |= flags
+                found |= ~(strain <= limit)
         return found
 
     @cached_property
@@ -167,18 +272,20 @@ class Errors:
     def _spread(self, label: str) -> Spread:
         item, first = self.items[label], self._first
         sigma = np.array(first.sigmas[label])
-        doubtful = ~np.isfinite(sigma) | self.strained(*item.needs)
-        if item.kind is not DrawnKind.NUMBER:
-            size = first.values[label] if item.kind is DrawnKind.LENGTH else RADIAN
-            doubtful |= (sigma > 0) & (size < SHORT * sigma)
+        strange = ~np.isfinite(sigma) | self.strained(*item.needs)
         if item.direction:
-            doubtful |= self.spreads[item.direction].drawn
+            way = self.items[item.direction]
+            strange |= ~np.isfinite(first.sigmas[way.label]) | self.strained(*way.needs)
+        again = first.short.get(label, np.full_like(sigma, np.nan))
+        bent = ~np.isnan(again) & self.strained(*item.needs, limit=BENT)
+        strange, short = strange | np.isinf(again) | bent, np.isfinite(again)
         if item.absent is not None:
             absent = item.absent()
-            sigma[absent], doubtful = 0.0, doubtful & ~absent
-        for i in np.flatnonzero(doubtful):
+            sigma[absent], strange, short = 0.0, strange & ~absent, short & ~absent
+        sigma[short] = again[short]
+        for i in np.flatnonzero(strange):
             sigma[i] = self._of_sheets(int(i))[label]
-        return Spread(sigma, doubtful)
+        return Spread(sigma, strange | short)
 
     def _of_sheets(self, index: int) -> dict[str, float]:
         """Return the sigmas of all quantities that random sheets of one position give."""
@@ -279,29 +386,28 @@ class _Slopes:
     margins: dict[Name, Reals]
     margin_slopes: dict[Name, Reals]
     points: dict[PointName, npt.NDArray[np.complex128]]
+    leaves: dict[Name, tuple[Any, Any]]
     strokes: list[str]
 
 
 @dataclass(frozen=True, slots=True)
 class _First:
-    """First order: values, sigmas, strained steps, covariances of points (2, 2, n)."""
+    """First order: values, sigmas, strain of steps, covariances of points (2, 2, n).
+
+    ``strain``: sigma of a step's margin, in parts of it. ``short``: sigmas of what is nearly
+    nothing, NaN where it is not.
+    """
 
     values: dict[str, Reals]
     sigmas: dict[str, Reals]
-    strained: dict[Name, Flags]
+    strain: dict[Name, Reals]
     points: dict[PointName, Reals]
+    short: dict[str, Reals]
 
 
-def _reduced(part: _Slopes) -> _First:
-    return _First(
-        part.values,
-        {label: _sigma(slopes) for label, slopes in part.slopes.items()},
-        {
-            name: ~(_sigma(part.margin_slopes[name]) <= STRAINED * np.abs(margin))
-            for name, margin in part.margins.items()
-        },
-        {name: _covariance(slopes) for name, slopes in part.points.items()},
-    )
+def _size(item: DrawnQuantity, values: Reals) -> Reals | float:
+    """Return what a sigma is to be compared with: the length, or that which is turned."""
+    return values if item.kind is DrawnKind.LENGTH else RADIAN
 
 
 def _joined(parts: list[dict[Key, Any]]) -> dict[Key, Any]:

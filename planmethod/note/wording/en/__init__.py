@@ -15,6 +15,8 @@ from planmethod.note.wording.en.point import POINT
 from planmethod.note.wording.en.sheets import SHEETS
 from planmethod.note.wording.en.specimens import SPECIMENS
 from planmethod.note.wording.en.structure import STRUCTURE
+from planmethod.note.wording.en.synthesis import SYNTHESIS
+from planmethod.note.wording.en.teeth import TEETH
 from planmethod.note.wording.language import Language
 
 LANGUAGE = Language(
@@ -33,6 +35,8 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     cycle=CYCLE,
+    synthesis=SYNTHESIS,
+    teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

@@ -118,6 +118,7 @@ CONTROL = ControlWording(
         "balance": "diagram of the balance",
         "reactions": "diagram of reactions",
         "hodograph": "polar diagrams",
+        "trajectory": "trajectory",
         "structure": "structural schemes",
         "stamp": "title block",
         "": "sheet",

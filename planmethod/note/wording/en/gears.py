@@ -30,6 +30,9 @@ GEARS = GearWording(
     across="The axis of {label} is not parallel to the main one: its speed is relative to the "
     "carrier, about its own axis.",
     rack="rack",
+    tabular="Tabular method, carrier {carrier}: all turned with the carrier, then {wheel} turned "
+    "with the carrier held; the sum is what the equations give",
+    tabular_rows=("with the carrier, {letter}", "carrier held, {letter}", "sum, {letter}"),
     asked="Asked",
     columns_asked=("quantity", "value", "fraction", "unit"),
     checked="Conditions",

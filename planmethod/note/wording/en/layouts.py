@@ -77,5 +77,9 @@ FAMILIES = MappingProxyType(
         "sine": "sine mechanism (Scotch yoke)",
         "six-link": "six-link mechanism with a slotted link and a slider",
         "driving-slider": "mechanism with a driving slider",
+        "ordinary-train": "gear train with fixed axes",
+        "planetary-train": "planetary gear train",
+        "differential-train": "differential gear train",
+        "moving-point": "motion of a point",
     }
 )

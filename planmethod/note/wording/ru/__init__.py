@@ -16,6 +16,8 @@ from planmethod.note.wording.ru.point import POINT
 from planmethod.note.wording.ru.sheets import SHEETS
 from planmethod.note.wording.ru.specimens import SPECIMENS
 from planmethod.note.wording.ru.structure import STRUCTURE
+from planmethod.note.wording.ru.synthesis import SYNTHESIS
+from planmethod.note.wording.ru.teeth import TEETH
 
 LANGUAGE = Language(
     lang="ru",
@@ -33,6 +35,8 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     cycle=CYCLE,
+    synthesis=SYNTHESIS,
+    teeth=TEETH,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

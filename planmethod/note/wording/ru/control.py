@@ -115,6 +115,7 @@ CONTROL = ControlWording(
         "balance": "диаграмма уравновешивания",
         "reactions": "диаграмма реакций",
         "hodograph": "годографы реакций",
+        "trajectory": "траектория",
         "structure": "структурные схемы",
         "stamp": "основная надпись",
         "": "лист",

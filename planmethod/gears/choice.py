@@ -1,0 +1,304 @@
+"""Choice of teeth: every set for a ratio within bounds (подбор чисел зубьев)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.gears.conditions import RING_LESS
+from planmethod.gears.model import MeshKind
+
+Ints = npt.NDArray[np.int64]
+Mask = npt.NDArray[np.bool_]
+Reals = npt.NDArray[np.float64]
+
+SIN2 = math.sin(math.radians(20)) ** 2
+"""Of the pressure angle of the standard rack."""
+
+LARGEST = 400
+"""Largest number of teeth that a bound may name: above it a search takes longer than a second."""
+
+BORDER = 1e-11
+"""Relative nearness to a bound of the ratio at which it is judged in fractions."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scheme:
+    """A usual scheme of a train (схема).
+
+    Attributes
+    ----------
+    name : str
+    kinds : tuple of MeshKind
+        Of the meshes 1-2 and 2'-3; of one mesh alone that one.
+    single : bool
+        The second wheel has one rim.
+    carried : bool
+        A carrier H has wheel 2, and wheel 3 is held.
+    asked : str
+        The ratio that U means.
+    """
+
+    name: str
+    kinds: tuple[MeshKind, ...]
+    single: bool
+    carried: bool
+    asked: str
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """The wheels, in the order of a set."""
+        if len(self.kinds) == 1:
+            return "1", "2"
+        return ("1", "2", "3") if self.single else ("1", "2", "2'", "3")
+
+    @property
+    def rings(self) -> tuple[str, ...]:
+        """Wheels with internal teeth."""
+        ends = zip(self.kinds, ("1", "3"), strict=False)
+        return tuple(label for kind, label in ends if kind is MeshKind.INTERNAL)
+
+
+_OUT, _IN = MeshKind.EXTERNAL, MeshKind.INTERNAL
+SCHEMES = (
+    Scheme("ring", (_OUT, _IN), True, True, "U_1_H"),
+    Scheme("external-internal", (_OUT, _IN), False, True, "U_1_H"),
+    Scheme("two-external", (_OUT, _OUT), False, True, "U_H_1"),
+    Scheme("two-internal", (_IN, _IN), False, True, "U_H_1"),
+    Scheme("pair", (_OUT,), True, False, "U_1_2"),
+    Scheme("two-stage", (_OUT, _OUT), False, False, "U_1_3"),
+)
+"""One-rim set with a ring, sets with two rims by their meshes, a pair, a coaxial pair of stages."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What is asked (техническое задание).
+
+    Attributes
+    ----------
+    ratio : Fraction
+        U, with its sign.
+    within : Fraction
+        Allowed share of U, both ways; below 1.
+    satellites : int
+        Number of satellites k.
+    least, most, ring_most : int
+        Bounds of the teeth; the last of wheels with internal teeth.
+    modules : tuple of Fraction, mm, or None
+        Modules of the two rows; None where both have the same, whatever it is.
+    """
+
+    scheme: Scheme
+    ratio: Fraction
+    within: Fraction = Fraction(2, 100)
+    satellites: int = 3
+    least: int = 17
+    most: int = 120
+    ring_most: int = 250
+    modules: tuple[Fraction, Fraction] | None = None
+
+    @property
+    def rows(self) -> tuple[int, int]:
+        """Modules of the two rows as whole numbers of a unit of their own."""
+        one, other = self.modules or (Fraction(1), Fraction(1))
+        both = math.lcm(one.denominator, other.denominator)
+        return int(one * both), int(other * both)
+
+
+@dataclass(frozen=True, slots=True)
+class TeethSet:
+    """Teeth that meet every condition (вариант).
+
+    Attributes
+    ----------
+    teeth : tuple of int
+        By `Scheme.wheels`.
+    ratio, error : Fraction
+        U, and by what share it differs from the asked one.
+    size : Fraction
+        Diameter of the pitch circles together, in modules of the first row.
+    """
+
+    teeth: tuple[int, ...]
+    ratio: Fraction
+    error: Fraction
+    size: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """What a search has found (результат подбора).
+
+    Attributes
+    ----------
+    looked_at, found : int
+        Combinations of teeth tried, and sets among them.
+    sets : tuple of TeethSet
+        The first of them: the smallest first, of equal ones that with the nearer U.
+    """
+
+    wanted: Wanted
+    looked_at: int
+    found: int
+    sets: tuple[TeethSet, ...]
+
+
+def choose(wanted: Wanted, *, first: int | None = None) -> Chosen:
+    """Try every combination of teeth within the bounds.
+
+    Of two rows, z_1, z_2 and z_2' run through their bounds and coaxiality gives z_3; every
+    combination is looked at, so that no set is missed.
+
+    Parameters
+    ----------
+    first : int, optional
+        How many sets are returned; all of them without it.
+    """
+    looked, blocks = 0, []
+    for z_1, second, rim in _grids(wanted):
+        looked += second.size * rim.size
+        blocks.append(_fitting(wanted, z_1, second, rim))
+    columns = [np.concatenate(column) for column in zip(*blocks, strict=True)]
+    *teeth, upper, lower, doubled, off = columns
+    order = np.lexsort((*reversed(teeth), np.abs(off), doubled))
+    sets = []
+    for at in order[:first]:
+        ratio = _asked(wanted.scheme, Fraction(int(upper[at]), int(lower[at])))
+        assert ratio is not None
+        size = Fraction(int(doubled[at]), 2 * wanted.rows[0])
+        found = tuple(int(column[at]) for column in teeth)
+        sets.append(TeethSet(found, ratio, ratio / wanted.ratio - 1, size))
+    return Chosen(wanted, looked, len(order), tuple(sets))
+
+
+def _grids(wanted: Wanted) -> Iterator[tuple[int, Ints, Ints]]:
+    """Yield z_1 with all z_2 and z_2', arrays of shapes (n, 1) and (1, m)."""
+    scheme = wanted.scheme
+    spur: Ints = np.arange(wanted.least, wanted.most + 1)
+    most = wanted.ring_most if "1" in scheme.rings else wanted.most
+    one: Ints = np.zeros((1, 1), dtype=np.int64)
+    for first in range(wanted.least, most + 1):
+        yield first, spur[:, None], one if scheme.single else spur[None, :]
+
+
+def _fitting(wanted: Wanted, z_1: int, second: Ints, rim: Ints) -> tuple[Ints | Reals, ...]:
+    """Return the sets with one z_1: teeth, upper and lower part of U^H, twice the size, error."""
+    scheme, (p, q) = wanted.scheme, wanted.rows
+    if len(scheme.kinds) == 1:
+        z_2 = second[:, 0]
+        z_rim = z_3 = z_2
+        upper, lower, distance = z_2, np.full_like(z_2, z_1), p * (z_1 + z_2)
+        fits = _near(wanted, upper / lower)
+    else:
+        z_2, z_rim = np.broadcast_arrays(second, second if scheme.single else rim)
+        distance = p * (z_1 + z_2 if scheme.kinds[0] is _OUT else z_1 - z_2)
+        side = -1 if scheme.kinds[1] is _OUT else 1
+        z_3 = distance // q + side * z_rim
+        upper, lower = z_2 * z_3, z_1 * z_rim
+        most = wanted.ring_most if "3" in scheme.rings else wanted.most
+        fits = (distance > 0) & (distance % q == 0) & (z_3 >= wanted.least) & (z_3 <= most)
+        fits &= _near(wanted, upper / lower)
+    at = np.nonzero(fits)  # the rest is for the few
+    z_2, z_rim, z_3, upper, lower, distance = (
+        array[at] for array in (z_2, z_rim, z_3, upper, lower, distance)
+    )
+    first = np.full_like(z_2, z_1)
+    fits = _meshes(scheme.kinds[0], first, z_2) & _meshes(scheme.kinds[-1], z_3, z_rim)
+    if scheme.carried:
+        fits &= _turn_together(wanted, first, (z_2, z_rim, z_3), distance)
+    off, doubtful = _error(wanted, upper, lower)
+    fits &= doubtful | (np.abs(off) <= float(wanted.within))
+    for one in np.nonzero(doubtful & fits)[0]:
+        ratio = _asked(scheme, Fraction(int(upper[one]), int(lower[one])))
+        fits[one] = ratio is not None and abs(ratio / wanted.ratio - 1) <= wanted.within
+    z = {"1": first, "2": z_2, "2'": z_rim, "3": z_3}
+    kept = (*(z[label] for label in scheme.wheels), upper, lower)
+    return *(column[fits] for column in kept), _doubled_size(wanted, z, distance)[fits], off[fits]
+
+
+def _asked(scheme: Scheme, held: Fraction) -> Fraction | None:
+    """Return U from the size of the ratio with the carrier held; None where it has no value."""
+    ratio = _sign(scheme) * held
+    if scheme.carried:
+        ratio = 1 - ratio
+    if scheme.asked != "U_H_1":
+        return ratio
+    return 1 / ratio if ratio else None
+
+
+def _sign(scheme: Scheme) -> int:
+    return -1 if scheme.kinds.count(_OUT) % 2 else 1
+
+
+def _near(wanted: Wanted, held: Reals) -> Mask:
+    """Return where U is within its bounds, or so near to one that fractions must tell."""
+    ends = [wanted.ratio * (1 + share) for share in (-wanted.within, wanted.within)]
+    if wanted.scheme.asked == "U_H_1":
+        ends = [1 / end for end in ends]
+    if wanted.scheme.carried:
+        ends = [1 - end for end in ends]
+    low, high = sorted(float(end * _sign(wanted.scheme)) for end in ends)
+    edge = BORDER * (1 + held)
+    return (held >= low - edge) & (held <= high + edge)
+
+
+def _error(wanted: Wanted, upper: Ints, lower: Ints) -> tuple[Reals, Mask]:
+    """Return the share by which U is off, and where it is too near to the bound for floats."""
+    above, below = _sign(wanted.scheme) * upper, lower
+    if wanted.scheme.carried:
+        above = below - above
+    if wanted.scheme.asked == "U_H_1":
+        above, below = below, above
+    off = np.divide(above, below, where=below != 0, out=np.full(upper.shape, np.inf))
+    off = off / float(wanted.ratio) - 1
+    return off, np.abs(np.abs(off) - float(wanted.within)) <= BORDER
+
+
+# Conditions --------------------------------------------------------------------------------------
+
+
+def _meshes(kind: MeshKind, one: Ints, other: Ints) -> Mask:
+    """Return where standard teeth of two wheels neither interfere nor cut each other.
+
+    The tip of the larger wheel stays short of where the line of action touches the base circle of
+    the smaller; an internal mesh also needs `RING_LESS` teeth of difference. Of a ring and a
+    wheel, the ring is ``one`` or ``other``, whichever is larger.
+    """
+    small, large = np.minimum(one, other), np.maximum(one, other)
+    squared = small**2 * SIN2 - 4
+    if kind is _IN:
+        room = 2 * small * SIN2 - 4
+        return (large - small >= RING_LESS) & (room > 0) & (large * room >= squared)
+    room = 4 - 2 * small * SIN2
+    return (room <= 0) | (large * room <= squared)
+
+
+def _turn_together(
+    wanted: Wanted, first: Ints, rows: tuple[Ints, Ints, Ints], distance: Ints
+) -> Mask:
+    """Return where k satellites go in, and their tips, one module high, do not touch."""
+    z_2, rim, z_3 = rows
+    (p, q), k = wanted.rows, wanted.satellites
+    whole = np.abs(first * rim - _sign(wanted.scheme) * z_2 * z_3) // np.gcd(z_2, rim)
+    fits: Mask = whole % k == 0
+    if k > 1:
+        tips = np.maximum(p * (z_2 + 2), q * (rim + 2))
+        fits &= math.sin(math.pi / k) > tips / distance
+    return fits
+
+
+def _doubled_size(wanted: Wanted, z: Mapping[str, Ints], distance: Ints) -> Ints:
+    """Return twice the diameter over the pitch circles of all wheels, in the modules' unit."""
+    p, q = wanted.rows
+    if len(wanted.scheme.kinds) == 1:
+        return 2 * distance
+    middle, around = np.maximum(p * z["1"], q * z["3"]), np.maximum(p * z["2"], q * z["2'"])
+    if wanted.scheme.carried:
+        return 2 * np.maximum(middle, distance + around)
+    return distance + middle + around

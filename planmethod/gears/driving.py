@@ -1,0 +1,54 @@
+"""The speed that a train gives to the crank of a linkage (привод кривошипа)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from planmethod.errors import ProblemError
+from planmethod.gears.meshes import read_label
+from planmethod.gears.model import GearProblem
+from planmethod.gears.motion import solve_motion
+from planmethod.gears.reader import read_train
+from planmethod.problem.fields import Faults
+from planmethod.problem.model import Geared, SheetSettings
+
+
+def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
+    """Solve the train of a linkage's file for the body that turns with the crank.
+
+    Parameters
+    ----------
+    table : mapping
+        ``[gears]``.
+    label : object
+        ``train`` of ``[driver]``.
+
+    Returns
+    -------
+    Geared or None
+        None where the train or the label is faulty; ``faults`` say why.
+    """
+    train = read_train(faults, table)
+    if train is None:
+        return None
+    body = read_label(faults, "driver.train", label, tuple(train.body_of))
+    if body is None:
+        return None
+    if train.body_of[body] in train.racks:
+        faults.add("driver.train", f"{body} is a rack, it does not turn")
+        return None
+    try:
+        motion = solve_motion(GearProblem("", "", "", "", {}, SheetSettings(), train, ()))
+    except ProblemError as error:
+        for fault in error.faults:
+            faults.add(fault.path, fault.message, fault.hint)
+        return None
+    speed = motion.speed(body)
+    inputs = tuple((name, float(value)) for name, value in train.inputs.items())
+    ratio = None
+    if len(inputs) == 1 and speed and inputs[0][0] not in train.racks:
+        ratio = motion.speeds[inputs[0][0]] / speed
+    rate = float(speed) * math.pi / 30 if train.unit == "n" else float(speed)
+    return Geared(body, inputs, train.unit, ratio, rate)
