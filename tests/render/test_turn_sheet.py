@@ -10,6 +10,8 @@ import pytest
 from cases import some
 from worked import SIX, problem_of
 
+from planmethod.construct.drafting import PROFILES, Sampled
+from planmethod.construct.evaluate import evaluate
 from planmethod.note.records.cycle import cycle_record
 from planmethod.note.tables.turn import cycle_protocol
 from planmethod.note.wording import language
@@ -21,7 +23,7 @@ from planmethod.render.pictures.diagram import AXIS
 from planmethod.render.pictures.kinematic import FOUND, kinematic_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
+from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, sigmas
 
 RU = language("ru")
 
@@ -68,6 +70,17 @@ def test_every_ray_is_parallel_to_its_chord(way: Differentiation) -> None:
         Differentiation.CURVE: made.curve,
     }
     assert v == pytest.approx(expected[way], abs=1e-9)
+
+
+def test_sigmas_of_the_ordinates_are_those_of_random_sheets() -> None:
+    made = diagrams(press())
+    graph = made.graph(Differentiation.CHORDS)
+    pencil = Sampled(PROFILES["board"], frozenset(str(axes.origin) for axes in graph.axes), 4000, 3)
+    trace = evaluate(graph.program, dict(graph.data), pencil)
+    for number, sigma in enumerate(sigmas(made, Differentiation.CHORDS), 1):
+        origin = trace.value[graph.axes[number].origin]
+        drawn = [np.std((trace.value[p] - origin).imag) for p in graph.points[number]]
+        assert sigma == pytest.approx(drawn, rel=0.06)
 
 
 def test_the_protocol_tells_poles_and_scales_in_both_languages() -> None:

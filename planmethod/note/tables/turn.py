@@ -14,7 +14,7 @@ from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of
+from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
 from planmethod.solved.turn.turn import turn_of
 
 Columns = list[tuple[str, str, tuple[str, ...]]]
@@ -68,6 +68,12 @@ def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
         for letter, off in zip("va", diagrams.plans, strict=True):
             rows.append((said.from_plans, letter, None, off))
 
+    told = []
+    for way in ways:  # a curve that is drawn by eye has no stroke of a known error
+        spread = () if way is Differentiation.CURVE else sigmas(diagrams, way)
+        told += [say.number(significant(float(np.sqrt(np.nanmean(x**2))), 2)) for x in spread]
+    told += ["—"] * (len(rows) - len(told))
+
     def column(number: int, name: str) -> tuple[str, ...]:
         found = [row[number] for row in rows]
         return tuple(
@@ -84,6 +90,7 @@ def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
         (said.mean, "", column(2, "rms")),
         (f"{second}: {said.greatest}", "", column(3, "most")),
         (said.mean, "", column(3, "rms")),
+        (said.sigma, "", tuple(told)),
     ]
 
 

@@ -47,6 +47,7 @@ class CycleWording:
     from_plans: str
     greatest: str
     mean: str
+    sigma: str
 
     # Sheet
     wanted: str

@@ -9,7 +9,7 @@ position zero; diagrams are over the angle of a crank that turns evenly.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -17,7 +17,7 @@ from math import tau
 
 import numpy as np
 
-from planmethod.construct.arithmetic import Arithmetic, Float64
+from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
@@ -26,6 +26,8 @@ from planmethod.errors import AssemblyError
 from planmethod.plans.diagrams.board import Axes, Board
 from planmethod.plans.diagrams.calculus import differentiate, integrate, repeated
 from planmethod.problem.model import Convention, Differentiation
+from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
+from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import Turn, turn_of
@@ -349,6 +351,38 @@ def deviations(
             exact = diagrams.exact(graph.at[number] / diagrams.task.length)[number]
             found[way, letter] = Deviation.of(drawn[number], exact)
     return found
+
+
+def sigmas(diagrams: Diagrams, way: Differentiation) -> tuple[Reals, Reals]:
+    """Return one sigma of the drafting error of every ordinate of v and a, mm, ndarrays (n,).
+
+    The path is read on the scheme and laid off; rays, step lines and uprights are drawn. The smooth
+    curve of `Differentiation.CURVE` is taken as it stands.
+    """
+    graph = diagrams.graph(way)
+    items = [
+        DrawnQuantity(f"{axes.name} {k}", (point, axes.origin), _ordinate(point, axes.origin))
+        for axes, points in zip(graph.axes[1:], graph.points[1:], strict=True)
+        for k, point in enumerate(points)
+    ]
+    drawing = Drafted(
+        graph.program,
+        lambda chosen: dict(graph.data),
+        1,
+        diagrams.turn.solution.profile,
+        frozenset(str(axes.origin) for axes in graph.axes),
+        tuple(items),
+    )
+    spreads = Errors(drawing).spreads
+    v, a = (
+        np.array([float(spreads[f"{axes.name} {k}"].sigma[0]) for k in range(len(points))])
+        for axes, points in zip(graph.axes[1:], graph.points[1:], strict=True)
+    )
+    return v, a
+
+
+def _ordinate(point: PointName, origin: PointName) -> Callable[[Trace], Number]:
+    return lambda trace: (trace.value[point] - trace.value[origin]).imag
 
 
 @remembered

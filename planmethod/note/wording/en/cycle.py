@@ -59,6 +59,7 @@ CYCLE = CycleWording(
     from_plans="off the plans",
     greatest="most",
     mean="RMS",
+    sigma="σ of drafting",
     wanted="To find: the extreme positions, the stroke, K_{v}, the pressure angle; to draw the "
     "plans of positions, velocities and accelerations, the hodograph and the diagrams.",
 )
