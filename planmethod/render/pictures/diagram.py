@@ -100,10 +100,9 @@ def diagram_picture(
     marks : iterable of (Mark, complex)
         Points that were found on their own.
     construction : sequence of Item
-        Lines that the diagram was found with; to the left of the axis of ordinates they leave no
-        room for its numbers.
+        Lines that the diagram was found with.
     labels : sequence of Label
-        Letters of the construction.
+        Letters of a pole and its rays, which leave the axis of ordinates no room for its numbers.
     letter_height : float, mm
         Of the letters; the numbers are a size smaller, 2.5 mm at least.
     name : str
@@ -113,7 +112,7 @@ def diagram_picture(
     low, high = min([0.0, *heights]), max([0.0, *heights])
     size = max(2.5, 0.7 * letter_height)
     items = [*_axes(across, up, low, high, letter_height), *construction]
-    if not construction:
+    if not labels:
         items += _ordinate_numbers(up, low, high, size)
     for x in across.at:
         items.append(Stroke((complex(x, -_TICK), complex(x, _TICK)), Pen.THIN, tag=AXIS))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -48,7 +49,7 @@ def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -
             _curves(diagrams, graph, trace, number),
             letter_height=letter_height,
             name=f"diagram {'sva'[number]}",
-            construction=_construction(graph, trace, number) if number else (),
+            construction=_construction(graph, trace, number),
             labels=_letters(graph, trace, number, letter_height) if number else (),
         )
         for number, (symbol, unit, scale) in enumerate(_axes(diagrams))
@@ -109,27 +110,27 @@ def _curves(diagrams: Diagrams, graph: Graph, trace: Trace, number: int) -> list
 
 
 def _construction(graph: Graph, trace: Trace, number: int) -> list[Item]:
-    """Return pole, rays and step lines of a derivative, and its found points."""
+    """Return chords of the path, or pole, rays and step lines, and the found points."""
     axes = graph.axes[number]
     origin = complex(trace.value[axes.origin])
-    pole = complex(trace.value[graph.poles[number - 1]]) - origin
-    items: list[Item] = [Stroke((pole, 0j), Pen.THIN, tag="diagram ray")]
-    found = _places(graph, trace, number)
-    for k, place in enumerate(found):
-        if not np.isfinite(place):
-            continue
-        cut = complex(trace.value[PointName(f"{axes.name} cut {k}")]) - origin
-        items.append(Stroke((pole, cut), Pen.THIN, tag="diagram ray"))
-        items.append(Stroke((cut, complex(place)), Pen.PALE, tag="diagram step"))
-        items.append(
-            Stroke((complex(place.real, 0.0), complex(place)), Pen.PALE, tag="diagram upright")
-        )
-    items += [
-        Disc(complex(place), 0.7, Ink.BLACK, f"{FOUND} {axes.name}")
-        for place in found
-        if np.isfinite(place)
-    ]
-    return [*items, Disc(pole, 0.8, Ink.BLACK, "diagram pole")]
+    there = [(k, complex(p)) for k, p in enumerate(_places(graph, trace, number)) if np.isfinite(p)]
+    items: list[Item] = []
+    for _, place in there:
+        foot = complex(place.real, 0.0)
+        items.append(Stroke((foot, place), Pen.PALE, tag="diagram upright"))
+    if number:
+        pole = complex(trace.value[graph.poles[number - 1]]) - origin
+        items.append(Stroke((pole, 0j), Pen.THIN, tag="diagram ray"))
+        for k, place in there:
+            cut = complex(trace.value[PointName(f"{axes.name} cut {k}")]) - origin
+            items.append(Stroke((pole, cut), Pen.THIN, tag="diagram ray"))
+            items.append(Stroke((cut, place), Pen.PALE, tag="diagram step"))
+        items.append(Disc(pole, 0.8, Ink.BLACK, "diagram pole"))
+    else:
+        for (_, tail), (_, head) in pairwise(there):
+            items.append(Stroke((tail, head), Pen.THIN, tag="diagram chord"))
+    dots = (Disc(place, 0.7, Ink.BLACK, f"{FOUND} {axes.name}") for _, place in there)
+    return [*items, *dots]
 
 
 def _letters(graph: Graph, trace: Trace, number: int, height: float) -> list[Label]:
