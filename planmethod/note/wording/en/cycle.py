@@ -53,13 +53,13 @@ CYCLE = CycleWording(
     analogues="Transfer functions of the output",
     deviations="Deviations of the diagrams from the exact ones, mm",
     way="way",
-    exactly="drawn exactly",
-    with_ruler="with a ruler of {ruler} mm",
+    exactly="exact",
+    with_ruler="ruler {ruler}",
     ways={"chords": "chords", "tangents": "tangents", "curve": "curve"},
     from_plans="off the plans",
     greatest="most",
     mean="RMS",
-    sigma="σ of drafting",
+    sigma="σ",
     wanted="To find: the extreme positions, the stroke, K_{v}, the pressure angle; to draw the "
     "plans of positions, velocities and accelerations, the hodograph and the diagrams.",
 )
