@@ -81,17 +81,20 @@ def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
             for one in found
         )
 
-    ruler = say.given(hand.ruler)
-    first, second = said.exactly, said.with_ruler.format(ruler=ruler)
     return [
         (said.way, "", tuple(row[0] for row in rows)),
         ("", "", tuple(row[1] for row in rows)),
-        (f"{first}: {said.greatest}", "", column(2, "most")),
-        (said.mean, "", column(2, "rms")),
-        (f"{second}: {said.greatest}", "", column(3, "most")),
-        (said.mean, "", column(3, "rms")),
+        (said.greatest[0], "", column(2, "most")),
+        (said.mean[0], "", column(2, "rms")),
+        (said.greatest[1], "", column(3, "most")),
+        (said.mean[1], "", column(3, "rms")),
         (said.sigma, "", tuple(told)),
     ]
+
+
+def deviations_title(solution: Solution, words: Language) -> str:
+    """Return what the table of deviations is called."""
+    return words.cycle.deviations.format(ruler=words.say.given(solution.profile.ruler))
 
 
 def cycle_tables(solution: Solution, words: Language) -> list[str]:
@@ -103,7 +106,7 @@ def cycle_tables(solution: Solution, words: Language) -> list[str]:
         return lines
     for title, columns in (
         (said.table, cycle_columns(diagrams, words)),
-        (said.deviations, deviation_columns(diagrams, words)),
+        (deviations_title(solution, words), deviation_columns(diagrams, words)),
     ):
         lines += ["", *wrap(title), "", *columns_text(list(_plain(columns, words)), 2)]
     return lines

@@ -41,12 +41,10 @@ class CycleWording:
     analogues: str
     deviations: str
     way: str
-    exactly: str
-    with_ruler: str
     ways: Mapping[str, str]
     from_plans: str
-    greatest: str
-    mean: str
+    greatest: tuple[str, str]
+    mean: tuple[str, str]
     sigma: str
 
     # Sheet

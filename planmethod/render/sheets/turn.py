@@ -16,7 +16,7 @@ from planmethod.note.narrate.turn import (
     output_name,
     turn_facts,
 )
-from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns
+from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
 from planmethod.render.layout.block import Block, Spacer, paragraph
@@ -176,4 +176,4 @@ def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner)
     if diagrams is None:
         return Spacer(1.0, 1.0)
     columns = deviation_columns(diagrams, manner.words)
-    return _table(columns, 2, manner.words.cycle.deviations, manner)
+    return _table(columns, 2, deviations_title(solution, manner.words), manner)
