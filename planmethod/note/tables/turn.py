@@ -84,10 +84,10 @@ def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
     return [
         (said.way, "", tuple(row[0] for row in rows)),
         ("", "", tuple(row[1] for row in rows)),
-        (said.greatest[0], "", column(2, "most")),
-        (said.mean[0], "", column(2, "rms")),
-        (said.greatest[1], "", column(3, "most")),
-        (said.mean[1], "", column(3, "rms")),
+        (said.greatest[0].format(), "", column(2, "most")),
+        (said.mean[0].format(), "", column(2, "rms")),
+        (said.greatest[1].format(), "", column(3, "most")),
+        (said.mean[1].format(), "", column(3, "rms")),
         (said.sigma, "", tuple(told)),
     ]
 

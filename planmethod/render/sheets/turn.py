@@ -32,7 +32,7 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.turn import TURN, Turn, Why, turn_of
 
-SIDE = 0.5
+SIDE = 0.4
 """Side of a hodograph as a part of the width of a text."""
 
 _NARROW = 0.05  # a hodograph that is narrower than so much of its length is a straight line

@@ -55,8 +55,8 @@ CYCLE = CycleWording(
     way="way",
     ways={"chords": "chords", "tangents": "tangents", "curve": "curve"},
     from_plans="off the plans",
-    greatest=("Δ_{max}", "Δ^{r}_{max}"),
-    mean=("Δ_{rms}", "Δ^{r}_{rms}"),
+    greatest=("Δ_{{max}}", "Δ^{{r}}_{{max}}"),
+    mean=("Δ_{{rms}}", "Δ^{{r}}_{{rms}}"),
     sigma="σ",
     wanted="To find: the extreme positions, the stroke, K_{v}, the pressure angle; to draw the "
     "plans of positions, velocities and accelerations, the hodograph and the diagrams.",
