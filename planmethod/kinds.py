@@ -178,7 +178,11 @@ class Kind:
         return _of(self.package, name)
 
 
-KINDS = (Kind("gears", "planmethod.gears"), Kind("point", "planmethod.moving"))
+KINDS = (
+    Kind("gears", "planmethod.gears"),
+    Kind("point", "planmethod.moving"),
+    Kind("meshing", "planmethod.gears.involute"),
+)
 """All of them; a file that has links is a linkage whatever else it has."""
 
 _HEAD = re.compile(r"^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b", re.M)

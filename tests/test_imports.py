@@ -10,6 +10,7 @@ import pytest
 from worked import PROBLEMS, path_of
 
 EX3 = str(path_of("linkages/ex3"))
+MESHING = str(PROBLEMS / "meshing/z12-30.toml")
 TRAIN = str(PROBLEMS / "gears/gears-ex2.toml")
 SIX_LINK = str(path_of("levers/six-link"))
 
@@ -96,6 +97,8 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
                 ("protocol", EX3),
                 ("synthesize", "slotted", "--K_v", "1.22", "--centres", "1.08"),
                 ("solve", TRAIN, "--json"),
+                ("solve", MESHING),
+                ("protocol", MESHING),
                 ("teeth", "--U", "6.5"),
             ),
             {"numpy"},

@@ -87,6 +87,8 @@ class _Writer(Steps):
             self._force_tables()
         if problem.cycle is not None:
             self.lines += ["", *cycle_protocol(self.solution, language(words.lang))]
+        if problem.machine is not None:
+            self._machine()
         return self.lines
 
     # Content ---------------------------------------------------------------------------------
@@ -141,6 +143,15 @@ class _Writer(Steps):
         from planmethod.note.narrate.forces.protocol import tell_forces
 
         tell_forces(self, self.narrator.say, self.index)
+
+    def _machine(self) -> None:
+        from planmethod.note.tables.machine import machine_tables, machine_teller
+
+        tell = machine_teller(self.solution, self.words)
+        self.chapter(tell.said.title)
+        for sentence in tell.steps():
+            self.item([sentence])
+        self.lines += ["", *machine_tables(self.solution, self.words)]
 
     def _force_tables(self) -> None:
         from planmethod.note.tables.forces import forces_tables

@@ -22,9 +22,11 @@ TOP = (
     "variants",
     "dynamics",
     "loads",
+    "machine",
     "gears",
     "point",
     "cycle",
+    "meshing",
 )
 FRAME = ("guides",)
 GUIDE = ("through", "angle")
@@ -99,7 +101,27 @@ CONFIG = ("stamp", "sheet")
 DYNAMICS = ("gravity", "resultant", "links")
 MASS = ("mass", "centre", "inertia")
 LOAD = ("name", "link", "at", "force", "couple", "angle", "against", "phases")
-TABLE = ("over", "values", "interpolation")
+TABLE = ("law", "over", "values", "interpolation", "strokes", "area", "sides", "area_2")
+INDICATOR = ("strokes", "area", "sides", "area_2")
+"""Keys of a table that is an indicator diagram."""
+MACHINE = (
+    "delta",
+    "mean",
+    "constant",
+    "cycle_deg",
+    "J_crank",
+    "count",
+    "pole_mm",
+    "turn_mm",
+    "mu_M",
+    "mu_J",
+    "signs",
+    "ordinates",
+    "method",
+    "phi_0",
+    "flywheel",
+)
+FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
 ANSWER = (
@@ -134,6 +156,8 @@ GEARS = (
 WHEEL = ("z", "r", "x", "axis")
 MESH = ("of", "kind", "carrier", "eta", "hand")
 PICTURE = ("mu_l", "longest_mm", "pole_mm")
+MESHING = ("z", "m", "alpha", "ha", "c", "x", "x1", "x2", "a_w", "s_a_min", "epsilon_min")
+"""Keys of ``[meshing]``."""
 
 KNOWN: dict[str, tuple[str, ...]] = {
     "top": TOP,
@@ -159,10 +183,13 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "load": LOAD,
     "table": TABLE,
     "phases": PHASES,
+    "machine": MACHINE,
+    "flywheel": FLYWHEEL,
     "gears": GEARS,
     "wheel": WHEEL,
     "mesh": MESH,
     "picture": PICTURE,
+    "meshing": MESHING,
 }
 """All of them by the kind of table."""
 

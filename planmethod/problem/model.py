@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from planmethod.problem.load_records import Dynamics
+    from planmethod.problem.load_records import Dynamics, Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -403,6 +403,8 @@ class Problem:
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     cycle : CycleTask or None
         What ``[cycle]`` asks; None when the file has none.
+    machine : Machine or None
+        What the choice of a flywheel needs; None when the file has no ``[machine]``.
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
     """
@@ -426,6 +428,7 @@ class Problem:
     variant: str | None = None
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
+    machine: Machine | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
 
     def is_block(self, slide: Slide) -> bool:

@@ -185,11 +185,15 @@ def _read_parts(
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
     assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
-    dynamics = None
+    dynamics = machine = None
+    if "machine" in given:
+        from planmethod.problem.machine import read_machine  # few files have one
+
+        machine = read_machine(faults, given, drive)
     if "dynamics" in given or "loads" in given:
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
-        dynamics = read_dynamics(faults, given, links, frame.points, drive)
+        dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
     cycle = None
     if "cycle" in given:
         cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
@@ -236,6 +240,7 @@ def _read_parts(
         answers=answers,
         dynamics=dynamics,
         cycle=cycle,
+        machine=machine,
         tables=tables,
     )
 

@@ -34,6 +34,7 @@ CASES = [
     *(("forces", name, None) for name in ("levers/six-link", "levers/task12", "press/press")),
     ("forces-cycle", "levers/task12", TURN),
     ("forces-cycle", "press/press", TURN),
+    ("flywheel", "press/flywheel", None),
 ]
 
 

@@ -25,6 +25,8 @@ from planmethod.render.ink.lettering import STYLES, OutlineLettering
 Word: TypeAlias = tuple[tuple[str, str], ...]
 """Pieces of text without a space, each with its level: "", "_" or "^"."""
 
+rl_config.useA85 = 0  # text in place of bytes, which takes longer than all the drawing
+
 MM = 72.0 / 25.4
 MARGIN = 12.0 * MM
 LETTERING = OutlineLettering(STYLES["B-upright"])
@@ -44,7 +46,6 @@ _INDEX = re.compile(r"([_^])\{([^{}]*)\}")
 @cache
 def font() -> str:
     """Return the name of the lettering, registered when it is first asked for."""
-    rl_config.useA85 = 0  # text in place of bytes, which takes longer than all the drawing
     pdfmetrics.registerFont(TTFont(LETTERING.name, str(LETTERING.font_file)))
     return LETTERING.name
 

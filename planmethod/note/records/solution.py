@@ -174,6 +174,12 @@ def record(solution: Solution) -> dict[str, Any]:
 
             entry["forces"] = forces_record(solution, i)
         positions.append(entry)
+    machine = {}
+    if solution.problem.machine is not None:
+        from planmethod.note.records.machine import machine_record
+        from planmethod.solved.machine.flywheel import flywheel_of
+
+        machine["machine"] = machine_record(flywheel_of(solution), solution.profile)
     return {
         "schema": SCHEMA,
         "problem": solution.problem.name,
@@ -181,6 +187,7 @@ def record(solution: Solution) -> dict[str, Any]:
         "structure": structure_record(solution.structure),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
         "positions": positions,
+        **machine,
     }
 
 

@@ -67,6 +67,10 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
             lines += _causes(solution, words, index) if sigma else []
     if solution.problem.cycle is not None:
         lines += ["", *cycle_tables(solution, language(words.lang))]
+    if solution.problem.machine is not None:
+        from planmethod.note.tables.machine import machine_tables
+
+        lines += ["", *machine_tables(solution, words)]
     ruler = given(solution.hand.ruler, words)
     lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
     return "\n".join(lines)

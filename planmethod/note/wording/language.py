@@ -14,6 +14,8 @@ from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.gear_model import GearWording
+from planmethod.note.wording.machine_model import MachineWording
+from planmethod.note.wording.meshing_model import MeshingWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
@@ -49,8 +51,10 @@ class Language:
         The moving point.
     cycle : CycleWording
         The turn of a crank.
-    gears, teeth : GearWording, TeethWording
-        Gear trains, and the choice of their teeth.
+    gears, teeth, meshing : GearWording, TeethWording, MeshingWording
+        Gear trains, the choice of their teeth, two wheels in mesh.
+    machine : MachineWording
+        A machine and its flywheel.
     synthesis : SynthesisWording
         Syntheses.
     layouts : mapping
@@ -74,6 +78,8 @@ class Language:
     point: PointWording
     gears: GearWording
     cycle: CycleWording
+    machine: MachineWording
+    meshing: MeshingWording
     synthesis: SynthesisWording
     teeth: TeethWording
     layouts: Mapping[str, str]

@@ -127,7 +127,7 @@ class Span:
 
 VIEW_KINDS = (
     "position", "velocity", "acceleration", "forces", "balance", "reactions", "hodograph",
-    "structure", "trajectory",
+    "structure", "flywheel", "diagram", "meshing", "trajectory",
 )  # fmt: skip
 """Kinds of views: whoever tells of them has a word for each."""
 

@@ -82,6 +82,13 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "hodograph": Kind(_late("turn", "hodograph_view"), ("of", *_DIAGRAM)),
         "turn-table": Kind(_late("turn", "turn_table"), _TEXT),
         "deviations": Kind(_late("turn", "deviations_table"), _TEXT),
+        "machine-statement": Kind(_late("flywheel", "statement_block"), _TEXT),
+        "flywheel-diagrams": Kind(_late("flywheel", "diagrams_view"), _VIEW[:-1]),
+        "machine-table": Kind(_late("flywheel", "machine_table"), _TEXT),
+        "flywheel-calculation": Kind(_late("flywheel", "calculation_block"), _TEXT),
+        "speed-diagram": Kind(_late("flywheel", "speed_diagram"), _DIAGRAM),
+        "load-diagram": Kind(_late("flywheel", "load_diagrams"), _DIAGRAM),
+        "flywheel": Kind(_late("flywheel", "wheel_view"), _DIAGRAM),
         "cycle-reactions": Kind(_late("cycletable", "reactions_table"), _TEXT),
     }
 )

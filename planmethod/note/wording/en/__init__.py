@@ -9,6 +9,8 @@ from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
 from planmethod.note.wording.en.gears import GEARS
 from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.en.machine import MACHINE
+from planmethod.note.wording.en.meshing import MESHING
 from planmethod.note.wording.en.note import NOTE
 from planmethod.note.wording.en.numbers import NOTATION
 from planmethod.note.wording.en.point import POINT
@@ -35,6 +37,8 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     cycle=CYCLE,
+    machine=MACHINE,
+    meshing=MESHING,
     synthesis=SYNTHESIS,
     teeth=TEETH,
     layouts=LAYOUTS,

@@ -23,6 +23,10 @@ LAYOUTS = MappingProxyType(
         "cycle_about": "force analysis over the cycle: diagrams of reactions and balancing "
         "moment, polar diagrams, table by positions",
         "cycle_title": "Force analysis over the cycle",
+        "flywheel_head": "Sheet 3 of a course work: the choice of the flywheel.\n# Needs [machine] "
+        "in the problem file.",
+        "flywheel_about": "flywheel: moments, work, inertia, energy-mass diagram, sizes",
+        "flywheel_title": "Choice of the flywheel",
         "forces_head": "Sheet 2 of a course work: forces in one position. Groups are cut free "
         "from the last to the first.\n# The problem file needs [dynamics] and [[loads]]; of "
         "several positions each has its sheet.",

@@ -10,6 +10,8 @@ from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
 from planmethod.note.wording.ru.gears import GEARS
 from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.ru.machine import MACHINE
+from planmethod.note.wording.ru.meshing import MESHING
 from planmethod.note.wording.ru.note import NOTE
 from planmethod.note.wording.ru.numbers import NOTATION
 from planmethod.note.wording.ru.point import POINT
@@ -35,6 +37,8 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     cycle=CYCLE,
+    machine=MACHINE,
+    meshing=MESHING,
     synthesis=SYNTHESIS,
     teeth=TEETH,
     layouts=LAYOUTS,

@@ -20,6 +20,7 @@ SHIPPED = (
     "coursework-12",
     "forces",
     "forces-cycle",
+    "flywheel",
 )
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
