@@ -19,7 +19,6 @@ from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.problem.model import Convention
-from planmethod.render.forces.hodograph import HODOGRAPH
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset, vector_markup
@@ -29,6 +28,7 @@ from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.paths import TRAJECTORY
 from planmethod.render.pictures.planview import POLE
+from planmethod.render.pictures.polar import HODOGRAPH
 from planmethod.render.symbols import arrowhead, revolute, vector_arrow
 
 AXIS = "axis of coordinates"

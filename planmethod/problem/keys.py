@@ -25,6 +25,7 @@ TOP = (
     "machine",
     "gears",
     "point",
+    "cycle",
     "meshing",
 )
 FRAME = ("guides",)
@@ -47,6 +48,8 @@ RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
 MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "theta", "t", "show")
 """Keys of ``[point]``."""
+CYCLE = ("output", "zero", "count", "length", "pole", "differentiation")
+POLE = ("v", "a")
 ROLLING = ("radius", "r", "angle", "on", "within", "arm")
 """Keys of ``point.wheel``."""
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
@@ -167,6 +170,8 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "span": SPAN,
     "rule": RULE,
     "moving": MOVING,
+    "cycle": CYCLE,
+    "pole": POLE,
     "rolling": ROLLING,
     "scales": SCALES,
     "stamp": tuple(STAMP),
@@ -193,6 +198,7 @@ LINK_POINT_LIMIT = 60
 LINK_KEY_LIMIT = 200
 LINK_LIMIT = 60
 POSITION_LIMIT = 10_000
+CYCLE_LIMIT = 360
 VARIANT_LIMIT = 400
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200

@@ -12,6 +12,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.answers import Scene, read_answers
 from planmethod.problem.bodies import place_points
+from planmethod.problem.cycle import read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.extras import read_heading, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys
@@ -193,6 +194,9 @@ def _read_parts(
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
         dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
+    cycle = None
+    if "cycle" in given:
+        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     published = read_published(
         faults,
@@ -235,6 +239,7 @@ def _read_parts(
         published=published,
         answers=answers,
         dynamics=dynamics,
+        cycle=cycle,
         machine=machine,
         tables=tables,
     )

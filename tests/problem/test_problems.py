@@ -161,6 +161,8 @@ SCHEMA_TABLES = {
     "span": SCHEMA["$defs"]["span"]["properties"],
     "rule": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
     "moving": SCHEMA["$defs"]["moving"]["properties"],
+    "cycle": SCHEMA["$defs"]["cycle"]["properties"],
+    "pole": SCHEMA["$defs"]["cycle"]["properties"]["pole"]["properties"],
     "rolling": SCHEMA["$defs"]["rolling"]["properties"],
     "scales": SCHEMA["$defs"]["scales"]["properties"],
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],

@@ -9,6 +9,7 @@ from planmethod.note.numbers import Notation
 from planmethod.note.wording.audit_model import AuditWording
 from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.control_model import ControlWording
+from planmethod.note.wording.cycle_model import CycleWording
 from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
@@ -48,6 +49,8 @@ class Language:
         The form to fill in, and what cannot be read in works.
     point : PointWording
         The moving point.
+    cycle : CycleWording
+        The turn of a crank.
     gears, teeth, meshing : GearWording, TeethWording, MeshingWording
         Gear trains, the choice of their teeth, two wheels in mesh.
     machine : MachineWording
@@ -74,6 +77,7 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    cycle: CycleWording
     machine: MachineWording
     meshing: MeshingWording
     synthesis: SynthesisWording

@@ -3,6 +3,7 @@
 from planmethod.note.wording.en.audit import AUDIT
 from planmethod.note.wording.en.check import CHECK
 from planmethod.note.wording.en.control import CONTROL
+from planmethod.note.wording.en.cycle import CYCLE
 from planmethod.note.wording.en.forces import FORCES
 from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
@@ -35,6 +36,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    cycle=CYCLE,
     machine=MACHINE,
     meshing=MESHING,
     synthesis=SYNTHESIS,

@@ -11,6 +11,13 @@ LAYOUTS = MappingProxyType(
         "coursework_about": "course project: twelve positions on one A1 sheet",
         "coursework_scheme": "Position plans of the mechanism",
         "coursework_results": "Results by positions",
+        "turn_head": "Sheet 1 of a coursework: the turn of the crank on A1. Positions are those of "
+        "[cycle] (or its defaults).\n# The scheme in twelve positions with the extreme ones, "
+        "velocity plans, chosen acceleration plans,\n# hodographs, diagrams of s, v and a, "
+        "the table.",
+        "turn_about": "sheet 1 of a coursework: the turn, position 0, twelve positions, diagrams, "
+        "hodographs",
+        "turn_title": "Kinematic analysis of the mechanism",
         "cycle_head": "Force analysis over the cycle: reactions and balancing moment in all "
         "positions.\n# The problem file needs [dynamics] and [[loads]], and several positions.",
         "cycle_about": "force analysis over the cycle: diagrams of reactions and balancing "

@@ -4,6 +4,7 @@ from planmethod.note.wording.language import Language
 from planmethod.note.wording.ru.audit import AUDIT
 from planmethod.note.wording.ru.check import CHECK
 from planmethod.note.wording.ru.control import CONTROL
+from planmethod.note.wording.ru.cycle import CYCLE
 from planmethod.note.wording.ru.forces import FORCES
 from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
@@ -35,6 +36,7 @@ LANGUAGE = Language(
     form=FORM,
     point=POINT,
     gears=GEARS,
+    cycle=CYCLE,
     machine=MACHINE,
     meshing=MESHING,
     synthesis=SYNTHESIS,

@@ -16,6 +16,7 @@ SHIPPED = (
     "one-position",
     "many-positions",
     "homework",
+    "coursework",
     "coursework-12",
     "forces",
     "forces-cycle",
