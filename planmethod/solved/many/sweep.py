@@ -10,9 +10,11 @@ import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.compiled.blocks import Blocks
+from planmethod.construct.compiled.javascript import javascript
 from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
 from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.steps import PointName
 from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
@@ -58,6 +60,8 @@ class Sweep:
         float64; float32 is for pictures only.
     forces : bool
         Where nothing is asked by name: everything of the forces, too.
+    drawn : sequence of PointName
+        Points of the plans whose places on their plan, SI, are results as well: ``v:c.x``.
 
     Attributes
     ----------
@@ -86,6 +90,7 @@ class Sweep:
         varied: Sequence[str] = (),
         dtype: npt.DTypeLike = np.float64,
         forces: bool = False,
+        drawn: Sequence[PointName] = (),
     ) -> None:
         self.problem = problem
         if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
@@ -100,7 +105,7 @@ class Sweep:
         # Loads against a motion are known only where all steps of that motion exist.
         moved = _motion(results) if self.loads is not None and self.loads.need_motion else []
         self._draft = results.draft
-        self.program = results.program.needed_for([r.name for r in (*chosen, *moved)])
+        self.program = results.program.needed_for([*(r.name for r in (*chosen, *moved)), *drawn])
         self.steps = len(self.program.steps)
         self.driver = problem.drive.coordinate.name
         data = drive_data(problem, results.draft, np.zeros(1))
@@ -122,8 +127,8 @@ class Sweep:
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
         given = (*self.branches, *(() if self.loads is None else self.loads.names))
         written = write(self.program, fixed, (self.driver, *self.varied, *given))
-        self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved)
-        self._refs, self._written = refs, written
+        self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
+        self._refs, self._depends, self._written = refs, depends, written
         self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
         self._straight: Straight | None = None
 
@@ -284,6 +289,15 @@ class Sweep:
         """Return the results by the names of their rows."""
         found = self.run(positions, parameters)
         return {row.name: values for row, values in zip(self.rows, found, strict=True)}
+
+    def javascript(self) -> str:
+        """Return the source of a function of JavaScript: of a position, branches and loads.
+
+        It returns the results of one position in the order of the rows; see
+        `planmethod.construct.compiled.javascript`.
+        """
+        w = self._written
+        return javascript(w.tape, self._refs, w.guards, self._depends, len(w.inputs))
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""
