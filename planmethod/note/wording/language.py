@@ -13,6 +13,7 @@ from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.gear_model import GearWording
+from planmethod.note.wording.live_model import LiveWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
@@ -47,6 +48,8 @@ class Language:
         The moving point.
     gears, teeth : GearWording, TeethWording
         Gear trains, and the choice of their teeth.
+    live : LiveWording
+        The page of a moving mechanism.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -68,5 +71,6 @@ class Language:
     point: PointWording
     gears: GearWording
     teeth: TeethWording
+    live: LiveWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

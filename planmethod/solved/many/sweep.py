@@ -17,6 +17,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
 from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
+from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.asked import results_for
 from planmethod.solved.closings import drive_data
@@ -289,6 +290,16 @@ class Sweep:
         """Return the results by the names of their rows."""
         found = self.run(positions, parameters)
         return {row.name: values for row, values in zip(self.rows, found, strict=True)}
+
+    @property
+    def plans(self) -> Mapping[str, PlanKind]:
+        """Plan that every step belongs to."""
+        return self._draft.plans
+
+    @property
+    def guards(self) -> int:
+        """How many margins are watched; see `reason`."""
+        return len(self._written.guards)
 
     def javascript(self) -> str:
         """Return the source of a function of JavaScript: of a position, branches and loads.

@@ -8,6 +8,7 @@ from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
 from planmethod.note.wording.en.gears import GEARS
 from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.en.live import LIVE
 from planmethod.note.wording.en.note import NOTE
 from planmethod.note.wording.en.numbers import NOTATION
 from planmethod.note.wording.en.point import POINT
@@ -33,6 +34,7 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     teeth=TEETH,
+    live=LIVE,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

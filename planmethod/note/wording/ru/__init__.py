@@ -9,6 +9,7 @@ from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
 from planmethod.note.wording.ru.gears import GEARS
 from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.ru.live import LIVE
 from planmethod.note.wording.ru.note import NOTE
 from planmethod.note.wording.ru.numbers import NOTATION
 from planmethod.note.wording.ru.point import POINT
@@ -33,6 +34,7 @@ LANGUAGE = Language(
     point=POINT,
     gears=GEARS,
     teeth=TEETH,
+    live=LIVE,
     layouts=LAYOUTS,
     families=FAMILIES,
 )
