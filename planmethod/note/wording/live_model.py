@@ -18,8 +18,8 @@ class LiveWording:
         the forces do not balance, a load is known in the file's positions only.
     nearest : str
         What the nearest positions that exist are introduced by.
-    smaller : str
-        A plan near a dead position is drawn so many times smaller.
+    zoom : str
+        A plan is drawn so many times larger than over the whole turn, or smaller.
     """
 
     play: str
@@ -37,5 +37,5 @@ class LiveWording:
     no_forces: str
     unknown: str
     nearest: str
-    smaller: str
+    zoom: str
     made: str

@@ -4,6 +4,7 @@
 const D = JSON.parse(document.getElementById("scene").textContent);
 const SVG = "http://www.w3.org/2000/svg", byId = id => document.getElementById(id);
 const TURN = 360, SLACK = 1e-9, STILL = 1e-10, SAMPLES = 720;
+const ZOOMS = [16, 12, 8, 6, 4, 3, 2, 1.5, ...Array.from({ length: 30 }, (_, k) => 2 ** -k)];
 
 // Numbers -----------------------------------------------------------------------------------------
 
@@ -80,6 +81,9 @@ function said(value, digits, largest = 0) {
   return told.replace(".", D.words.decimal);
 }
 
+const short = (value, digits) =>  // without the zeros at the end
+  said(value, digits).replace(/([.,]\d*?)0+$/, "$1").replace(/[.,]$/, "");
+
 // Texts -------------------------------------------------------------------------------------------
 
 function rich(node, ...parts) {  // strings, and runs [letters, "sub", "sup" or ""]
@@ -111,7 +115,7 @@ for (const view of D.views) {
   }
   view.labels.forEach((one, k) => { one.node = byId("label-" + view.id + "-" + k); });
   view.told = byId("told-" + view.id);
-  view.smaller = byId("smaller-" + view.id);
+  view.zoom = byId("zoom-" + view.id);
   const look = event => {
     const inside = view.svg.getScreenCTM().inverse();
     const p = new DOMPoint(event.clientX, event.clientY).matrixTransform(inside);
@@ -159,6 +163,23 @@ function arrow(one, [a, b]) {  // a line with its head; shorter than two heads i
     b[1] - u[1] * size - u[0] * w]]) + "Z");
 }
 
+function aside(ends, drawn) {  // segments on one line are drawn beside one another
+  const [[ax, ay], [bx, by]] = ends, long = Math.hypot(bx - ax, by - ay) || 1;
+  let across = [-(by - ay) / long, (bx - ax) / long];
+  if (across[0] < 0 || (across[0] === 0 && across[1] < 0)) across = across.map(v => -v);
+  for (const step of [0, 1, -1, 2, -2, 3, -3]) {
+    const shifted = ends.map(([x, y]) => [x + 1.7 * step * across[0], y + 1.7 * step * across[1]]);
+    const hides = other => {
+      const [short, line] = long < Math.hypot(other[1][0] - other[0][0], other[1][1] - other[0][1]) ?
+        [shifted, other] : [other, shifted];
+      return [1, 2, 3, 4, 5, 6, 7].filter(k => distance([0, 1].map(j =>
+        short[0][j] + (short[1][j] - short[0][j]) * k / 8), line) < 0.3).length > 2;
+    };
+    if (!drawn.some(hides)) return shifted;
+  }
+  return ends;
+}
+
 function circular(one, centre, sense) {  // a circular arrow; none where the sense is nothing
   const r = 5, turn = (degrees, radius) => [centre[0] + radius * Math.cos(degrees * Math.PI / 180),
     centre[1] - radius * Math.sin(degrees * Math.PI / 180)];
@@ -177,23 +198,28 @@ function draw(view, out) {
   if (!there) { view.hot = -1; return; }
   const [left, top, width, height] = view.box;
   view.times = 1;
-  if (view.smaller) {  // near a dead position a plan is drawn at a smaller scale
+  if (view.zoom) {  // plans grow and shrink a hundredfold in a turn: each is drawn as large as fits
     const outside = times => refs.some(ref => {
       const [x, y] = point(view, out, ref, times);
-      return x < left + 2 || y < top + 2 || x > left + width - 2 || y > top + height - 2;
+      return x < left + 4 || y < top + 4 || x > left + width - 4 || y > top + height - 4;
     });
-    for (let k = 0; k < 40 && outside(view.times); k++) view.times *= k % 3 === 1 ? 2.5 : 2;
-    const told = D.words.smaller.replace("{times}", said(view.times, 3).replace(/[.,]?0+$/, ""));
-    view.smaller.textContent = view.times > 1 ? told : "";
+    view.times = 1 / (ZOOMS.find(zoom => !outside(1 / zoom)) || 1);
+    view.zoom.textContent = view.times === 1 ? "" :
+      D.words.zoom.replace("{times}", short(1 / view.times, 3));
   }
+  const drawn = [];
+  for (const one of view.segments) one.covered = false;
   for (const one of view.segments) {
-    const ends = [point(view, out, one.a, view.times), point(view, out, one.b, view.times)];
-    const alike = one.beside && view.segments.some(other => other !== one && !other.beside &&
-      other.ends && [0, 1].some(k => [0, 1].every(j => {
-        const [p, q] = [other.ends[j], ends[j ^ k]];
-        return Math.hypot(p[0] - q[0], p[1] - q[1]) < 0.3;
-      })));
-    arrow(one, alike ? [ends[0], ends[0]] : ends);
+    let ends = [point(view, out, one.a, view.times), point(view, out, one.b, view.times)];
+    const same = k => view.segments.find(other => one.beside && !other.beside && other.ends &&
+      [0, 1].every(j => Math.hypot(other.exact[j ^ k][0] - ends[j][0],
+        other.exact[j ^ k][1] - ends[j][1]) < 0.3));
+    one.exact = ends;
+    if (same(0)) same(0).covered = true;  // the whole is a component: it has the letter
+    else if (same(1)) ends = [ends[0], ends[0]];
+    else if (view.apart) ends = aside(ends, drawn);
+    drawn.push(ends);
+    arrow(one, ends);
   }
   const force = one => ["x", "y"].map((_, k) => out[one.head_at[0] + k] - out[one.tail[0] + k]);
   const largest = Math.max(...view.pushes.map(one => Math.hypot(...force(one))));
@@ -217,29 +243,35 @@ function draw(view, out) {
 function label(view, out) {
   const [left, top, width, height] = view.box, placed = [];
   const bars = [...view.segments, ...view.pushes].filter(one => one.ends).map(one => one.ends);
+  bars.push(...view.fixed);
+  for (const [ref, half] of view.blocks) {
+    const [x, y] = point(view, out, ref, view.times);
+    placed.push([x - half, y - half, x + half, y + half]);
+  }
   const middle = ([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
   for (const one of view.labels) {
     const owner = one.of !== undefined ? view.segments[one.of] : one.push !== undefined ?
       view.pushes[one.push] : one.turn !== undefined ? view.turns[one.turn] : null;
-    one.node.setAttribute("visibility", owner && !owner.ends && !owner.shown ? "hidden" : "visible");
-    if (owner && !owner.ends && !owner.shown) continue;
+    const absent = owner && ((!owner.ends && !owner.shown) || owner.covered);
+    one.node.setAttribute("visibility", absent ? "hidden" : "visible");
+    if (absent) continue;
     const p = one.at ? point(view, out, one.at, view.times) : one.on ?
       middle(one.on.map(ref => point(view, out, ref, view.times))) : one.turn !== undefined ?
       owner.centre : one.push !== undefined ? owner.ends[1] : middle(owner.ends);
     const high = one.up + one.down, gap = one.turn !== undefined ? 6.4 : one.gap;
     let best = null;
-    for (let k = 0; k < 32; k++) {
-      const angle = (k % 16) * Math.PI / 8, far = gap + (k < 16 ? 0 : 5);
+    for (let k = 0; k < 48; k++) {
+      const angle = (k % 16) * Math.PI / 8, far = gap + 4 * (k >> 4);
       const x = p[0] + Math.cos(angle) * (far + one.width / 2);
       const y = p[1] + Math.sin(angle) * (far + high / 2);
       const box = [x - one.width / 2 - 0.5, y - high / 2 - 0.5, x + one.width / 2 + 0.5,
         y + high / 2 + 0.5];
-      let cost = k < 16 ? 0 : 2;
+      let cost = 2 * (k >> 4);
       cost += one.angle === undefined ? 0 : 1.2 * (1 - Math.cos(angle - one.angle));
-      for (const other of placed) cost += 3 * overlap(box, other);
-      for (const bar of bars) if (crosses(box, bar)) cost += 6;
+      for (const other of placed) cost += 1.5 * overlap(box, other);
       cost += 9 * (Math.max(0, left + 1 - box[0]) + Math.max(0, top + 1 - box[1]) +
         Math.max(0, box[2] - left - width + 1) + Math.max(0, box[3] - top - height + 1));
+      for (const bar of bars) if ((!best || cost < best.cost) && crosses(box, bar)) cost += 6;
       if (!best || cost < best.cost) best = { cost, angle, box, x, y };
     }
     one.angle = best.angle;
@@ -318,8 +350,7 @@ function plot(q) {
   const rule = (points, cls) => made(svg, "path", cls).setAttribute("d", path(points));
   for (const value of ticks(low, high, 4)) {
     rule([[PAD[0], q.y(value)], [WIDE - PAD[1], q.y(value)]], value ? "grid" : "axis");
-    text(PAD[0] - 4, q.y(value) + 3.5, said(+value.toPrecision(6), 6).replace(/([.,]\d*?)0+$/, "$1")
-      .replace(/[.,]$/, ""), "end");
+    text(PAD[0] - 4, q.y(value) + 3.5, short(+value.toPrecision(6), 6), "end");
   }
   const across = D.crank ? [0, 90, 180, 270, 360] : ticks(LOW, HIGH, 5);
   for (const value of across) {
@@ -407,7 +438,7 @@ function show(x) {
     byId(one.id).setAttribute("transform",
       `translate(${px.toFixed(4)} ${py.toFixed(4)}) rotate(${(-now[one.turn]).toFixed(5)})`);
   }
-  for (const view of D.views) draw(view, now);
+  for (const view of D.views) if (!playing || view.seen) draw(view, now);
   fill(now);
   warn(now);
 }
@@ -428,7 +459,7 @@ play.addEventListener("click", () => {
   playing = playing ? 0 : performance.now();
   play.textContent = playing ? "❚❚" : "▶";
   play.setAttribute("aria-label", playing ? D.words.pause : D.words.play);
-  if (playing) requestAnimationFrame(tick);
+  if (playing) requestAnimationFrame(tick); else show(position);
 });
 slider.addEventListener("input", () => show(+slider.value));
 exact.addEventListener("input", () => {
@@ -442,5 +473,9 @@ byId("trace").addEventListener("change", event => {
 globalThis.planmethod = {
   at: x => Object.fromEntries(at(x).slice(0, END).map((value, k) => [D.rows[k], value])), show,
 };
+const watch = new IntersectionObserver(changes => {  // what nobody sees is not drawn while it moves
+  for (const one of changes) D.views.find(view => view.svg === one.target).seen = one.isIntersecting;
+});
+for (const view of D.views) watch.observe(view.svg);
 for (const q of D.quantities) if (q.chosen) { q.button.setAttribute("aria-pressed", true); plot(q); }
 show(D.start);

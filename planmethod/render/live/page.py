@@ -15,6 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import language
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
@@ -124,14 +125,14 @@ class _Page:
         say, convention = self.words.say, self.problem.scales.convention
         box = " ".join(f"{value:.3f}" for value in view.box)
         scheme = view.id == "scheme"
-        smaller = "" if scheme else f'<span id="smaller-{view.id}"></span>'
+        zoom = "" if scheme else f'<span id="zoom-{view.id}"></span>'
         labels = "".join(
             f'<g id="label-{view.id}-{number}">{self._lettered(view, one)}</g>'
             for number, one in enumerate(view.labels)
         )
         return (
             f"<figure><figcaption>{_rich(view.title)}"
-            f"<span>{_rich(scale_inscription(view.scale, convention, say))}</span>{smaller}"
+            f"<span>{_rich(scale_inscription(view.scale, convention, say))}</span>{zoom}"
             f'</figcaption><svg id="svg-{view.id}" viewBox="{box}">'
             f'<g class="traces"></g>{"".join(self._parts()) if scheme else ""}'
             f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
@@ -203,7 +204,7 @@ class _Page:
         roles = {"dr": balancing.symbol, "lever": f"lever {balancing.quantity}"}
         if quantity.kind.is_force and quantity.of in roles:
             return say.symbol(roles[quantity.of])
-        return quantity.symbol
+        return point_name(quantity.of) if quantity.kind is QuantityKind.PLACE else quantity.symbol
 
     # Data ------------------------------------------------------------------------------------
 
@@ -247,7 +248,7 @@ class _Page:
             ],
             "words": {
                 "play": said.play, "pause": said.pause, "touch": said.touch,
-                "smaller": said.smaller, "nearest": said.nearest, "unknown": said.unknown,
+                "zoom": said.zoom, "nearest": said.nearest, "unknown": said.unknown,
                 "decimal": say.decimal, "mm": _plain(say.units["mm"]),
             },
         }  # fmt: skip
@@ -267,6 +268,9 @@ class _Page:
             "labels": view.labels,
             "turns": view.turns,
             "pushes": view.pushes,
+            "fixed": self.scene.fixed if view.id == "scheme" else [],
+            "blocks": self.scene.blocks if view.id == "scheme" else [],
+            "apart": view.id.startswith("forces"),
         }
         origin = self.scene.construction.draft.origin
         if view.id == "scheme" and origin:

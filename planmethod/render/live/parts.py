@@ -95,8 +95,8 @@ def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[Part]:
     way = ((solution.paper.point(PointName(slide.pin)) - pin) * along.conjugate()).real
     half = SIZES.slider_length / 2 * factor
     low, high = float(way.min()) - half, float(way.max()) + half
-    bodies = solution.problem.bodies.values()
-    others = [solution.paper.point(PointName(p)) for body in bodies for p in body.points]
+    bodies = (body.points for body in solution.problem.bodies.values() if slide.pin in body.points)
+    others = [solution.paper.point(PointName(p)) for points in bodies for p in points]
     left = sum(float(np.sum(((at - pin) * along.conjugate()).imag)) for at in others)
     guide = guide_line(
         pin, angle=angle, before=-low + 2, after=high + 2, side=-1 if left > 0 else 1, factor=factor

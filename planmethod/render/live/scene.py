@@ -26,8 +26,10 @@ from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import Fixed, Interpolation, Table, Turning
 from planmethod.problem.model import Problem
+from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.parts import Part, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
+from planmethod.render.symbols import SIZES
 from planmethod.solved.asked import results_for
 from planmethod.solved.forces.loads import AHEAD, applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
@@ -40,10 +42,13 @@ Array = npt.NDArray[Any]
 Ref = list[int]
 """Outputs of the two coordinates of a point: ``[k]`` is (k, k+1); ``[k, 1]`` is turned by 90°."""
 
-BOX = (118.0, 92.0)
+BOX = (105.0, 80.0)
 """What a view's picture fills, mm: on a telephone its letters of 5 mm are read."""
 
-LETTER, SMALL = 5.0, 4.0
+SHAPE = 1.3
+"""Width of all views by their height, so that they stand in rows."""
+
+LETTER, SMALL = 5.0, 4.5
 _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
 _LOOKS = 4  # so many times finer is the way looked at
 
@@ -117,6 +122,14 @@ class Scene:
         self.parts: list[Part]
         self.parts, self._drawing = parts_of(self.shown, LETTER)
         self._fit()
+        # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
+        self.fixed = [
+            [[end.real, -end.imag] for end in item.points[:2]]
+            for part in self.parts
+            for item in part.items
+            if part.link == FRAME and isinstance(item, Stroke) and _long(item)
+        ]
+        self.blocks = [[self.place(slide.pin), 5.0] for slide in problem.slides.values()]
 
     # Outputs ---------------------------------------------------------------------------------
 
@@ -161,8 +174,8 @@ class Scene:
             ends = [p for p in body.points if p in known]
             if link == FRAME or not ends:
                 continue
-            where = {"on": [self.place(ends[0]), self.place(ends[-1])]}
-            view.labels.append({"text": link, "height": SMALL, **where})
+            where = [self.place(ends[0]), self.place(ends[-1])]
+            view.labels.append({"text": link, "height": SMALL, "on": where})
         return view
 
     def _plan(self, kind: PlanKind) -> View:
@@ -353,7 +366,7 @@ class Scene:
             ends = ends[:, sizes <= OUTLIER * np.median(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
             view.per_mm = float(extent) or 1.0
-            view.box = _box(ends.ravel() / view.per_mm, 30.0 if view.pushes else 13.0)
+            view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
 
     def _values(self, ref: Ref) -> Array:
         place = self.values[ref[0]] + 1j * self.values[ref[0] + 1]
@@ -429,10 +442,15 @@ def kind_of(view: View) -> PlanKind:
     return PlanKind.FORCE if name == "forces" else PlanKind(name)
 
 
+def _long(item: Stroke) -> bool:
+    return abs(item.points[1] - item.points[0]) > 1.5 * SIZES.hatch_stroke
+
+
 def _box(places: Array, margin: float) -> tuple[float, float, float, float]:
     """Return left, top (y down), width and height of a box around places, mm."""
     if not places.size:
         places = np.zeros(1, complex)
-    left, top = float(places.real.min()) - margin, -float(places.imag.max()) - margin
-    width, height = float(np.ptp(places.real)), float(np.ptp(places.imag))
-    return left, top, width + 2 * margin, height + 2 * margin
+    low, high = complex(places.real.min(), places.imag.min()), complex(places.real.max(), places.imag.max())
+    middle, size = (low + high) / 2, high - low + 2 * margin * (1 + 1j)
+    width, height = max(size.real, SHAPE * size.imag), max(size.imag, size.real / SHAPE)
+    return middle.real - width / 2, -middle.imag - height / 2, width, height

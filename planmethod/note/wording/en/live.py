@@ -8,7 +8,7 @@ LIVE = LiveWording(
     driver="Position of the driving link",
     speed="speed",
     traces="paths of points",
-    touch="Point at a segment or touch it: its value and millimetres.",
+    touch="Point at a segment or touch it.",
     choose="A symbol in the table below adds or removes its diagram; a touch of a diagram sets the "
     "driving link there.",
     diagrams="Diagrams",
@@ -19,7 +19,7 @@ LIVE = LiveWording(
     no_forces="The force plan does not close: a dead position.",
     unknown="A load is given in the positions of the file only: no forces between them.",
     nearest="The nearest that exist:",
-    smaller="drawn {times} times smaller",
+    zoom="picture ×{times}",
     made="Made by planmethod live from the problem file; the values are computed here, from the "
     "same steps as the drawings. Millimetres are those of the sheet at the scale given.",
 )
