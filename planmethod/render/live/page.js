@@ -244,10 +244,9 @@ function label(view, out) {
   const [left, top, width, height] = view.box, placed = [];
   const bars = [...view.segments, ...view.pushes].filter(one => one.ends).map(one => one.ends);
   bars.push(...view.fixed);
-  for (const [ref, half] of view.blocks) {
-    const [x, y] = point(view, out, ref, view.times);
-    placed.push([x - half, y - half, x + half, y + half]);
-  }
+  const block = ([x, y], half) => placed.push([x - half, y - half, x + half, y + half]);
+  for (const [ref, half] of view.blocks) block(point(view, out, ref, view.times), half);
+  for (const one of view.turns) if (one.shown) block(one.centre, 5.5);
   const middle = ([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
   for (const one of view.labels) {
     const owner = one.of !== undefined ? view.segments[one.of] : one.push !== undefined ?
@@ -264,8 +263,7 @@ function label(view, out) {
       const angle = (k % 16) * Math.PI / 8, far = gap + 4 * (k >> 4);
       const x = p[0] + Math.cos(angle) * (far + one.width / 2);
       const y = p[1] + Math.sin(angle) * (far + high / 2);
-      const box = [x - one.width / 2 - 0.5, y - high / 2 - 0.5, x + one.width / 2 + 0.5,
-        y + high / 2 + 0.5];
+      const [w, h] = [one.width / 2 + 0.8, high / 2 + 0.8], box = [x - w, y - h, x + w, y + h];
       let cost = 2 * (k >> 4);
       cost += one.angle === undefined ? 0 : 1.2 * (1 - Math.cos(angle - one.angle));
       for (const other of placed) cost += 1.5 * overlap(box, other);
@@ -432,7 +430,7 @@ function show(x) {
   position = x;
   now = at(x);
   slider.value = x;
-  if (document.activeElement !== exact) exact.value = +x.toPrecision(9);
+  if (document.activeElement !== exact) exact.value = +x.toPrecision(8);
   if (exists(now)) for (const one of D.parts) {
     const [px, py] = point(D.views[0], now, one.at, 1);
     byId(one.id).setAttribute("transform",

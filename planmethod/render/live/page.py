@@ -110,8 +110,8 @@ class _Page:
             f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
             f'<input id="slider" type="range" min="{low!r}" max="{high!r}" step="any" '
             f'aria-label="{escape(said.driver)}"><label>{label} = <input id="exact" type="number" '
-            f'step="any"> {unit}</label><label>{escape(said.speed)} <select id="speed">{speeds}'
-            '</select></label><label><input id="trace" type="checkbox" checked> '
+            f'step="any"> {unit}</label><select id="speed" aria-label="{escape(said.speed)}">{speeds}'
+            '</select><label><input id="trace" type="checkbox" checked> '
             f"{escape(said.traces)}</label></section>"
             '<section id="why" role="status" hidden></section></div>'
         )
@@ -131,8 +131,8 @@ class _Page:
             for number, one in enumerate(view.labels)
         )
         return (
-            f"<figure><figcaption>{_rich(view.title)}"
-            f"<span>{_rich(scale_inscription(view.scale, convention, say))}</span>{zoom}"
+            f"<figure><figcaption>{_rich(view.title)} "
+            f"<span>{_rich(scale_inscription(view.scale, convention, say))}</span> {zoom}"
             f'</figcaption><svg id="svg-{view.id}" viewBox="{box}">'
             f'<g class="traces"></g>{"".join(self._parts()) if scheme else ""}'
             f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
@@ -188,7 +188,7 @@ class _Page:
         symbol = _rich(self._symbol(quantity))
         first = self.scene.row(quantity.columns[0])
         cells = [f'<span id="cell-{first + k}" data-row="{first + k}"></span>' for k in (0, 1)]
-        pair = f"x = {cells[0]}; y = {cells[1]}"
+        pair = f"<span>x = {cells[0]};</span> <span>y = {cells[1]}</span>"
         if quantity.kind is QuantityKind.PLACE:
             return f"<tr><th>{symbol}</th><td>{pair}</td><td>{unit}</td></tr>"
         value = cells[0]

@@ -7,7 +7,7 @@ LIVE = LiveWording(
     pause="Pause",
     driver="Position of the driving link",
     speed="speed",
-    traces="paths of points",
+    traces="paths",
     touch="Point at a segment or touch it.",
     choose="A symbol in the table below adds or removes its diagram; a touch of a diagram sets the "
     "driving link there.",
