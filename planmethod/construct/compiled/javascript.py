@@ -15,7 +15,7 @@ from planmethod.construct.compiled.tape import Ref, Tape
 
 _TURN = """function turn(a) {
   const q = Math.round(a / 90), r = (a - 90 * q) * %r, c = Math.cos(r), s = Math.sin(r);
-  return [[c, s], [-s, c], [-c, -s], [s, -c]][((q %% 4) + 4) %% 4];
+  return [[c, s], [-s, c], [-c, -s], [s, -c]][((q %% 4) + 4) %% 4] || [NaN, NaN];
 }
 """ % (math.pi / 180.0)  # exact at quadrants, as `unit_vectors` is
 

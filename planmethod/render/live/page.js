@@ -4,7 +4,7 @@
 const D = JSON.parse(document.getElementById("scene").textContent);
 const SVG = "http://www.w3.org/2000/svg", byId = id => document.getElementById(id);
 const TURN = 360, SLACK = 1e-9, STILL = 1e-10, SAMPLES = 720;
-const ZOOMS = [16, 12, 8, 6, 4, 3, 2, 1.5, ...Array.from({ length: 30 }, (_, k) => 2 ** -k)];
+const ZOOMS = [64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1.5, ...Array.from({ length: 30 }, (_, k) => 2 ** -k)];
 
 // Numbers -----------------------------------------------------------------------------------------
 
@@ -65,7 +65,9 @@ function at(x) {  // all outputs in a position of the driver; last the guard tha
   const sides = D.branches.map(one => branch(one, x));
   if (!D.loads) return run(x, ...sides);
   const nothing = D.loads.list.flatMap(load => load.place === undefined ? [0] : [0, 0]);
-  return run(x, ...sides, ...loads(x, run(x, ...sides, ...nothing)));
+  const still = run(x, ...sides, ...nothing), told = loads(x, still), out = run(x, ...sides, ...told);
+  if (told.some(Number.isNaN)) out[out.length - 1] = still[out.length - 1];
+  return out;
 }
 
 const [LOW, HIGH] = D.way, END = D.rows.length;
@@ -203,7 +205,8 @@ function draw(view, out) {
       const [x, y] = point(view, out, ref, times);
       return x < left + 4 || y < top + 4 || x > left + width - 4 || y > top + height - 4;
     });
-    view.times = 1 / (ZOOMS.find(zoom => !outside(1 / zoom)) || 1);
+    const nothing = refs.every(ref => Math.hypot(...point(view, out, ref, 1)) < 1e-6);
+    view.times = nothing ? 1 : 1 / (ZOOMS.find(zoom => !outside(1 / zoom)) || 1);
     view.zoom.textContent = view.times === 1 ? "" :
       D.words.zoom.replace("{times}", short(1 / view.times, 3));
   }
@@ -338,8 +341,8 @@ function plot(q) {
   let low = Math.max(-most, Math.min(0, ...real)), high = Math.min(most, Math.max(0, ...real));
   if (!(high - low > 1e-12 * q.largest)) [low, high] = [low - 1, high + 1];
   q.x = value => PAD[0] + (value - LOW) / (HIGH - LOW) * (WIDE - PAD[0] - PAD[1]);
-  q.y = value => TALL - PAD[3] - (Math.min(high, Math.max(low, value)) - low) / (high - low) *
-    (TALL - PAD[2] - PAD[3]);
+  const tall = TALL - PAD[2] - PAD[3];
+  q.y = value => TALL - PAD[3] - Math.min(9, Math.max(-9, (value - low) / (high - low))) * tall;
   const text = (x, y, told, anchor) => {
     const node = made(svg, "text", "tick");
     node.setAttribute("x", x); node.setAttribute("y", y); node.setAttribute("text-anchor", anchor);
@@ -353,14 +356,18 @@ function plot(q) {
   const across = D.crank ? [0, 90, 180, 270, 360] : ticks(LOW, HIGH, 5);
   for (const value of across) {
     rule([[q.x(value), PAD[2]], [q.x(value), TALL - PAD[3]]], "grid");
-    text(q.x(value), TALL - 5, String(+value.toPrecision(4)).replace(".", D.words.decimal), "middle");
+    text(q.x(value), TALL - 5, short(+value.toPrecision(4), 4), "middle");
   }
   const parts = values.reduce((all, value, k) => {
     const x = LOW + (HIGH - LOW) * k / SAMPLES;
     if (Number.isFinite(value)) all[all.length - 1].push([q.x(x), q.y(value)]); else all.push([]);
     return all;
   }, [[]]).filter(part => part.length > 1);
-  made(svg, "path", "curve").setAttribute("d", parts.map(path).join(""));
+  const inner = made(svg, "svg", "");  // cuts off what a dead position throws out of the picture
+  inner.setAttribute("viewBox", `0 ${PAD[2] - 1} ${WIDE} ${tall + 2}`);
+  inner.setAttribute("y", PAD[2] - 1);
+  inner.setAttribute("height", tall + 2);
+  made(inner, "path", "curve").setAttribute("d", parts.map(path).join(""));
   q.mark = made(svg, "path", "mark");
   q.dot = made(svg, "circle", "dot");
   q.dot.setAttribute("r", 3.2);
@@ -390,7 +397,7 @@ function fill(out) {
     if (!q.plot) continue;
     rich(q.caption, q.symbol, ` = ${said(value, 5, q.largest)} `, q.unit);
     q.mark.setAttribute("d", path([[q.x(position), PAD[2]], [q.x(position), TALL - PAD[3]]]));
-    const there = Number.isFinite(value);
+    const there = q.y(value) >= PAD[2] - 2 && q.y(value) <= TALL - PAD[3] + 2;
     q.dot.setAttribute("visibility", there ? "visible" : "hidden");
     if (there) { q.dot.setAttribute("cx", q.x(position)); q.dot.setAttribute("cy", q.y(value)); }
   }

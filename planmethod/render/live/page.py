@@ -212,7 +212,7 @@ class _Page:
         scene, drive, say, said = self.scene, self.problem.drive, self.words.say, self.words.live
         closings = scene.sweep.branches.values()
         chosen = scene.chosen()
-        forces = [k for k, row in enumerate(scene.sweep.rows) if row.name[:2] in ("F.", "f:")]
+        forces = scene.rows_of(lambda kind: kind.is_force)
         return {
             "rows": [row.name for row in scene.sweep.rows],
             "way": list(scene.way),
@@ -226,8 +226,7 @@ class _Page:
                 for one in closings
             ],
             "loads": scene.loads(),
-            "places": [row for row, name in enumerate(scene.columns) if name.endswith(".x")
-                       and not name.startswith("F.")],
+            "places": scene.rows_of(lambda kind: kind is QuantityKind.PLACE),
             "forces": forces,
             "reasons": [_runs(text) for text in scene.reasons()],
             "parts": [

@@ -6,6 +6,7 @@ inscriptions hang on outputs. Lengths in millimetres are told at the scales of t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -31,6 +32,7 @@ from planmethod.render.live.parts import Part, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
 from planmethod.solved.asked import results_for
+from planmethod.solved.cycle import only_in_positions
 from planmethod.solved.forces.loads import AHEAD, applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.many.sweep import Sweep
@@ -144,6 +146,10 @@ class Scene:
     def foot(self, link: str) -> PointName:
         """Return the point of a link that its parts hang on."""
         return PointName(next(iter(self.problem.bodies[link].points)))
+
+    def rows_of(self, chosen: Callable[[QuantityKind], bool]) -> list[int]:
+        """Return the outputs of all quantities of some kinds."""
+        return [self._row[name] for one in self.quantities if chosen(one.kind) for name in one.columns]
 
     def row(self, column: str) -> int:
         """Return the output of a column of ``solve --csv``."""
@@ -302,11 +308,10 @@ class Scene:
             self.way = self._reach()
         count = _STEPS[drive.is_crank] * _LOOKS
         self.grid = np.linspace(*self.way, count + 1)
-        failed = np.empty(self.grid.shape, np.int16)
-        self.values = self.sweep.run(self.grid, failed=failed)
+        values, failed = self._run(self.grid)
         own = np.asarray(drive.positions, dtype=float)
-        own_failed = np.empty(own.shape, np.int16)
-        self.sweep.run(own, failed=own_failed)
+        own_values, own_failed = self._run(own)
+        self.values = np.hstack((values, own_values))
         able, mine = self.grid[failed < 0][::_LOOKS], own[own_failed < 0]
         if not (able.size or mine.size):
             failure = self.sweep.failure(float(own[0]))
@@ -328,9 +333,26 @@ class Scene:
         if drive.is_crank:
             self.start %= 360.0
 
+    def _run(self, positions: Array) -> tuple[Array, Array]:
+        """Return the outputs in some positions, and the first guard that fails, or -1.
+
+        Loads that are known in the file's positions only leave no forces in others.
+        """
+        failed = np.empty(positions.shape, np.int16)
+        dynamics, own = self.problem.dynamics, self.problem.drive.positions
+        if dynamics is None or not only_in_positions(dynamics) or positions.tolist() == list(own):
+            return self.sweep.run(positions, failed=failed), failed
+        ahead = FACTS[PlanKind.FORCE].prefix
+        drawn = [PointName(name) for name in self._drawn if not name.startswith(ahead)]
+        motion = Sweep(self.problem, drawn=drawn)
+        values = np.full((len(self.sweep.rows), len(positions)), np.nan)
+        number = {row.name: k for k, row in enumerate(self.sweep.rows)}
+        values[[number[row.name] for row in motion.rows]] = motion.run(positions, failed=failed)
+        return values, failed
+
     def _of_places(self) -> Array:
-        columns = [k for k, name in enumerate(self.columns) if name.endswith(".x") and name[0] != "F"]
-        places = self.values[columns] + 1j * self.values[[k + 1 for k in columns]]
+        rows = self.rows_of(lambda kind: kind is QuantityKind.PLACE)
+        places = self.values[rows[::2]] + 1j * self.values[rows[1::2]]
         return places[:, ~np.isnan(places).any(axis=0)]
 
     def _reach(self) -> tuple[float, float]:
@@ -340,10 +362,8 @@ class Scene:
         size = max([high - low, *(length for _, _, length in self.problem.lengths)]) or 1.0
         ends = []
         for start, sense in ((low, -1.0), (high, 1.0)):
-            there = start + sense * size * np.linspace(0.0, 1.0, 2001)
-            failed = np.empty(there.shape, np.int16)
-            self.sweep.run(there, failed=failed)
-            stop = np.flatnonzero(failed >= 0)
+            there = start + sense * size * np.linspace(0.0, 0.5, 1001)
+            stop = np.flatnonzero(self._run(there)[1] >= 0)
             ends.append(float(there[max(0, stop[0] - 1)]) if stop.size else float(there[-1]))
         return ends[0], ends[1]
 
@@ -450,7 +470,9 @@ def _box(places: Array, margin: float) -> tuple[float, float, float, float]:
     """Return left, top (y down), width and height of a box around places, mm."""
     if not places.size:
         places = np.zeros(1, complex)
-    low, high = complex(places.real.min(), places.imag.min()), complex(places.real.max(), places.imag.max())
-    middle, size = (low + high) / 2, high - low + 2 * margin * (1 + 1j)
-    width, height = max(size.real, SHAPE * size.imag), max(size.imag, size.real / SHAPE)
+    low = complex(places.real.min(), places.imag.min())
+    high = complex(places.real.max(), places.imag.max())
+    middle, size = (low + high) / 2, high - low
+    width = 2 * margin + max(size.real, SHAPE * (size.imag + 2 * margin) - 2 * margin, BOX[0])
+    height = width / SHAPE
     return middle.real - width / 2, -middle.imag - height / 2, width, height
