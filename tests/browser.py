@@ -96,7 +96,8 @@ def browsing(folder: Path) -> Iterator[Page]:
         os.dup2(spare[3], 4)
 
     command = [
-        PROGRAM, "--headless", "--no-sandbox", "--hide-scrollbars", "--disable-gpu", "--remote-debugging-pipe",
+        PROGRAM, "--headless", "--no-sandbox", "--hide-scrollbars", "--disable-gpu",
+        "--remote-debugging-pipe",
         f"--user-data-dir={folder}",
     ]  # fmt: skip
     done = subprocess.Popen(

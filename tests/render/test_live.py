@@ -158,7 +158,10 @@ def test_the_slider_moves_everything_to_the_numbers_of_solve(
     values = page.ask("(planmethod.show(301.25), at(301.25))")
     for part in scene.parts:
         if part.link in scene.problem.mechanism.links:
-            x, turn = values[scene.place(scene.foot(part.link))[0]], values[scene.row(f"{part.link}.phi_deg")]
+            x, turn = (
+                values[scene.place(scene.foot(part.link))[0]],
+                values[scene.row(f"{part.link}.phi_deg")],
+            )
             placed = page.ask(f"byId('part-{scene.parts.index(part)}').getAttribute('transform')")
             numbers = [float(text) for text in re.findall(r"-?[\d.]+", placed)]
             assert numbers[0] == pytest.approx(x / scene.views[0].per_mm, abs=1e-3)
@@ -188,7 +191,9 @@ def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: P
         "—"
     }
     # Where there is no way on the driver turns back; it does not jump over the gap.
-    page.ask("planmethod.show(57); sense = 1; playing = 1; for (let t = 20; t < 2000; t += 20) tick(t)")
+    page.ask(
+        "planmethod.show(57); sense = 1; playing = 1; for (let t = 20; t < 2000; t += 20) tick(t)"
+    )
     assert page.ask("sense") == -1
     assert page.ask("exists(now)")
     assert not page.said
@@ -200,7 +205,9 @@ def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) 
         scene = opened(page, watt(load), tmp_path)
         assert scene.loads() is not None, told
         positions = np.concatenate((np.linspace(-29.0, 57.0, 87) % 360.0, [20.0, 350.0]))
-        found = page.ask(f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v===v ? v : null))")
+        found = page.ask(
+            f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v===v ? v : null))"
+        )
         made = np.array(found, dtype=float).T[:-1]
         assert apart(made, scene.sweep, positions) < 1e-11, told
         assert not page.said, told

@@ -110,8 +110,8 @@ class _Page:
             f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
             f'<input id="slider" type="range" min="{low!r}" max="{high!r}" step="any" '
             f'aria-label="{escape(said.driver)}"><label>{label} = <input id="exact" type="number" '
-            f'step="any"> {unit}</label><select id="speed" aria-label="{escape(said.speed)}">{speeds}'
-            '</select><label><input id="trace" type="checkbox" checked> '
+            f'step="any"> {unit}</label><select id="speed" aria-label="{escape(said.speed)}">'
+            f'{speeds}</select><label><input id="trace" type="checkbox" checked> '
             f"{escape(said.traces)}</label></section>"
             '<section id="why" role="status" hidden></section></div>'
         )

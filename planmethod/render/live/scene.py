@@ -75,7 +75,7 @@ class View:
 
 
 class Scene:
-    """A problem as it moves (сцена).
+    """A problem as it moves.
 
     Parameters
     ----------
@@ -149,7 +149,9 @@ class Scene:
 
     def rows_of(self, chosen: Callable[[QuantityKind], bool]) -> list[int]:
         """Return the outputs of all quantities of some kinds."""
-        return [self._row[name] for one in self.quantities if chosen(one.kind) for name in one.columns]
+        return [
+            self._row[name] for one in self.quantities if chosen(one.kind) for name in one.columns
+        ]
 
     def row(self, column: str) -> int:
         """Return the output of a column of ``solve --csv``."""
@@ -252,12 +254,16 @@ class Scene:
             view.labels.append({"at": [*self._ref(at), 1], "text": ", ".join(own)})
 
         def push(at: Ref, symbol: str, tail: PointName, head: PointName) -> None:
-            view.labels.append({"text": say.symbol(symbol), "height": SMALL, "push": len(view.pushes)})
+            view.labels.append(
+                {"text": say.symbol(symbol), "height": SMALL, "push": len(view.pushes)}
+            )
             ends = {"tail": self._ref(tail), "head_at": self._ref(head)}
             view.pushes.append({"at": at, "symbol": say.symbol(symbol), **ends})
 
         def turn(link: str, symbol: str, couple: Name) -> None:
-            view.labels.append({"text": say.symbol(symbol), "height": SMALL, "turn": len(view.turns)})
+            view.labels.append(
+                {"text": say.symbol(symbol), "height": SMALL, "turn": len(view.turns)}
+            )
             omega = self._row[f"{link}.omega"]
             view.turns.append(
                 {"on": self._segment_of(link), "couple": self._ref(couple)[0], "omega": omega}
@@ -343,7 +349,7 @@ class Scene:
         if dynamics is None or not only_in_positions(dynamics) or positions.tolist() == list(own):
             return self.sweep.run(positions, failed=failed), failed
         ahead = FACTS[PlanKind.FORCE].prefix
-        drawn = [PointName(name) for name in self._drawn if not name.startswith(ahead)]
+        drawn = [name for name in self._drawn if not name.startswith(ahead)]
         motion = Sweep(self.problem, drawn=drawn)
         values = np.full((len(self.sweep.rows), len(positions)), np.nan)
         number = {row.name: k for k, row in enumerate(self.sweep.rows)}
@@ -353,7 +359,7 @@ class Scene:
     def _of_places(self) -> Array:
         rows = self.rows_of(lambda kind: kind is QuantityKind.PLACE)
         places = self.values[rows[::2]] + 1j * self.values[rows[1::2]]
-        return places[:, ~np.isnan(places).any(axis=0)]
+        return np.asarray(places[:, ~np.isnan(places).any(axis=0)])
 
     def _reach(self) -> tuple[float, float]:
         """Return the way of a driving slider: its positions, and on as far as it goes."""
@@ -390,7 +396,7 @@ class Scene:
 
     def _values(self, ref: Ref) -> Array:
         place = self.values[ref[0]] + 1j * self.values[ref[0] + 1]
-        return 1j * place if ref[1:] else place
+        return np.asarray(1j * place if ref[1:] else place)
 
     # Loads -----------------------------------------------------------------------------------
 
@@ -437,19 +443,16 @@ class Scene:
 
     def reasons(self) -> list[str]:
         """Return for every guard of the tape why a position has no results where it fails."""
-        said, plans = self.words.live, self.sweep.plans
-        found = []
-        for guard in range(self.sweep.guards):
-            step = self.sweep.reason(guard)
-            kind = plans.get(step, PlanKind.POSITION)
-            point = point_name(step.partition("~")[0])
-            sentence = {
-                PlanKind.POSITION: said.no_place,
-                PlanKind.FORCE: said.no_forces,
-                PlanKind.LEVER: said.no_forces,
-            }.get(kind, said.dead)
-            found.append(sentence.format(point=point))
-        return found
+        said = self.words.live
+        sentences = {
+            PlanKind.POSITION: said.no_place,
+            PlanKind.FORCE: said.no_forces,
+            PlanKind.LEVER: said.no_forces,
+        }
+        return [
+            sentences.get(kind, said.dead).format(point=point_name(step.partition("~")[0]))
+            for step, kind in self.sweep.guards
+        ]
 
 
 def _unit(kind: PlanKind) -> Scale:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from planmethod.construct.compiled.symbolic import Symbol, Written
 from planmethod.construct.compiled.tape import Ref
-from planmethod.construct.steps import PointName
+from planmethod.construct.steps import Name
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
 
@@ -36,7 +36,7 @@ def rows_of(
     written: Written,
     origin: complex,
     moved: Sequence[Quantity] = (),
-    drawn: Sequence[PointName] = (),
+    drawn: Sequence[Name] = (),
 ) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
     """Return the rows of some results: their names, their numbers on the tape, their guards.
 
@@ -46,8 +46,8 @@ def rows_of(
         From which the places on the tape count.
     moved : sequence of Result
         What the loads depend on, and all forces with them.
-    drawn : sequence of PointName
-        Points of plans whose places are rows as well.
+    drawn : sequence of Name
+        Points and numbers of the plans that are rows as well.
     """
     loaded = frozenset[int]().union(*(written.depends[result.name] for result in moved))
     rows: list[Row] = []

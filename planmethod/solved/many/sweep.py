@@ -14,7 +14,7 @@ from planmethod.construct.compiled.javascript import javascript
 from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
 from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.steps import PointName
+from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
@@ -61,8 +61,9 @@ class Sweep:
         float64; float32 is for pictures only.
     forces : bool
         Where nothing is asked by name: everything of the forces, too.
-    drawn : sequence of PointName
-        Points of the plans whose places on their plan, SI, are results as well: ``v:c.x``.
+    drawn : sequence of Name
+        Points and numbers of the plans that are results as well, SI, each as ``.x`` and ``.y``:
+        ``v:c.x``; places as they lie on their plan.
 
     Attributes
     ----------
@@ -91,7 +92,7 @@ class Sweep:
         varied: Sequence[str] = (),
         dtype: npt.DTypeLike = np.float64,
         forces: bool = False,
-        drawn: Sequence[PointName] = (),
+        drawn: Sequence[Name] = (),
     ) -> None:
         self.problem = problem
         if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
@@ -292,14 +293,10 @@ class Sweep:
         return {row.name: values for row, values in zip(self.rows, found, strict=True)}
 
     @property
-    def plans(self) -> Mapping[str, PlanKind]:
-        """Plan that every step belongs to."""
-        return self._draft.plans
-
-    @property
-    def guards(self) -> int:
-        """How many margins are watched; see `reason`."""
-        return len(self._written.guards)
+    def guards(self) -> list[tuple[Name, PlanKind]]:
+        """Step and plan of every margin that is watched, by the numbers of `reason`."""
+        steps = (guard.step for guard in self._written.guards)
+        return [(step, self._draft.plans.get(step, PlanKind.POSITION)) for step in steps]
 
     def javascript(self) -> str:
         """Return the source of a function of JavaScript: of a position, branches and loads.
