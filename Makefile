@@ -4,7 +4,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-LINKAGES = $(sort $(filter-out problems/point/% problems/gears/%,$(wildcard problems/*/*.toml)))
+LINKAGES = $(sort $(filter-out problems/point/% problems/gears/% problems/meshing/%,$(wildcard problems/*/*.toml)))
 
 # A file of tests is run by one worker, which solves and draws what they share once. Bytecode is kept, and out of the
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
@@ -21,6 +21,7 @@ $(VENV)/.ready: pyproject.toml
 demo: $(VENV)/.ready
 	$(BIN)/planmethod sheet --format svg,pdf -o out problems/linkages/*.toml problems/levers/*.toml problems/press/*.toml
 	$(BIN)/planmethod solve problems/gears/*.toml
+	$(BIN)/planmethod sheet --format svg,pdf -o out problems/meshing/*.toml
 	$(BIN)/planmethod check --key problems/linkages/ex3-variants.toml -o out
 	$(BIN)/planmethod form problems/linkages/ex3-variants.toml --all-variants -o out
 	$(BIN)/planmethod check problems/linkages/ex3-variants.toml problems/groups/ex3.csv -o out || test $$? -eq 1 # a cell cannot be read

@@ -29,6 +29,7 @@ COMMANDS = (
     "specimen",
     "layouts",
     "new",
+    "synthesize",
     "teeth",
     "check",
     "bench",

@@ -14,8 +14,9 @@ from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.note.audit.audit import Audited
     from planmethod.problem.fields import Faults
-    from planmethod.problem.model import Geared, Problem, Published, SheetSettings
+    from planmethod.problem.model import Geared, Problem, SheetSettings
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -87,9 +88,8 @@ class Kind:
         Where its functions are: ``load(path, *, variant)``, ``record(problem, lang)``,
         ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
         ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
-        before, total)`` and ``protocol_text(problem, lang, profile)``, and
-        ``published_values(problem)``. It is imported when one of
-        them is called.
+        before, total)`` and ``protocol_text(problem, lang, profile)``; of printed values
+        ``audited(problem, ruler)``. It is imported when one of them is called.
     """
 
     table: str
@@ -153,23 +153,21 @@ class Kind:
         """
         return str(self._asked("protocol_text", problem)(problem, lang, profile))
 
-    def published_values(self, problem: KindProblem) -> list[tuple[Published, float | None]]:
-        """Return what the source prints, with the exact values; None where there is none.
+    def audited(self, problem: KindProblem, ruler: float) -> list[Audited]:
+        """Return printed values beside the exact ones and those read with a ruler.
 
         Raises
         ------
         ProblemError
-            Printed values of such problems are not compared.
+            Such problems have no audit.
         """
-        told: list[tuple[Published, float | None]] = self._asked("published_values", problem)(
-            problem
-        )
+        told: list[Audited] = self._asked("audited", problem)(problem, ruler)
         return told
 
     def _asked(self, name: str, problem: KindProblem) -> Any:
         """Return a function that not every kind has."""
         if not hasattr(import_module(self.package), name):
-            what = {"drawings": "sheets", "protocol_text": "protocol"}.get(name, "audit")
+            what = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}[name]
             fault = Fault(
                 self.table, f"such a problem has no {what}; its numbers: planmethod solve"
             )
@@ -180,7 +178,11 @@ class Kind:
         return _of(self.package, name)
 
 
-KINDS = (Kind("gears", "planmethod.gears"), Kind("point", "planmethod.moving"))
+KINDS = (
+    Kind("gears", "planmethod.gears"),
+    Kind("point", "planmethod.moving"),
+    Kind("meshing", "planmethod.gears.involute"),
+)
 """All of them; a file that has links is a linkage whatever else it has."""
 
 _HEAD = re.compile(r"^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b", re.M)

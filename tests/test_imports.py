@@ -10,6 +10,7 @@ import pytest
 from worked import PROBLEMS, path_of
 
 EX3 = str(path_of("linkages/ex3"))
+MESHING = str(PROBLEMS / "meshing/z12-30.toml")
 TRAIN = str(PROBLEMS / "gears/gears-ex2.toml")
 SIX_LINK = str(path_of("levers/six-link"))
 
@@ -99,7 +100,10 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
                 ("solve", EX3, "--npz", "ex3.npz"),
                 ("solve", EX3, "--ask", "v_E"),
                 ("protocol", EX3),
+                ("synthesize", "slotted", "--K_v", "1.22", "--centres", "1.08"),
                 ("solve", TRAIN, "--json"),
+                ("solve", MESHING),
+                ("protocol", MESHING),
                 ("teeth", "--U", "6.5"),
             ),
             {"numpy"},

@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from planmethod.bench import checking, forces, speed
+from planmethod.bench import checking, cycle, forces, speed
 from planmethod.bench.drawn import DRAWS, Compared, compare_all
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
@@ -313,10 +313,50 @@ def _drafting(problems: Sequence[Problem]) -> Table:
     return drafting_section(compare_all(problems))
 
 
+def _cycle(problems: Sequence[Problem]) -> Table:
+    """Return the section on turns of a crank; there is none where no crank turns fully."""
+    rows, said, cost = [], [], []
+    for problem in problems:
+        turn = cycle.turn_for(problem)
+        if turn is None or turn.is_still:
+            continue
+        found = [cycle.calculus(turn, count) for count in cycle.COUNTS]
+        for one in found:
+            errors = (part for off in (one.v, one.a, one.s) for part in (off.most, off.rms))
+            moved = (part for pair in one.moved for part in pair)
+            rows.append((problem.name, str(one.count), *(f"{x:.3g}" for x in (*errors, *moved))))
+        for which, ruler in enumerate(cycle.RULERS):
+            first = cycle.takes_over(found, which)
+            told = f"from {first} positions on" if first else "at none of these counts"
+            said.append(f"- {problem.name}: the ruler of {ruler:g} mm limits v {told}.")
+        cost += [
+            (what, problem.name, str(count), span(seconds), span(seconds / count))
+            for what, count, seconds in cycle.costs(problem)
+        ]
+    if not rows:
+        return []
+    head = [f"{letter} {kind}" for letter in ("v", "a", "s") for kind in ("max", "rms")]
+    head += [f"{letter} ± {ruler:g}" for ruler in cycle.RULERS for letter in "va"]
+    return [
+        "## Graphical differentiation and integration",
+        "",
+        "Errors in millimetres of the diagrams by the number of positions of a turn: v and a by "
+        "chords, s integrated from exact velocities by middle ordinates; they fall as 1/n². Then "
+        "by how much a ruler of so many mm, with which s is taken off, moves v and a.",
+        "",
+        *table(("problem", "positions", *head), rows),
+        "",
+        *said,
+        "",
+        *table(("cycle", "problem", "positions", "time", "for a position"), cost),
+    ]
+
+
 SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
     "speed": _speed,
     "forces": _forces,
     "drafting": _drafting,
+    "cycle": _cycle,
     "checking": checking_section,
 }
 """What is measured of problems, by the name of the section."""

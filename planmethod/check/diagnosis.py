@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from statistics import median
 
-from planmethod.check.explain import Explanation, Fact, Fit, Numbers
+from planmethod.check.explain import Explanation, Explanations, Fact, Fit, Numbers
 from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
 from planmethod.check.mistakes.model import Scene
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet, point
-from planmethod.check.slips import completed, put_explanation, slips
+from planmethod.check.slips import Slip, completed, put_explanation, slips
 from planmethod.check.task import Task
 from planmethod.construct.steps import Name, PointName, makes, operands
 from planmethod.plans.model import FACTS, MOTION
 
-FEW = 0.3
+FEW = 1.0
 """Answers that an exact hand must have given before it is believed to be one."""
 
 EXACT = 0.15
@@ -39,6 +38,9 @@ MANY = 2
 COPIED = 25.0
 """How common the numbers of another variant are where they fit: few mistakes give just these."""
 
+ALONE = 0.05
+"""How far off a slip may be where nothing else on the sheet tells of it, a share of the number."""
+
 UNNAMED = 15.0
 """How common a number is that is wrong and nobody knows why, beside one mistake at one place.
 
@@ -55,11 +57,13 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     if not wrong:
         return []
     alone = wrong[0] if len(wrong) == 1 and wrong[0].item.question.unit != "N·m" else None
-    if alone is not None and _turned(alone):
-        return [_alone(sheet, alone, found, many=False)]
     facts = facts_of(sheet, found, task.settings.k)
     own = _numbers(sheet, found, facts)
     whole = _whole(task, sheet, found, wrong, facts, own)
+    if alone is not None and _turned(alone):
+        codes = {fit.explanation.code for fit in whole or ()}
+        if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
+            return [_alone(sheet, alone, many=False)]
     if whole is not None:
         return [_passed_on(task, sheet, found, whole)]
     return _one_by_one(task, sheet, found, wrong, facts, own)
@@ -121,21 +125,28 @@ def _fits(
     """Return how explanations fit, the best first."""
     explained = task.explanations(sheet)
     near = [e for e in explained.nearest(facts, TRIED) if _explains(sheet, wrong, e)]
-    tried = [*near, *_scaled(task, sheet, found)]
-    fits = sorted((explained.fit(e, facts, own) for e in tried), key=lambda fit: fit.score)
-    close = [fit for fit in fits if fit.score <= fits[0].score + CLOSE]
-    fits = [explained.fit(fit.explanation, facts, own, closely=True) for fit in close]
     told = {fact.id for fact in facts}
-    for one in wrong:
-        if one.item.question.id not in told:
-            continue
-        for code, where, value, prior in slips(sheet, one, found):
-            made = put_explanation(sheet, one, code, where, value, prior, free=False)
-            fits.append(explained.fit(made, facts, own))
-        code = "slip" if one.slip or (one.computed and one.contradicts) else ""
+    judged = [one for one in wrong if one.item.question.id in told]
+    put = [_of_slip(explained, sheet, one, slip) for one in judged for slip in slips(sheet, one)]
+    fits: list[Fit] = []
+    for tried in ([*near, *_scaled(task, sheet, found)], put):
+        rough = [explained.fit(e, facts, own) for e in tried]
+        most = min((fit.score for fit in rough), default=0.0) + CLOSE
+        close = [fit.explanation for fit in rough if fit.score <= most]
+        fits += [explained.fit(e, facts, own, closely=True) for e in close]
+    for one in judged:
+        code = "slip" if one.slip or one.miscomputed else ""
         made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
         fits.append(explained.fit(made, facts, own))
     return _different(sorted(fits, key=lambda fit: fit.score), facts)
+
+
+def _of_slip(explained: Explanations, sheet: Sheet, one: Examined, slip: Slip) -> Explanation:
+    """Return what a slip gives: by the program where it can be made there."""
+    change = slip.change(sheet, one)
+    item, question = one.item.id, one.item.question.id
+    made = None if change is None else explained.of_slip(change, question, item)
+    return made or put_explanation(sheet, one, *slip[:4], free=False)
 
 
 def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
@@ -146,7 +157,8 @@ def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
         if fit.explanation.free or not any(
             _same(given, other.explanation.values, facts)
             for other in kept
-            if other.explanation.prior > fit.explanation.prior and not other.explanation.free
+            if other.explanation.prior > fit.explanation.prior
+            and not (other.explanation.free or other.explanation.slip)
         ):
             kept.append(fit)
     return sorted(kept, key=lambda fit: fit.score)
@@ -165,7 +177,7 @@ def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explana
     """Yield a plan that was drawn to another scale than it is read by."""
     for plan in MOTION[1:]:
         ratios = [
-            abs(one.value / one.limit.exact)
+            (abs(one.value / one.limit.exact), _share(one))
             for one in found
             if one.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
             and one.item.question.plan is plan
@@ -175,11 +187,18 @@ def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explana
         ]
         if len(ratios) < 2:
             continue
-        factor = median(ratios)
-        if all(abs(ratio / factor - 1.0) < 0.05 for ratio in ratios):
+        weights = math.fsum(share**-2 for _, share in ratios)
+        factor = math.fsum(ratio / share**2 for ratio, share in ratios) / weights
+        slack = task.settings.near
+        if all(abs(ratio / factor - 1) < max(0.05, slack * share) for ratio, share in ratios):
             made = task.explanations(sheet).of_change(scale_by(Scene(sheet), plan, factor))
             if made is not None:
                 yield made
+
+
+def _share(one: Examined) -> float:
+    """Return how far an answer may be off as a share of it."""
+    return max(one.limit.tolerance(one.step), one.limit.spread) / abs(one.limit.exact)
 
 
 def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: Numbers) -> Iterator[Fit]:
@@ -319,7 +338,7 @@ def _one_by_one(
             break
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
-        diagnoses.append(_alone(sheet, one, found, many=len(left) > MANY))
+        diagnoses.append(_alone(sheet, one, many=len(left) > MANY))
     _repoint(found)
     return diagnoses
 
@@ -332,16 +351,22 @@ def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
 
 def _turned(one: Examined) -> bool:
     """Tell whether nothing but the sense of an answer is wrong."""
-    return one.sense_right is False and bool(one.right or one.follows or one.near)
+    size = one.right or one.near
+    if one.item.question.sign is not Sign.TURN:  # else his own numbers give him that sense too
+        size = size or bool(one.follows)
+    return one.sense_right is False and size
 
 
-def _alone(sheet: Sheet, one: Examined, found: list[Examined], *, many: bool) -> Diagnosis:
+def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
     """Return what can be said of one number by itself; of one of many only what is sure."""
     roots = (one.item.id,)
     if _turned(one):
         return Diagnosis(("sign",), True, roots)
-    codes = {} if many else dict.fromkeys(code for code, *_ in slips(sheet, one, found))
-    if one.slip or (one.computed and one.contradicts and not codes):
-        codes = codes or {"slip": None}
+    near = (s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE)
+    codes = dict.fromkeys(slip.code for slip in near)
+    if not codes and (one.slip or one.miscomputed):
+        codes = {"slip": None}
+    elif many and not one.slip:
+        codes = {}
     named = tuple(codes)
     return Diagnosis(named, len(named) == 1, roots)

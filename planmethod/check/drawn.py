@@ -20,7 +20,7 @@ from planmethod.check.model import Sense, Work, Written
 from planmethod.check.questions import Sign
 from planmethod.check.sense import WAYS
 from planmethod.check.sheet import Sheet
-from planmethod.check.slips import SEGMENT_CODES
+from planmethod.check.slips import SEGMENT_CODES, read_in_place
 from planmethod.check.task import Item, Task
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import Sampled
@@ -166,8 +166,5 @@ def _in_one_number(scene: Scene, item: Item) -> Iterator[Change]:
         if segment.kind is not plan or other == length or other not in sheet.order:
             continue
         if sheet.order[other] < sheet.order[step.out] and scene.exact(other):
-            powers = tuple(
-                (other if name == length else name, power) for name, power in step.powers
-            )
-            made = replace(step, powers=powers)
+            made = read_in_place(sheet, step, length, other)
             yield Change(SEGMENT_CODES[plan], item.id, {step.out: (made,)})

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -33,6 +33,9 @@ SHARED = 2.0
 
 FAR = 30.0
 """Sigmas squared beyond which it does not matter how far off an answer is."""
+
+KEPT = 500
+"""Slips whose plans are kept for those who make them again."""
 
 ONE_MISTAKE = 2 * math.log(20.0)
 
@@ -119,6 +122,8 @@ class Explanation:
         Answers that it begins with, where that is known.
     free : str
         Question whose answer it takes as it is.
+    slip : str
+        Question whose number alone is otherwise: what it was read off stays as it is.
     fixed : str
         Question whose answer it tells whatever goes before it.
     sigma : float or None
@@ -135,6 +140,7 @@ class Explanation:
     sheet: Sheet
     begins: tuple[str, ...] = ()
     free: str = ""
+    slip: str = ""
     fixed: str = ""
     sigma: float | None = None
     prior: float = 1.0
@@ -182,8 +188,9 @@ class Explanations:
         self.sheet = sheet
         self.scene = Scene(sheet)
         self._named: list[Explanation] | None = None
-        self._last: Own | None = None
+        self._last: Numbers | None = None
         self._came: dict[Sheet | Explanation, dict[Name, float]] = {}
+        self._slips: dict[tuple[object, ...], Explanation | None] = {}
         self._locals: dict[tuple[Explanation, frozenset[Name]], Local] = {}
 
     @property
@@ -217,6 +224,18 @@ class Explanations:
             change=change,
             program=program,
         )
+
+    def of_slip(self, change: Change, question: str, item: str) -> Explanation | None:
+        """Return what a mistake in one number gives; worked out once for all who make it."""
+        key = (change.code, change.where, item, *change.steps.values(), change.prior)
+        if key not in self._slips:
+            if len(self._slips) >= KEPT:
+                self._slips.clear()
+                self._locals.clear()
+            made = self.of_change(change)
+            made = made and replace(made, slip=question, begins=(item,))
+            self._slips[key] = made
+        return self._slips[key]
 
     @cached_property
     def _table(self) -> npt.NDArray[np.float64]:
@@ -273,16 +292,23 @@ class Explanations:
         """
         sheet, change = explanation.sheet, explanation.change
         of_scale = change is not None and change.of_scale
-        own = numbers.values if of_scale else numbers.all
-        came = self._replayed(explanation, own)
-        left = self._left(explanation, own) if closely else sheet.local(own)
+        own = whole = numbers.values if of_scale else numbers.all
+        slip = next((fact for fact in facts if fact.id == explanation.slip), None)
+        if slip is not None and slip.name is not None and slip.name not in own:
+            own = {name: put for name, put in own.items() if name != slip.slot}
+            own = {**own, slip.name: numbers.values[slip.name]}
+        came = self._replayed(explanation, own, numbers)
+        left = self._left(explanation, own) if closely else sheet.local(whole)
         chi2, score, count = 0.0, 0.0, 0
         for fact in facts:
-            slot, per_slot = (fact.name, 1.0) if of_scale else (fact.slot, fact.per_slot)
+            slot, per_slot = fact.slot, fact.per_slot
+            sigma = 0.0 if slot is None else left.sigma.get(slot, 0.0) * per_slot
+            if of_scale or fact is slip:
+                slot, per_slot = fact.name, 1.0
+                sigma = sigma if slot is None else left.sigma.get(slot, sigma)
             if fact.id == explanation.free or slot is None or slot not in came:
                 continue
             given = came[slot] * per_slot
-            sigma = left.sigma.get(slot, 0.0) * per_slot
             if fact.id == explanation.fixed:
                 sigma *= abs(explanation.values[fact.id] / given) if given else 1.0
                 given = explanation.values[fact.id]
@@ -308,10 +334,10 @@ class Explanations:
             score += MISREAD_SENSE if right_way is False else 0.0
         return Fit(explanation, score, chi2, count)
 
-    def _replayed(self, explanation: Explanation, own: Own) -> dict[Name, float]:
+    def _replayed(self, explanation: Explanation, own: Own, numbers: Numbers) -> dict[Name, float]:
         change, sheet = explanation.change, explanation.sheet
-        if self._last is not own:
-            self._last, self._came = own, {}
+        if self._last is not numbers:
+            self._last, self._came = numbers, {}
         key: Sheet | Explanation = sheet if change is None else explanation  # of slips the same
         if key not in self._came:
             data = {} if change is None else change.data

@@ -92,7 +92,7 @@ def check_works(
     among : sequence of Work, optional
         All works of the group, where only some of them are checked here.
     """
-    asked: dict[tuple[str, str | None], dict[str, Item]] = {}
+    asked: dict[tuple[str, str | None], dict[tuple[str, int], Item]] = {}
     for work in among or works:
         try:
             name = variants.name_of(work)
@@ -106,7 +106,7 @@ def check_works(
                 continue
             if not task.declared:
                 asked.setdefault((work.where, name), {}).setdefault(
-                    item.name, replace(item, id=item.name)
+                    (item.name, item.position), replace(item, id=item.name)
                 )
     for work in works:
         try:
@@ -124,13 +124,13 @@ def keys_of(variants: Variants, checked: Sequence[Checked]) -> dict[str | None, 
     names = dict.fromkeys(work.variant for work in checked)
     for name in (name for name in names if name is None or name in variants.names):
         task = variants.task(name)
-        items: dict[str, Item] = {item.id: item for item in task.declared}
+        items = {(item.id, item.position): item for item in task.declared}
         for one in checked:
             if one.variant != name:
                 continue
             for judged in one.answers:
                 if judged.key is not None and judged.written is not None:
                     item = task.find(judged.written)
-                    items.setdefault(item.name, replace(item, id=item.name))
+                    items.setdefault((item.name, item.position), replace(item, id=item.name))
         found[name] = key_of_task(task, items.values())
     return found

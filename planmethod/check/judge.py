@@ -88,6 +88,13 @@ class Examined:
         """How far it is off the exact value."""
         return distance(self.item, self.value, self.limit.exact, signed=self.signed)
 
+    @property
+    def miscomputed(self) -> bool:
+        """Whether it is another size than his own numbers make, with nothing drawn in between."""
+        if self.local is None or self.local_tolerance is None or not self.computed:
+            return False
+        return self.contradicts and abs(abs(self.value) - abs(self.local)) > self.local_tolerance
+
 
 def distance(item: Item, value: float, other: float, *, signed: bool) -> float:
     """Return how far two values of an answer are apart: of sizes, of numbers, of angles."""
@@ -342,6 +349,8 @@ def _verdict(one: Examined, wrong: list[Examined], near: float) -> Verdict:
         return Verdict.INCONSISTENT if wrong and one.contradicts else Verdict.OK
     if inherits:
         return Verdict.INHERITED
+    if one.limit.zero and one.follows and sense:  # as his own plan has it; the right one hides it
+        return Verdict.UNSEEN
     if one.near and sense and not one.slip:
         return Verdict.NEAR
     return Verdict.WRONG

@@ -47,9 +47,11 @@ def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
 
 def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
     """Return the key of some of what is asked of a variant; of all when absent."""
-    chosen = tuple(task.usual() if items is None else items)
-    entries: dict[str, KeyEntry] = {}
-    unseen: dict[str, list[str]] = {}  # places of a mistake that nothing shows
+    chosen = tuple(task.whole() if items is None else items)
+    entries: dict[tuple[int, str], KeyEntry] = {}
+    unseen: set[tuple[str, str]] | None = None  # mistakes and places that nothing shows
+    every: dict[tuple[str, str], None] = {}
+    alike: dict[tuple[str, str], None] = {}
     scales: dict[str, float] = {}
     for position in dict.fromkeys(item.position for item in chosen):
         here = [item for item in chosen if item.position == position]
@@ -60,6 +62,7 @@ def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
         }
         shown: dict[str, set[str]] = {item.id: set() for item in here}
         codes: dict[str, None] = {}
+        dark: set[tuple[str, str]] = set()
         for explanation in task.explanations(sheet).named:
             code = explanation.code
             codes[code] = None
@@ -69,19 +72,23 @@ def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
                 if _shows(limit, value, turned=item.asks_sense):
                     shown[item.id].add(code)
                     visible = True
-            if not visible and explanation.where not in unseen.setdefault(code, []):
-                unseen[code].append(explanation.where)
+            if not visible:
+                every[code, explanation.where] = None
+                dark.add((code, explanation.where))
+        unseen = dark if unseen is None else unseen & dark
         for item in here:
-            for code, where in _alike(task, sheet, item, limits[item.id]):
-                unseen.setdefault(code, []).append(where)
+            alike.update(dict.fromkeys(_alike(task, sheet, item, limits[item.id])))
             hides = tuple(code for code in codes if code not in shown[item.id])
-            entries[item.id] = entry_of(task, item, limits[item.id], hidden=hides)
+            entries[position, item.id] = entry_of(task, item, limits[item.id], hidden=hides)
+    hidden: dict[str, tuple[str, ...]] = {}
+    for code, where in (*(place for place in every if place in (unseen or ())), *alike):
+        hidden[code] = (*hidden.get(code, ()), where)
     return Key(
         task.solution.problem,
         task.variant,
-        tuple(entries[item.id] for item in chosen),
+        tuple(entries[item.position, item.id] for item in chosen),
         scales,
-        {code: tuple(places) for code, places in unseen.items() if places},
+        hidden,
     )
 
 

@@ -303,6 +303,24 @@ class Questions:
 
         return Question(selector, own, symbol, "deg", Sign.ANGLE, directed, (tail, head))
 
+    def direction(self, question: Question) -> Question:
+        """Return the angle that a vector makes with +x, degrees.
+
+        Raises
+        ------
+        UnansweredError
+            When no plan has the vector.
+        """
+        if question.ends is None:
+            raise UnansweredError(NoAnswer.NO_WHAT)
+        tail, head = question.ends
+
+        def take(trace: Trace) -> Number:
+            return angle((trace.value[head] - trace.value[tail]) * question.way, 0.0) * RADIAN
+
+        own, symbol = f"angle_{question.id}", f"α({question.symbol})"
+        return Question(question.selector, own, symbol, "deg", Sign.ANGLE, take, (tail, head))
+
     def _forces(self) -> ForceQuantities:
         return ForceQuantities(self.solution, self.position)
 

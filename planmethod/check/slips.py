@@ -4,27 +4,23 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
+from typing import NamedTuple
 
 from planmethod.check.explain import Explanation
 from planmethod.check.judge import Examined
+from planmethod.check.mistakes.model import Change, times
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, scalar
-from planmethod.construct.steps import NumberName
+from planmethod.construct.steps import Compute, NumberName, Step
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 
-UNITS = (
-    1e3,
-    1e-3,
-    30.0 / math.pi,
-    math.pi / 30.0,
-    180.0 / math.pi,
-    math.pi / 180.0,
-    1.0 / math.pi,
-    math.pi,
-)
+METRES = (1e3, 1e-3)
+DEGREES = (180.0 / math.pi, math.pi / 180.0)
+TURNS = (30.0 / math.pi, math.pi / 30.0, 1.0 / math.pi, math.pi)
+UNITS = {"1/s": METRES + DEGREES + TURNS, "1/s²": METRES + DEGREES, "deg": METRES + DEGREES}
 """Factors between units that are mixed up: mm and m, rev/min and 1/s, degrees and radians."""
 
 PLACES = (10.0, 0.1, 100.0, 0.01, 1e4, 1e-4)
@@ -33,11 +29,61 @@ SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
 
 CLOSE = 0.03
 
+READ = 0.15
+"""How far off another segment may be read, a share of it: how likely that is, its errors tell."""
 
-def slips(
-    sheet: Sheet, one: Examined, found: Sequence[Examined]
-) -> Iterator[tuple[str, str, float, float]]:
-    """Yield what may have been done with one number: code, where, its value then, prior."""
+
+class Slip(NamedTuple):
+    """What may have been done with one number (описка).
+
+    Attributes
+    ----------
+    code, where : str
+    value : float
+        The number then, SI.
+    prior : float
+    of : float
+        What it is made of: the right value, or that of his own earlier numbers; 0 of one that is
+        made of nothing.
+    segment : NumberName or None
+        Segment that is read in place of the right one.
+    """
+
+    code: str
+    where: str
+    value: float
+    prior: float
+    of: float = 0.0
+    segment: NumberName | None = None
+
+    def change(self, sheet: Sheet, one: Examined) -> Change | None:
+        """Return it as a mistake of the program; None where nothing there computes the number."""
+        question = one.item.question
+        step = None if question.name is None else sheet.made.get(question.name)
+        if not isinstance(step, Compute) or not self.of:
+            return None
+        steps: tuple[Step, ...] = times(step, float(f"{self.value / self.of:.9g}"))
+        read, last = self.segment, sheet.order[step.out]
+        earlier = read is not None and sheet.order.get(read, last) < last  # so it can be read
+        if read is not None and earlier and (question.length, 1) in step.powers:
+            steps = (read_in_place(sheet, step, question.length, read),)
+        return Change(self.code, self.where, {step.out: steps}, prior=self.prior)
+
+
+def read_in_place(
+    sheet: Sheet, step: Compute, right: NumberName | None, other: NumberName
+) -> Compute:
+    """Return what a number is computed by when another segment is read; its sign stays."""
+    powers = tuple((other if name == right else name, power) for name, power in step.powers)
+    turn = 1.0
+    for name in (right, other):
+        if name is not None and scalar(sheet.trace.value[name]) < 0:
+            turn = -turn
+    return replace(step, factor=step.factor * turn, powers=powers)
+
+
+def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
+    """Yield what may have been done with one number."""
     base = one.limit.exact if one.local is None else one.local
     if one.told:  # his own millimetres tell it better than anything
         base = math.copysign(one.told, base)
@@ -50,23 +96,23 @@ def slips(
     def near(factor: float) -> bool:
         return abs(ratio / factor - 1.0) <= min(slack, 0.3)
 
-    for factor in UNITS:
+    for factor in UNITS.get(one.item.question.unit, METRES):
         if near(factor):
-            yield "S2", "", base * factor, 6.0
+            yield Slip("S2", "", base * factor, 6.0, base)
     for factor in PLACES:
         if near(factor):
-            yield "S4", "", base * factor, 6.0
+            yield Slip("S4", "", base * factor, 6.0, base)
     for swapped in _swaps(one):
         if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
-            yield "S4", "", one.value, 0.2
+            yield Slip("S4", "", base * one.value / swapped, 0.2, base)
     yield from _scales(sheet, one, base)
     if not one.slip:
-        yield from _segments(sheet, one, base, min(slack, 0.05), found)
+        yield from _segments(sheet, one, base, min(slack, 0.05))
     question = one.item.question
     if question.is_mm and question.plan is PlanKind.POSITION:
         true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
         if near(true):
-            yield "true_mm", "", base * true, 1.0
+            yield Slip("true_mm", "", base * true, 1.0, base)
 
 
 def _swaps(one: Examined) -> Iterator[float]:
@@ -88,7 +134,7 @@ def _swaps(one: Examined) -> Iterator[float]:
             yield float("".join(letters).replace(",", ".")) * value / shown
 
 
-def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[tuple[str, str, float, float]]:
+def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[Slip]:
     """Yield a value that his own millimetres make at another scale."""
     question, mm = one.item.question, one.mm
     if not mm or question.is_mm or question.plan not in MOTION or one.told is None:
@@ -96,43 +142,32 @@ def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[tuple[str, str
     own = sheet.scales[question.scale]
     sign = math.copysign(1.0, base)
     if abs(abs(one.value) * own / mm - 1.0) <= 0.01 and own != 1.0:
-        yield "S1", question.scale, sign * mm / own, 20.0
+        yield Slip("S1", question.scale, sign * mm / own, 20.0, base)
     for plan in MOTION:
         other = sheet.scales[FACTS[plan].scale]
         share = abs(one.told) / own * other
         if other != own and abs(abs(one.value) / share - 1.0) <= 0.01:
-            yield "S3", question.scale, sign * share, 20.0
+            yield Slip("S3", question.scale, sign * share, 20.0, base)
 
 
-def _segments(
-    sheet: Sheet, one: Examined, base: float, slack: float, found: Sequence[Examined]
-) -> Iterator[tuple[str, str, float, float]]:
+def _segments(sheet: Sheet, one: Examined, base: float, slack: float) -> Iterator[Slip]:
     """Yield the values of the other segments of the plan, read in place of the right one."""
     question = one.item.question
     length = sheet.length(question)
     if not length or question.plan not in SEGMENT_CODES or question.sign is Sign.STRICT:
         return
     if one.foreign and one.told is not None and not one.slip:
-        yield SEGMENT_CODES[question.plan], one.foreign, one.value, 200.0
+        yield Slip(SEGMENT_CODES[question.plan], one.foreign, one.value, 200.0)
         return
     for segment in sheet.questions.construction.segments:
         if segment.kind is not question.plan or segment.length not in sheet.trace.value:
             continue
         share = abs(scalar(sheet.trace.value[NumberName(segment.length)])) / length
-        if abs(share - 1.0) > slack and abs(abs(one.value / base) - share) <= slack * share > 0:
-            value, prior = base * share, 0.5
-            for other in found:  # he gives the same number for both
-                if other.item.question.length == segment.length and _equal(one, other):
-                    value, prior = math.copysign(other.value, base), 200.0
-            yield SEGMENT_CODES[question.plan], segment.name, value, prior
-
-
-def _equal(one: Examined, other: Examined) -> bool:
-    if one.mm is not None and other.mm is not None:
-        return one.mm == other.mm
-    return (
-        one is not other and abs(abs(one.value) - abs(other.value)) <= (one.step + other.step) / 2
-    )
+        off = abs(abs(one.value / base) - share)
+        if abs(share - 1.0) > slack and off <= (slack if one.told else READ) * share > 0:
+            value = base * share
+            read = NumberName(segment.length)
+            yield Slip(SEGMENT_CODES[question.plan], segment.name, value, 0.5, base, read)
 
 
 def put_explanation(
@@ -162,7 +197,7 @@ def _read_anew(one: Examined, value: float) -> float:
 
 def completed(explanation: Explanation, one: Examined) -> Explanation:
     """Return an explanation of one number with all that follows from it on the right plans."""
-    if one.slot is None:
+    if one.slot is None or explanation.change is not None:
         return explanation
     sheet, name = explanation.sheet, one.item.question.id
     _, trace = sheet.replayed({one.slot: (abs(explanation.values[name]) / one.per_slot, False)})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 
 from planmethod.check.explain import Explanations
 from planmethod.check.forms import Forms
@@ -14,7 +15,7 @@ from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.construct.drafting import PROFILES
 from planmethod.plans.forces.board import SCALE
-from planmethod.problem.model import AskedAnswer
+from planmethod.problem.model import AskedAnswer, AskedSense
 from planmethod.problem.selector import is_force, parse_selector
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
@@ -80,24 +81,45 @@ class Task:
         self._explained: dict[int, Explanations] = {}
         self._forms: dict[str, Item] = {}
         self._written: dict[int, Forms] = {}
-        self.declared = tuple(map(self._declare, solution.problem.answers))
+        self.declared = tuple(chain.from_iterable(map(self._declare, solution.problem.answers)))
 
-    def _declare(self, asked: AskedAnswer) -> Item:
-        selector = parse_selector(asked.what)
+    def _declare(self, asked: AskedAnswer) -> Iterator[Item]:
+        """Yield an answer, and the direction of its vector where that is an answer of its own."""
+        position = asked.position or 0
+        questions = self.questions(position)
+        question = questions.question(parse_selector(asked.what))
         item = Item(
             asked.id,
-            self.ask(self.questions(asked.position or 0).question(selector), asked.position or 0),
-            asked.position or 0,
+            self.ask(question, position),
+            position,
             asked.points,
             asked.sense is not None,
             asked.tolerance,
             asked.letters[0] if asked.letters else "",
             asked.id,
         )
-        for form in (asked.id, *asked.letters):
+        forms = (asked.id, *asked.letters, asked.what)
+        if asked.sense is AskedSense.ANGLE:
+            share = self.settings.sense_share
+            item = replace(item, points=asked.points * (1.0 - share), asks_sense=False)
+            turned = replace(
+                item,
+                id=f"angle_{asked.id}",
+                question=self.ask(questions.direction(question), position),
+                points=asked.points * share,
+                fixed=None,
+                label=f"α({item.label})" if item.label else "",
+                name=f"angle_{asked.id}",
+            )
+            for form in forms:
+                for word in ("angle", "α"):
+                    self._forms.setdefault(plain(word + form), turned)
+        for form in forms[:-1]:
             self._forms.setdefault(plain(form), item)
         self._forms.setdefault(asked.what, item)
-        return item
+        yield item
+        if asked.sense is AskedSense.ANGLE:
+            yield turned
 
     def others(self) -> Iterator[Task]:
         """Yield the other variants."""
@@ -140,6 +162,11 @@ class Task:
             Item(q.id, q, position, asks_sense=q.sign is Sign.TURN, label=q.id, name=q.id)
             for q in found
         )
+
+    def whole(self) -> tuple[Item, ...]:
+        """Return all that is asked: what the file asks, else the usual quantities everywhere."""
+        asked = map(self.usual, range(len(self.solution.positions)))
+        return self.declared or tuple(chain.from_iterable(asked))
 
     def find(self, written: Written) -> Item:
         """Return what an answer is of.

@@ -37,7 +37,6 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
-    from planmethod.note.audit.audit import Audited
     from planmethod.note.audit.audit import audit as examine
     from planmethod.note.audit.table import Document
 
@@ -49,7 +48,7 @@ def audit(
         audits.append((problem, examine(problem, ruler=ruler)))
 
     def compare_other(kind: Kind, problem: KindProblem) -> None:
-        audits.append((problem, [Audited(*pair) for pair in kind.published_values(problem)]))
+        audits.append((problem, kind.audited(problem, ruler)))
 
     # A faulty problem ends the command here: the document is written whole or not at all.
     finish(each(problems, variant, all_variants, compare, compare_other))

@@ -9,7 +9,7 @@ import click
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.output import is_narrow
-from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem
 from planmethod.errors import ExitCode
 from planmethod.options import (
     Positions,
@@ -99,6 +99,10 @@ def lint(
         tell(problem, "structure" if structural else "kinematics", sheets, lang)
 
     def look_other(kind: Kind, problem: KindProblem) -> None:
+        refuse_plans(
+            kind, phi=phi is not None, layout=layout, errors=errors, sigma=sigma,
+            structure=structural,
+        )  # fmt: skip
         problem = settled(problem)
         drawings = kind.drawings(problem, fields=asked.fields, profile=drawn_by(profile, ruler))
         tell(problem, kind.table, looked_over(drawings), problem.sheet.lang or LANGUAGES[0])

@@ -120,6 +120,22 @@ def finish(code: ExitCode) -> None:
         sys.exit(code)
 
 
+def refuse_plans(kind: Kind, **options: object) -> None:
+    """Refuse options that only the plans of linkages have.
+
+    Raises
+    ------
+    click.UsageError
+        Naming the options that were given.
+    """
+    given = [f"--{name.replace('_', '-')}" for name, value in options.items() if value]
+    if given:
+        told = ", ".join(given)
+        raise click.UsageError(
+            f"{told}: only plans of linkages have such options; leave them out for [{kind.table}]"
+        )
+
+
 def watched(found: list[T]) -> Iterator[T]:
     """Yield what is to do, on a terminal with a bar when they are many (about a second of work)."""
     if len(found) < MANY or not is_terminal(sys.stderr):

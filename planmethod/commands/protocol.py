@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from planmethod.commands.output import put
-from planmethod.commands.problems import each, finish, guarded, solution_of, stem
+from planmethod.commands.problems import each, finish, guarded, refuse_plans, solution_of, stem
 from planmethod.options import (
     Positions,
     drawn_by,
@@ -57,6 +57,7 @@ def protocol(
         written(problem, text)
 
     def tell_other(kind: Kind, problem: KindProblem) -> None:
+        refuse_plans(kind, phi=phi is not None, position=position > 1)
         written(problem, kind.protocol_text(problem, lang, drawn_by(profile, ruler)))
 
     def written(problem: Problem | KindProblem, text: str) -> None:

@@ -10,7 +10,7 @@ import click
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.output import write_drawings, write_set
-from planmethod.commands.problems import each, finish, guarded, stem, tell_changes
+from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem, tell_changes
 from planmethod.options import (
     Positions,
     drawn_by,
@@ -103,6 +103,7 @@ def sheet(
     def drawn_other(
         kind: Kind, problem: KindProblem, *, before: int = 0, total: int | None = None
     ) -> list[Drawing]:
+        refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=sigma)
         hand = drawn_by(profile, ruler)
         return kind.drawings(problem, fields=asked.fields, profile=hand, before=before, total=total)
 

@@ -9,9 +9,7 @@ from fractions import Fraction
 from planmethod.gears.asked import Asked, parse
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.efficiency import efficiency
-from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import Motion, solve_motion
-from planmethod.problem.model import Published
+from planmethod.gears.motion import Motion
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,17 +55,6 @@ def answer(motion: Motion, name: str) -> Answer:
         most = satellites_held(motion, body) if body in motion.train.carriers else None
         return _exact(name, Fraction(most)) if most is not None else _none(name, "satellites")
     return _size(motion, name, asked)
-
-
-def published_values(problem: GearProblem) -> list[tuple[Published, float | None]]:
-    """Return what the source prints, each with the exact value where there is one.
-
-    Raises
-    ------
-    ProblemError
-    """
-    motion = solve_motion(problem)
-    return [(one, answer(motion, one.what).value) for one in problem.published]
 
 
 def _exact(name: str, value: Fraction, unit: str = "") -> Answer:

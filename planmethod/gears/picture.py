@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from planmethod.gears.model import PARALLEL, MeshKind
+from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings
 from planmethod.gears.motion import Motion
 
 
@@ -36,18 +36,27 @@ class Picture:
     """
 
     mu_l: Fraction
+    pole_mm: Fraction
     speed_per_mm: Fraction
     contacts: tuple[Contact, ...]
     rays: tuple[tuple[str, Fraction], ...]
 
+    @property
+    def turn_per_mm(self) -> Fraction:
+        """Speed of a body, in the unit of the inputs, that a millimetre of its ray stands for."""
+        return self.speed_per_mm / (self.mu_l * self.pole_mm)
 
-def draw(motion: Motion) -> Picture | None:
-    """Return the pictures; None where axes are not parallel at known distances, or all stand."""
+
+def draw(motion: Motion, settings: PictureSettings | None = None) -> Picture | None:
+    """Return the pictures; None where axes are not parallel at known distances, or all stand.
+
+    ``settings`` are other scales than the file's.
+    """
     train, axes = motion.train, motion.axes
     bodies = {body for mesh in train.meshes for body in train.ends(mesh)}
     if any(mesh.kind not in PARALLEL for mesh in train.meshes) or not bodies <= set(axes.heights):
         return None
-    settings = train.picture
+    settings = settings or train.picture
     points: list[tuple[str, Fraction, Fraction]] = []
     for mesh in train.meshes:
         one, other = train.ends(mesh)
@@ -69,7 +78,7 @@ def draw(motion: Motion) -> Picture | None:
     labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
     per = settings.pole_mm * scale / mm
     rays = tuple((label, motion.speed(label) * per) for label in labels)
-    return Picture(settings.mu_l, train.unit_m / scale, contacts, rays)
+    return Picture(settings.mu_l, settings.pole_mm, train.unit_m / scale, contacts, rays)
 
 
 def _at(motion: Motion, body: str, height: Fraction) -> Fraction:
@@ -78,11 +87,19 @@ def _at(motion: Motion, body: str, height: Fraction) -> Fraction:
     return _of_axis(motion, body) - motion.speeds[body] * (height - centre)
 
 
-def _of_axis(motion: Motion, body: str) -> Fraction:
-    """Speed to the right of a body's axis: that of its carrier there."""
+def carrier_of(motion: Motion, body: str) -> str | None:
+    """Return the body that carries the axis of a body away from its own axis, or None."""
     train, heights = motion.train, motion.axes.heights
     for mesh in train.meshes:
         carrier = train.carrier(mesh)
-        if carrier is not None and body in train.ends(mesh):
-            return -motion.speeds[carrier] * (heights[body] - heights[carrier])
-    return Fraction(0)
+        if carrier is not None and body in train.ends(mesh) and heights[body] != heights[carrier]:
+            return carrier
+    return None
+
+
+def _of_axis(motion: Motion, body: str) -> Fraction:
+    """Speed to the right of a body's axis: that of its carrier there."""
+    heights, carrier = motion.axes.heights, carrier_of(motion, body)
+    if carrier is None:
+        return Fraction(0)
+    return -motion.speeds[carrier] * (heights[body] - heights[carrier])

@@ -49,6 +49,10 @@ def find_roles(train: Train) -> tuple[Roles, list[Fault]]:
         if not around:
             told = f"no wheel on the carrier {carrier} is a satellite"
             faults.append(Fault("gears.meshes", told, "Name the carrier of each mesh, and check."))
+    for mesh in train.meshes:
+        if train.carrier(mesh) in train.ends(mesh):
+            told = f"a wheel of {mesh.name} is one body with the carrier {mesh.carrier}"
+            faults.append(Fault("gears.meshes", told, "It cannot roll on it: check bodies."))
     senses, across = _bevels(train, satellites, faults)
     return Roles(central, satellites, senses, across), faults
 

@@ -91,6 +91,17 @@ def _shown(value: Fraction) -> str:
 
 def _equation(motion: Motion, mesh: Mesh, words: Language) -> str:
     """Return the equation of a mesh with its ratio: ``(n_1 − n_H)·20 = −(n_2 − n_H)·40``."""
+    equation, stage = (plainly(text) for text in equation_of(motion, mesh))
+    return words.gears.equation.format(name=mesh.name, equation=equation, stage=stage)
+
+
+def plainly(rich: str) -> str:
+    """Return rich text without the braces of its indices."""
+    return rich.replace("{", "").replace("}", "")
+
+
+def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
+    """Return the equation of a mesh, and its ratio seen from the carrier, as rich text."""
     train = motion.train
     row = mesh_row(train, motion.roles, motion.axes, mesh)
     one, other = train.ends(mesh)
@@ -98,20 +109,17 @@ def _equation(motion: Motion, mesh: Mesh, words: Language) -> str:
 
     def speed(label: str, body: str) -> str:
         if body in train.racks:
-            return f"v_{label}"
+            return f"v_{{{label}}}"
         if mesh.carrier is None or body in motion.roles.across:
-            return f"{letter}_{label}"
-        return f"({letter}_{label} − {letter}_{mesh.carrier})"
+            return f"{letter}_{{{label}}}"
+        return f"({letter}_{{{label}}} − {letter}_{{{mesh.carrier}}})"
 
     sign = MINUS if row[other] > 0 else ""
     size = "" if mesh.kind is MeshKind.RACK else f"·{_shown(abs(row[other]))}"
     left = f"{speed(mesh.first, one)}·{_shown(row[one])}"
-    hat = "" if mesh.carrier is None else f"^{mesh.carrier}"
-    ratio = words.gears.stage.format(
-        hat=hat, one=mesh.first, other=mesh.second, value=_shown(-row[other] / row[one])
-    )
-    equation = f"{left} = {sign}{speed(mesh.second, other)}{size}"
-    return words.gears.equation.format(name=mesh.name, equation=equation, stage=ratio)
+    hat = "" if mesh.carrier is None else f"^{{{mesh.carrier}}}"
+    ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {_shown(-row[other] / row[one])}"
+    return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
 
 
 def _wheels(motion: Motion, words: Language) -> list[str]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from planmethod.construct.jet import Jet
 from planmethod.moving.bounded import ROUNDOFF, Bounded, Reals, bounded, length
-from planmethod.moving.model import Law, PointProblem
+from planmethod.moving.model import Law, PointProblem, Wheel
 from planmethod.moving.series import CALLS, evaluate
 
 
@@ -39,6 +39,10 @@ COLUMNS = (
 )
 POLAR = ("r", "phi", "v_r", "v_phi", "a_r", "a_phi")
 """Further columns of a motion in polar coordinates; phi in radians."""
+ROLLED = ("phi", "omega", "epsilon", "xC", "yC", "xP", "yP", "omega_H", "epsilon_H")
+"""Further columns of a point on a wheel: phi in radians; its centre C; the instantaneous centre of
+velocities P (мгновенный центр скоростей), where it touches what it rolls on; of a centre that goes
+round the origin, how fast the arm to it does."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,7 +66,7 @@ def move(problem: PointProblem) -> Motion:
     """Return the motion of a point at the moments of its file."""
     times = np.array(problem.times)
     with np.errstate(all="ignore"):
-        x, y, polar = _coordinates(problem, times)
+        x, y, others = _coordinates(problem, times)
         parts = [bounded(part).settled() for part in (x.value, y.value)]
         rates = [bounded(part).settled() for part in (x.rate, y.rate)]
         bends = [bounded(part).settled() for part in (x.acceleration, y.acceleration)]
@@ -74,8 +78,7 @@ def move(problem: PointProblem) -> Motion:
         rho = speed / across * speed
         found = [*parts, vx, vy, speed, ax, ay, size, along, across, rho]
         columns = {"t": times, **_reals(COLUMNS[1:], found)}
-        if polar is not None:
-            columns |= _reals(POLAR, _polar(*polar))
+        columns |= others
     return Motion(_whole(columns), _reasons(columns))
 
 
@@ -121,26 +124,70 @@ def _reasons(columns: dict[str, Reals]) -> tuple[Why | None, ...]:
     )
 
 
-def _coordinates(problem: PointProblem, times: Reals) -> tuple[Jet, Jet, tuple[Jet, Jet] | None]:
-    """Return x and y, and r and phi of a motion that is stated so."""
+def _coordinates(problem: PointProblem, times: Reals) -> tuple[Jet, Jet, dict[str, Reals]]:
+    """Return x and y, and the further columns of a motion that is stated otherwise."""
     read = {
         key: evaluate(formula, times, blur=np.array(problem.blur))
         for key, formula in problem.formulas.items()
     }
     match problem.law:
         case Law.COORDINATES:
-            return read["x"], read["y"], None
+            return read["x"], read["y"], {}
         case Law.POLAR:
             r, phi = read["r"], read["phi"]
-            return r * CALLS["cos"](phi), r * CALLS["sin"](phi), (r, phi)
+            return *_turned(r, phi), _reals(POLAR, _polar(r, phi))
         case Law.NATURAL:
             s = read["s"]
             if problem.radius is None:
                 zeros = Bounded(np.zeros_like(times))
-                return s, Jet(zeros, zeros, zeros), None
+                return s, Jet(zeros, zeros, zeros), {}
             turned = s / Bounded(problem.radius)
-            circle = Bounded(problem.radius, ROUNDOFF * problem.radius)
-            return CALLS["cos"](turned) * circle, CALLS["sin"](turned) * circle, None
+            return *_turned(Jet(_given(problem.radius)), turned), {}
+        case Law.ROLLING:
+            assert problem.wheel is not None
+            return _rolled(problem.wheel, read["phi"], read.get("theta"))
+
+
+def _given(value: float) -> Bounded:
+    """Return a number of the file, which float64 may have rounded."""
+    return Bounded(value, ROUNDOFF * abs(value))
+
+
+def _turned(r: Jet, angle: Jet) -> tuple[Jet, Jet]:
+    return r * CALLS["cos"](angle), r * CALLS["sin"](angle)
+
+
+def _rolled(wheel: Wheel, phi: Jet, theta: Jet | None) -> tuple[Jet, Jet, dict[str, Reals]]:
+    """Return x and y of a point of a wheel, and the columns `ROLLED`.
+
+    The arc that a wheel has rolled off is as long as that of the track: with the track's radius ρ
+    (negative within it) the centre has gone round by φR/(R + ρ).
+    """
+    radius, nothing = _given(wheel.radius), Jet(Bounded(np.zeros_like(phi.value.value)))
+    if wheel.track:
+        span = radius + _given(wheel.track)
+        start = _given(np.copysign(np.pi / 2, wheel.track))
+        theta = phi * radius / Jet(span) + Jet(start)
+        centre, touch = (
+            _turned(Jet(abs(span)), theta),
+            _turned(Jet(_given(abs(wheel.track))), theta),
+        )
+    elif theta is not None:
+        centre = _turned(Jet(_given(wheel.arm)), theta)
+        # v_C is across CP and ω·CP long.
+        touch = (
+            Jet(centre[0].value - centre[1].rate / phi.rate),
+            Jet(centre[1].value + centre[0].rate / phi.rate),
+        )
+    else:
+        centre, touch = (-phi * radius, nothing + Jet(radius)), (-phi * radius, nothing)
+    arm = _turned(Jet(_given(wheel.r)), phi + Jet(_given(np.radians(wheel.angle))))
+    told = [phi.value, phi.rate, phi.acceleration, *(part.value for part in (*centre, *touch))]
+    if theta is not None:
+        told += [theta.rate, theta.acceleration]
+    found = [bounded(part).settled() for part in told]
+    columns = _reals(ROLLED[: len(found)], found)
+    return centre[0] + arm[0], centre[1] + arm[1], columns
 
 
 def _polar(r: Jet, phi: Jet) -> list[Bounded]:

@@ -13,14 +13,15 @@ import numpy as np
 from planmethod.errors import ProblemError
 from planmethod.moving.bounded import ROUNDOFF
 from planmethod.moving.formula import Formula, is_exact, read_formula
-from planmethod.moving.model import FORMULAS, Law, PointProblem
+from planmethod.moving.model import FORMULAS, Law, PointProblem, Wheel
 from planmethod.moving.series import evaluate
 from planmethod.problem import keys
-from planmethod.problem.drive import spread, too_many
+from planmethod.problem.drive import read_scales, spread, too_many
 from planmethod.problem.extras import read_heading, read_published
 from planmethod.problem.fields import (
     Faults,
     is_number,
+    read_angle,
     read_keys,
     read_length,
     read_number,
@@ -35,7 +36,7 @@ from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.variants import apply_variant, read_variants
 
-TOP = ("title", "source", "point", "stamp", "sheet", "published", "variants")
+TOP = ("title", "source", "point", "scales", "stamp", "sheet", "published", "variants")
 """Keys of a file with a moving point."""
 
 WHAT: Mapping[str, str] = {
@@ -89,7 +90,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
     law = _read_law(faults, point, is_whole=is_whole)
     formulas = {
         key: formula
-        for key in (FORMULAS[law] if law else ())
+        for key in (*(FORMULAS[law] if law else ()), *(("theta",) if law is Law.ROLLING else ()))
         if key in point and (formula := read_formula(faults, f"point.{key}", point[key]))
     }
     radius = None
@@ -97,6 +98,15 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         if law not in (Law.NATURAL, None):
             faults.add("point.radius", "goes with s(t) only", "Leave it out.")
         radius = read_length(faults, "point.radius", point["radius"])
+    wheel = _read_wheel(faults, point["wheel"]) if "wheel" in point else None
+    if law is Law.ROLLING and wheel is not None and bool(wheel.arm) != ("theta" in point):
+        said = "theta goes with wheel.arm: the carrier's turn and its length"
+        faults.add(
+            "point.theta", said, 'wheel = { arm = 0.05, ... } and theta = "4*t", or neither.'
+        )
+    elif "theta" in point and law not in (Law.ROLLING, None):
+        faults.add("point.theta", "goes with a wheel only", "Leave it out.")
+    show = _read_show(faults, point["show"]) if "show" in point else None
     times: tuple[float, ...] = ()
     if "t" in point:
         times = _read_times(faults, point["t"])
@@ -109,8 +119,11 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         law=law or Law.COORDINATES,
         formulas=formulas,
         radius=radius,
+        wheel=wheel,
         times=times,
         blur=_blur(times, rounded=_has_formula(point.get("t"))),
+        show=show,
+        scales=read_scales(faults, given.get("scales", {})),
         stamp=read_stamp(faults, given.get("stamp", {})),
         sheet=read_sheet(faults, given.get("sheet", {})),
         published=_read_published(faults, given.get("published", {}), len(times)),
@@ -120,19 +133,67 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
 
 def _read_law(faults: Faults, point: Mapping[str, Any], *, is_whole: bool) -> Law | None:
     """Tell by its keys how the motion is stated."""
-    found = [law for law, wanted in FORMULAS.items() if any(key in point for key in wanted)]
+    told = set(point) - {"phi"} if {"wheel", "r"} & set(point) else set(point)
+    found = [law for law, wanted in FORMULAS.items() if any(key in told for key in wanted)]
+    if "wheel" in point:
+        found = [Law.ROLLING, *(law for law in found if law is not Law.ROLLING)]
+    elif Law.ROLLING in found:
+        found.remove(Law.ROLLING)
     if len(found) > 1:
         both = " and ".join(f"{', '.join(FORMULAS[law])}" for law in found)
         faults.add("point", f"the motion is stated twice: {both}", "Keep one of them.")
         return None
     if not found:
         if is_whole:
-            faults.add("point", "expected x and y, r and phi, or s", f"For example: {_EXAMPLE}")
+            ways = "expected x and y, r and phi, or s, or a wheel and phi"
+            faults.add("point", ways, f"For example: {_EXAMPLE}")
         return None
     for key in FORMULAS[found[0]]:
         if key not in point and is_whole:
             faults.add(f"point.{key}", "missing", f'A formula of t: {key} = "4*t*(1 + t/2)".')
     return found[0]
+
+
+def _read_wheel(faults: Faults, value: object) -> Wheel | None:
+    """Read a rolling wheel; None after noting a fault."""
+    path, before = "point.wheel", len(faults)
+    told = read_table(faults, path, value, "wheel = { radius = 0.5, r = 0.3, angle = -90 }")
+    given = read_keys(faults, path, told or {}, keys.ROLLING)
+    lengths = {
+        key: read_length(faults, f"{path}.{key}", given[key])
+        for key in ("radius", "r", "on", "within", "arm")
+        if key in given
+    }
+    angle = read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
+    if told is not None and "radius" not in given and len(faults) == before:
+        faults.add(f"{path}.radius", "missing", "The radius of the wheel, m: radius = 0.5")
+    tracks = [key for key in ("on", "within", "arm") if key in given]
+    if len(tracks) > 1:
+        both = " and ".join(tracks)
+        faults.add(f"{path}.{tracks[-1]}", f"{both} are both given", "Keep one of them.")
+    radius, within = lengths.get("radius"), lengths.get("within")
+    if radius and within and within <= radius * (1 + 1e-9):
+        said = f"a circle of {within:g} m has no room for a wheel of {radius:g} m"
+        faults.add(f"{path}.within", said, "It must be larger than the wheel.")
+    if len(faults) != before or radius is None or angle is None:
+        return None
+    track, arm = lengths.get("on") or -(within or 0.0), lengths.get("arm") or 0.0
+    return Wheel(radius, lengths.get("r") or radius, angle, track, arm)
+
+
+def _read_show(faults: Faults, value: object) -> tuple[float, float] | None:
+    """Read the interval that is drawn; None after noting a fault."""
+    path = "point.show"
+    if not isinstance(value, list) or len(value) != 2:
+        faults.add(path, f"expected [from, to], s, got {show(value)}", "For example: [0, 2].")
+        return None
+    start, end = (_read_time(faults, f"{path}[{k}]", item) for k, item in enumerate(value))
+    if start is None or end is None:
+        return None
+    if not end - start > 1e-9 * max(abs(start), abs(end)):
+        faults.add(path, f"{end:g} s is not after {start:g} s", "Give the earlier moment first.")
+        return None
+    return start, end
 
 
 # Moments ----------------------------------------------------------------------------------------

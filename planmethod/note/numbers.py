@@ -155,4 +155,4 @@ def alike(values: Sequence[float], digits: int = 4) -> list[str]:
     if "e" in model or len(sizes) < 2 or largest > 30 * sizes[len(sizes) // 2]:
         return [significant(value, digits) for value in values]
     decimals = len(model.partition(".")[2])
-    return [f"{value:.{decimals}f}" if value else "0" for value in values]
+    return [f"{round(value, decimals) + 0.0:.{decimals}f}" if value else "0" for value in values]

@@ -12,6 +12,7 @@ from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
 from planmethod.note.plaintext import NO_BREAK, given, heading, plain_text, wrap
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
+from planmethod.note.tables.turn import cycle_protocol
 from planmethod.note.wording import Wording, language, wording
 from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
@@ -84,6 +85,10 @@ class _Writer(Steps):
         self.lines += position_tables(self.solution, words, self.index)
         if problem.dynamics is not None:
             self._force_tables()
+        if problem.cycle is not None:
+            self.lines += ["", *cycle_protocol(self.solution, language(words.lang))]
+        if problem.machine is not None:
+            self._machine()
         return self.lines
 
     # Content ---------------------------------------------------------------------------------
@@ -138,6 +143,15 @@ class _Writer(Steps):
         from planmethod.note.narrate.forces.protocol import tell_forces
 
         tell_forces(self, self.narrator.say, self.index)
+
+    def _machine(self) -> None:
+        from planmethod.note.tables.machine import machine_tables, machine_teller
+
+        tell = machine_teller(self.solution, self.words)
+        self.chapter(tell.said.title)
+        for sentence in tell.steps():
+            self.item([sentence])
+        self.lines += ["", *machine_tables(self.solution, self.words)]
 
     def _force_tables(self) -> None:
         from planmethod.note.tables.forces import forces_tables

@@ -23,7 +23,7 @@ from planmethod.problem.fields import (
 )
 from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense, Drive, Slide
 from planmethod.problem.names import short, split_pair
-from planmethod.problem.selector import Selector
+from planmethod.problem.selector import MACHINE, Selector
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -222,6 +222,8 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
         return None
     before = len(faults)
     selector = check_what(faults, path, words, scene.points, scene.links, scene.dynamics)
+    if selector is not None and selector.kind in MACHINE:
+        faults.add(path, f"'{words}' is of the flywheel", "Ask for the motion or the forces.")
     reaction = _REACTION_RE.match(name)
     if reaction and scene.points and len(faults) == before:
         joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}

@@ -17,9 +17,10 @@ from planmethod.problem.fields import (
 )
 from planmethod.problem.forces import Scene, read_loads
 from planmethod.problem.links import LinkText
-from planmethod.problem.load_records import GRAVITY, Dynamics, Mass
+from planmethod.problem.load_records import GRAVITY, Dynamics, Machine, Mass
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, segment
+from planmethod.problem.sizes import TURN
 
 _EXAMPLE = '[dynamics.links.2] mass = 40, centre = "S2", inertia = 2'
 
@@ -30,6 +31,7 @@ def read_dynamics(
     links: Mapping[str, LinkText],
     fixed: Collection[str],
     drive: Drive | None,
+    machine: Machine | None = None,
 ) -> Dynamics | None:
     """Read ``[dynamics]`` and ``[[loads]]``.
 
@@ -41,6 +43,8 @@ def read_dynamics(
         Points of the frame.
     drive : Drive or None
         None when it could not be read: then nothing is asked of it.
+    machine : Machine or None
+        After whose cycle tables over phi repeat.
 
     Returns
     -------
@@ -49,7 +53,7 @@ def read_dynamics(
     """
     if "dynamics" not in given and "loads" not in given:
         return None
-    scene = Scene(links, fixed, drive)
+    scene = Scene(links, fixed, drive, TURN if machine is None else machine.cycle_deg)
     gravity, masses, resultant = 0.0, {}, False
     if "dynamics" in given:
         table = read_table(faults, "dynamics", given["dynamics"], _EXAMPLE)

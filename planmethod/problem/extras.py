@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
 
 NOTE_LIMIT = 1000
-TABLE_KEYS = ("gears", "point")
+TABLE_KEYS = ("gears", "point", "meshing")
 
 
 def read_heading(faults: Faults, table: Mapping[str, Any], key: str) -> str:

@@ -24,7 +24,7 @@ from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near
-from planmethod.problem.sizes import read_phase, read_size
+from planmethod.problem.sizes import TURN, read_phase, read_size
 
 NAME_LIMIT = 40
 _NAME_RE = re.compile(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
@@ -42,11 +42,14 @@ class Scene:
         Points of the frame.
     drive : Drive or None
         None when it could not be read.
+    cycle : float, degrees
+        A table over phi repeats after so many.
     """
 
     links: Mapping[str, LinkText]
     fixed: Collection[str]
     drive: Drive | None
+    cycle: float = TURN
 
     def find_link(self, faults: Faults, path: str, value: object, verb: str) -> LinkText | None:
         """Return a moving link by its name; ``verb`` says what such links do."""
@@ -200,7 +203,7 @@ def _read_force(
     elif whole:
         hint = 'Give angle = -90 (degrees from +x) or against = "velocity".'
         faults.add(path, "expected a direction, got neither angle nor against", hint)
-    size = read_size(faults, f"{path}.force", given["force"], scene.drive, couple=False)
+    size = read_size(faults, f"{path}.force", given["force"], scene.drive, turn=scene.cycle)
     phase = None
     if "phases" in given:
         still = at if fixed else None
@@ -222,7 +225,8 @@ def _read_couple(
     sense = None
     if "against" in given:
         sense = _read_against(faults, f"{path}.against", given["against"], "rotation")
-    size = read_size(faults, f"{path}.couple", given["couple"], scene.drive, couple=True)
+    where = f"{path}.couple"
+    size = read_size(faults, where, given["couple"], scene.drive, couple=True, turn=scene.cycle)
     phase = None
     if "phases" in given:
         where = f"{path}.phases"

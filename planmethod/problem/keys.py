@@ -22,8 +22,11 @@ TOP = (
     "variants",
     "dynamics",
     "loads",
+    "machine",
     "gears",
     "point",
+    "cycle",
+    "meshing",
 )
 FRAME = ("guides",)
 GUIDE = ("through", "angle")
@@ -43,8 +46,12 @@ DRIVER = ("link", *CRANK, *SLIDER)
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
-MOVING = ("x", "y", "r", "phi", "s", "radius", "t")
+MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "theta", "t", "show")
 """Keys of ``[point]``."""
+CYCLE = ("output", "zero", "count", "length", "pole", "differentiation")
+POLE = ("v", "a")
+ROLLING = ("radius", "r", "angle", "on", "within", "arm")
+"""Keys of ``point.wheel``."""
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
 STAMP: Mapping[str, str] = MappingProxyType(
     {
@@ -94,7 +101,27 @@ CONFIG = ("stamp", "sheet")
 DYNAMICS = ("gravity", "resultant", "links")
 MASS = ("mass", "centre", "inertia")
 LOAD = ("name", "link", "at", "force", "couple", "angle", "against", "phases")
-TABLE = ("over", "values", "interpolation")
+TABLE = ("law", "over", "values", "interpolation", "strokes", "area", "sides", "area_2")
+INDICATOR = ("strokes", "area", "sides", "area_2")
+"""Keys of a table that is an indicator diagram."""
+MACHINE = (
+    "delta",
+    "mean",
+    "constant",
+    "cycle_deg",
+    "J_crank",
+    "count",
+    "pole_mm",
+    "turn_mm",
+    "mu_M",
+    "mu_J",
+    "signs",
+    "ordinates",
+    "method",
+    "phi_0",
+    "flywheel",
+)
+FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
 ANSWER = (
@@ -129,6 +156,8 @@ GEARS = (
 WHEEL = ("z", "r", "x", "axis")
 MESH = ("of", "kind", "carrier", "eta", "hand")
 PICTURE = ("mu_l", "longest_mm", "pole_mm")
+MESHING = ("z", "m", "alpha", "ha", "c", "x", "x1", "x2", "a_w", "s_a_min", "epsilon_min")
+"""Keys of ``[meshing]``."""
 
 KNOWN: dict[str, tuple[str, ...]] = {
     "top": TOP,
@@ -141,6 +170,9 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "span": SPAN,
     "rule": RULE,
     "moving": MOVING,
+    "cycle": CYCLE,
+    "pole": POLE,
+    "rolling": ROLLING,
     "scales": SCALES,
     "stamp": tuple(STAMP),
     "sheet": SHEET,
@@ -151,10 +183,13 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "load": LOAD,
     "table": TABLE,
     "phases": PHASES,
+    "machine": MACHINE,
+    "flywheel": FLYWHEEL,
     "gears": GEARS,
     "wheel": WHEEL,
     "mesh": MESH,
     "picture": PICTURE,
+    "meshing": MESHING,
 }
 """All of them by the kind of table."""
 
@@ -163,6 +198,7 @@ LINK_POINT_LIMIT = 60
 LINK_KEY_LIMIT = 200
 LINK_LIMIT = 60
 POSITION_LIMIT = 10_000
+CYCLE_LIMIT = 360
 VARIANT_LIMIT = 400
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200

@@ -37,6 +37,17 @@ class Over(Enum):
     X = "x"  # coordinates of the point where the force acts, m
     Y = "y"
     POSITION = "position"  # one value for each position of the file
+    PATH = "path"  # share of the stroke of the point where the force acts, from 0 to 1
+    STROKES = "strokes"  # strokes done since the cycle began: an indicator diagram
+
+
+class Law(Enum):
+    """Kind of a table by one word (закон нагрузки), which says what it is over and how read."""
+
+    TABLE = "table"  # over phi, straight between the rows
+    PATH = "path"
+    STEPS = "steps"  # over phi, each row until the next one
+    INDICATOR = "indicator"  # pressures over the strokes of a piston
 
 
 class Interpolation(Enum):
@@ -55,16 +66,19 @@ class Table:
     over : Over
     at : tuple of float, degrees or m
         Increasing; empty when the table is over the positions of the file. Over phi the rows lie
-        within one turn and repeat.
+        within one turn and repeat. Over a path or strokes one abscissa twice is a jump.
     values : tuple of float, N or N·m
         As many as ``at``, or as the positions of the file.
     interpolation : Interpolation
+    turn : float, degrees
+        A table over phi repeats after so many.
     """
 
     over: Over
     at: tuple[float, ...]
     values: tuple[float, ...]
     interpolation: Interpolation = Interpolation.LINEAR
+    turn: float = 360.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,3 +200,111 @@ class Dynamics:
     masses: Mapping[str, Mass]
     loads: tuple[Load | Couple, ...]
     resultant: bool = False
+
+
+class Mean(Enum):
+    """What the mean speed of a machine is (средняя угловая скорость)."""
+
+    HALF_SUM = "half-sum"  # of the largest and the least
+    TIME = "time"
+
+
+class Side(Enum):
+    """Which reduced moment does not change (постоянный приведённый момент)."""
+
+    DRIVING = "driving"
+    RESISTING = "resisting"
+
+
+class Signs(Enum):
+    """How weights are added to the loads (знаки сил тяжести)."""
+
+    TRUE = "true"
+    SOURCE = "source"  # with the other sign, as a coursework may have it
+
+
+class Ordinates(Enum):
+    """By what the work under a curve is measured (способ интегрирования)."""
+
+    MIDDLE = "middle"
+    TRAPEZOID = "trapezoid"
+
+
+class Method(Enum):
+    """How the flywheel is found of the diagrams (метод определения момента инерции маховика)."""
+
+    WITTENBAUER = "wittenbauer"
+    MERTSALOV = "mertsalov"
+
+
+class Shape(Enum):
+    """Shape of a flywheel (форма маховика)."""
+
+    DISC = "disc"
+    RIM = "rim"
+
+
+@dataclass(frozen=True, slots=True)
+class Wheel:
+    """What the flywheel is to be like (исходные данные маховика).
+
+    Attributes
+    ----------
+    shape : Shape
+    density : float or None, kg/m³
+        None: steel.
+    speed : float, m/s
+        Greatest speed of the rim.
+    ratio : float
+        Turns of the flywheel's shaft to one of the crank.
+    """
+
+    shape: Shape = Shape.DISC
+    density: float | None = None
+    speed: float = 30.0
+    ratio: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """What the choice of a flywheel knows beside masses and loads (исходные данные маховика).
+
+    Attributes
+    ----------
+    delta : float
+        Irregularity of the motion (коэффициент неравномерности), between 0 and 1.
+    mean : Mean
+    constant : Side
+    cycle_deg : float
+        360, or 720 of a four-stroke engine.
+    crank_inertia : float, kg·m²
+        On the crank beside the links' own.
+    count : int
+        Positions of the construction in a cycle.
+    pole_mm, turn_mm : float, mm
+        Pole distance of the graphical integration, and the length of a cycle on the sheet.
+    mu_M, mu_J : float or None, N·m/mm and kg·m²/mm
+        None where the program chooses.
+    signs : Signs
+    ordinates : Ordinates
+    method : Method
+    start_deg : float or None
+        Driver angle of position 0; None: the first position of the file.
+    wheel : Wheel
+    """
+
+    delta: float
+    mean: Mean = Mean.HALF_SUM
+    constant: Side = Side.DRIVING
+    cycle_deg: float = 360.0
+    crank_inertia: float = 0.0
+    count: int = 12
+    pole_mm: float = 30.0
+    turn_mm: float = 240.0
+    mu_M: float | None = None  # noqa: N815 - the letters of the textbook
+    mu_J: float | None = None  # noqa: N815
+    signs: Signs = Signs.TRUE
+    ordinates: Ordinates = Ordinates.MIDDLE
+    method: Method = Method.WITTENBAUER
+    start_deg: float | None = None
+    wheel: Wheel = Wheel()

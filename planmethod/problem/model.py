@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from planmethod.problem.load_records import Dynamics
+    from planmethod.problem.load_records import Dynamics, Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,6 +214,48 @@ class Drive:
         return MOMENT if self.is_crank else FORCE
 
 
+class Zero(Enum):
+    """Position zero by name: where the quicker stroke of the output starts, or the slower one."""
+
+    EXTREME = "extreme"
+    OTHER = "other extreme"
+
+
+class Differentiation(Enum):
+    """How a diagram is differentiated on paper (графическое дифференцирование)."""
+
+    CHORDS = "chords"
+    TANGENTS = "tangents"
+    CURVE = "curve"
+
+
+@dataclass(frozen=True, slots=True)
+class CycleTask:
+    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``.
+
+    Attributes
+    ----------
+    output : str or None
+        A link, or a point on a guide of the frame; None: the last link joined with the frame.
+    zero : Zero or float
+        Position zero; a number is the angle of the crank, degrees.
+    count : int
+        Positions of a turn, numbered in the sense of the driver.
+    length : float, mm
+        Of the axis of phi for a turn.
+    pole_v, pole_a : float, mm
+        Pole distances of both differentiations.
+    """
+
+    output: str | None = None
+    zero: Zero | float = Zero.EXTREME
+    count: int = 12
+    length: float = 288.0
+    pole_v: float = 36.0
+    pole_a: float = 36.0
+    differentiation: Differentiation = Differentiation.CHORDS
+
+
 class Convention(Enum):
     """The two textbook conventions of a scale."""
 
@@ -359,6 +401,10 @@ class Problem:
         What students are asked for, in the order of the file; empty where it does not say.
     dynamics : Dynamics or None
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
+    cycle : CycleTask or None
+        What ``[cycle]`` asks; None when the file has none.
+    machine : Machine or None
+        What the choice of a flywheel needs; None when the file has no ``[machine]``.
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
     """
@@ -381,6 +427,8 @@ class Problem:
     variants: tuple[str, ...] = ()
     variant: str | None = None
     dynamics: Dynamics | None = None
+    cycle: CycleTask | None = None
+    machine: Machine | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
 
     def is_block(self, slide: Slide) -> bool:

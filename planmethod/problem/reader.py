@@ -12,6 +12,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.answers import Scene, read_answers
 from planmethod.problem.bodies import place_points
+from planmethod.problem.cycle import read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.extras import read_heading, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys
@@ -184,11 +185,18 @@ def _read_parts(
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
     assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
-    dynamics = None
+    dynamics = machine = None
+    if "machine" in given:
+        from planmethod.problem.machine import read_machine  # few files have one
+
+        machine = read_machine(faults, given, drive)
     if "dynamics" in given or "loads" in given:
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
-        dynamics = read_dynamics(faults, given, links, frame.points, drive)
+        dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
+    cycle = None
+    if "cycle" in given:
+        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     published = read_published(
         faults,
@@ -231,6 +239,8 @@ def _read_parts(
         published=published,
         answers=answers,
         dynamics=dynamics,
+        cycle=cycle,
+        machine=machine,
         tables=tables,
     )
 

@@ -92,7 +92,26 @@ FORCES: Mapping[str, tuple[tuple[Role, ...], ...]] = {
 }
 """Kinds of quantity of the force analysis, and what the names of each are, in every form it has."""
 
-_PAIRED = frozenset(kind.split()[0] for kind in (*QUANTITIES, *FORCES) if " " in kind)
+MACHINE: Mapping[str, int] = {
+    "machine M": 1,
+    "machine J": 1,
+    "machine T": 1,
+    "machine energy": 2,
+    "machine constant": 0,
+    "machine mu_phi": 0,
+    "machine mu_A": 0,
+    "machine psi_max": 0,
+    "machine psi_min": 0,
+    "machine KL": 0,
+    "machine J_f": 0,
+    "machine D": 0,
+    "machine m": 0,
+    "machine b": 0,
+}
+"""Kinds of quantity of a machine and its flywheel, and how many names each has: a link, and last
+the number of a position of ``[machine]``."""
+
+_PAIRED = frozenset(kind.split()[0] for kind in (*QUANTITIES, *FORCES, *MACHINE) if " " in kind)
 """First words of the kinds that have two; ``inertia`` alone is a kind as well."""
 
 _ABOUT = "about"
@@ -122,7 +141,10 @@ def parse_selector(text: str) -> Selector:
         return first
     if "/" in below:
         raise SelectorError("expected one division at most")
-    return Selector(first.kind, first.names, _parse_one(below))
+    second = _parse_one(below)
+    if first.kind in MACHINE or second.kind in MACHINE:
+        raise SelectorError("what is of the flywheel is not divided")
+    return Selector(first.kind, first.names, second)
 
 
 def _parse_one(text: str) -> Selector:
@@ -130,7 +152,10 @@ def _parse_one(text: str) -> Selector:
     if not words:
         raise SelectorError('expected a quantity such as "v C", got nothing')
     kind, names = _kind(words)
-    counts = QUANTITIES.get(kind) or tuple(len(form) for form in FORCES[kind])
+    if kind in MACHINE:
+        counts: tuple[int, ...] = (MACHINE[kind],)
+    else:
+        counts = QUANTITIES.get(kind) or tuple(len(form) for form in FORCES[kind])
     if kind.startswith("arm "):
         if names[-2:-1] != [_ABOUT]:
             raise SelectorError(f"'{kind}' ends with '{_ABOUT}' and a point")
@@ -151,9 +176,9 @@ def _kind(words: list[str]) -> tuple[str, list[str]]:
     first = words[0]
     for size in (2, 1) if first in _PAIRED else (1,):
         kind = " ".join(words[:size])
-        if kind in QUANTITIES or kind in FORCES:
+        if kind in QUANTITIES or kind in FORCES or kind in MACHINE:
             return kind, words[size:]
-    known = [*QUANTITIES, *FORCES]
+    known = [*QUANTITIES, *FORCES, *MACHINE]
     unknown = " ".join(words[:2]) if first in _PAIRED else first
     guess = near(unknown, known)
     tail = f" (the nearest is '{guess}')" if guess else ""
@@ -164,6 +189,8 @@ def _must_differ(selector: Selector) -> list[tuple[str, ...]]:
     """Return the groups of names that must differ within the group: points, and links."""
     if selector.kind in QUANTITIES:
         return [selector.names]
+    if selector.kind in MACHINE:
+        return []
     told = roles(selector)
     bodies = tuple(name for name, role in told if role is Role.BODY)
     return [bodies, tuple(name for name, role in told if role is Role.POINT)]
@@ -177,7 +204,8 @@ def roles(selector: Selector) -> list[tuple[str, Role]]:
 
 def is_force(selector: Selector) -> bool:
     """Whether a quantity, or what it is divided by, is of the force analysis."""
-    return selector.kind in FORCES or (selector.over is not None and is_force(selector.over))
+    own = selector.kind in FORCES or selector.kind in MACHINE
+    return own or (selector.over is not None and is_force(selector.over))
 
 
 def unknown_names(
@@ -195,7 +223,10 @@ def unknown_names(
     loads : collection of str
         Letters of the external loads.
     """
-    if selector.kind in FORCES:
+    if selector.kind in MACHINE:
+        found = [name for name in selector.names[:-1] if name not in links]
+        found += [name for name in selector.names[-1:] if not name.isdecimal()]
+    elif selector.kind in FORCES:
         known = {
             Role.LINK: links,
             Role.BODY: {*links, FRAME},

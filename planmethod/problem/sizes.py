@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from itertools import pairwise
 
 from planmethod.problem import keys
@@ -14,9 +15,11 @@ from planmethod.problem.fields import (
     read_keys,
     read_member,
     read_number,
+    read_whole,
+    read_word,
     show,
 )
-from planmethod.problem.load_records import Interpolation, Moving, Over, Phase, Turning
+from planmethod.problem.load_records import Interpolation, Law, Moving, Over, Phase, Turning
 from planmethod.problem.load_records import Table as SizeTable
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed
@@ -27,6 +30,9 @@ TURN = 360.0
 _TABLE = '{ over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear" }'
 _PHASES = 'phases = { phi = [90, 270] } or phases = { moving = "down" }'
 
+_OVERS = tuple(over.value for over in Over if over is not Over.STROKES)
+"""What a file may give a table over; the strokes are those of an indicator."""
+
 Spans = tuple[tuple[float, float], ...]
 
 
@@ -34,11 +40,23 @@ Spans = tuple[tuple[float, float], ...]
 
 
 def read_size(
-    faults: Faults, path: str, value: object, drive: Drive | None, *, couple: bool
+    faults: Faults,
+    path: str,
+    value: object,
+    drive: Drive | None,
+    *,
+    couple: bool = False,
+    turn: float = TURN,
 ) -> float | SizeTable | None:
-    """Read a force, N, or a couple, N·m: a number or a table."""
+    """Read a force, N, or a couple, N·m: a number or a table.
+
+    Parameters
+    ----------
+    turn : float, degrees
+        A table over phi repeats after so many.
+    """
     if isinstance(value, dict):
-        return _read_table(faults, path, value, drive, couple=couple)
+        return _read_table(faults, path, value, drive, turn, couple=couple)
     what = "a couple in N·m" if couple else "a force in N"
     if not is_number(value) and not isinstance(value, str):
         faults.add(path, f"expected {what} or a table, got {show(value)}", f"A table: {_TABLE}.")
@@ -51,13 +69,25 @@ def _read_value(faults: Faults, path: str, value: object, what: str) -> float | 
 
 
 def _read_table(
-    faults: Faults, path: str, value: Table, drive: Drive | None, *, couple: bool
+    faults: Faults, path: str, value: Table, drive: Drive | None, turn: float, *, couple: bool
 ) -> SizeTable | None:
     before = len(faults)
     given = read_keys(faults, path, value, keys.TABLE)
     whole = len(faults) == before
+    law = None
+    if "law" in given:
+        law = read_member(faults, f"{path}.law", given["law"], Law)
+        if law is None:
+            return None
+    if law is Law.INDICATOR:
+        return _read_indicator(faults, path, given, drive, couple=couple, whole=whole)
+    for key in keys.INDICATOR:
+        if key in given:
+            faults.add(f"{path}.{key}", 'goes with law = "indicator" only')
+    if law is not None:
+        given = {**_LAWS[law], **given}
     for key, hint in (
-        ("over", f"Say what the values are over: {listed(item.value for item in Over)}."),
+        ("over", f"Say what the values are over: {listed(_OVERS)}."),
         ("values", f"For example: {_TABLE}."),
     ):
         if key not in given and whole:
@@ -69,19 +99,118 @@ def _read_table(
     if over is None or "values" not in given:
         return None
     what = "a couple in N·m" if couple else "a force in N"
-    rows = _read_rows(faults, f"{path}.values", given["values"], over, what, drive)
+    rows = _read_rows(faults, f"{path}.values", given["values"], over, what, drive, turn)
     if rows is None or interpolation is None or len(faults) != before:
         return None
-    return SizeTable(over, *rows, interpolation)
+    return SizeTable(over, *rows, interpolation, turn)
+
+
+_LAWS = {
+    Law.TABLE: {"over": "phi", "interpolation": "linear"},
+    Law.PATH: {"over": "path", "interpolation": "linear"},
+    Law.STEPS: {"over": "phi", "interpolation": "step"},
+}
+"""What a law says where the file does not."""
+
+
+def _read_indicator(
+    faults: Faults,
+    path: str,
+    given: Table,
+    drive: Drive | None,
+    *,
+    couple: bool,
+    whole: bool,
+) -> SizeTable | None:
+    """Read pressures over strokes: the force on the piston, N, over the strokes done."""
+    before = len(faults)
+    if couple:
+        faults.add(f"{path}.law", "'indicator' does not go with a couple", "A piston has a force.")
+    if drive is not None and not drive.is_crank:
+        faults.add(f"{path}.law", f"link {drive.link} slides: there is no cycle of a crank")
+    for key in ("over", "values", "interpolation"):
+        if key in given:
+            faults.add(f"{path}.{key}", 'does not go with law = "indicator"', _INDICATOR)
+    for key in ("strokes", "area"):
+        if key not in given and whole:
+            faults.add(f"{path}.{key}", "missing", _INDICATOR)
+    strokes, area = given.get("strokes", []), _read_area(faults, f"{path}.area", given.get("area"))
+    sides = read_whole(faults, f"{path}.sides", given.get("sides", 1), 1, 2)
+    area_2 = _read_area(faults, f"{path}.area_2", given.get("area_2", given.get("area")))
+    if "area_2" in given and sides == 1:
+        faults.add(f"{path}.area_2", "is of the other side of the piston", "Give sides = 2.")
+    if not isinstance(strokes, list) or len(strokes) not in (2, 4):
+        if "strokes" in given:
+            shown = show(strokes)
+            faults.add(f"{path}.strokes", f"expected 2 or 4 strokes, got {shown}", _INDICATOR)
+        return None
+    at: list[float] = []
+    pressures: list[float] = []
+    for number, rows in enumerate(strokes):
+        where = f"{path}.strokes[{number}]"
+        found = _read_rows(faults, where, rows, Over.PATH, "a pressure in Pa", drive, TURN)
+        if found is None:
+            continue
+        shares, values = found
+        if number % 2:  # the way back
+            shares, values = tuple(1.0 - share for share in reversed(shares)), values[::-1]
+        at += [float(number), *(number + share for share in shares), number + 1.0]
+        pressures += [values[0], *values, values[-1]]
+    if len(faults) != before or area is None or area_2 is None:
+        return None
+    own = SizeTable(Over.STROKES, tuple(at), tuple(area * p for p in pressures))
+    return own if sides == 1 else _both_sides(own, area_2 / area, len(strokes))
+
+
+def _both_sides(own: SizeTable, share: float, count: int) -> SizeTable:
+    """Return the force on a piston of which the other side is one stroke ahead."""
+    shifted = [(at - 1.0) % count for at in own.at]
+    nodes = sorted({*own.at, *shifted, 0.0, float(count)})
+    at: list[float] = []
+    values: list[float] = []
+    for node in nodes:
+        for after in (False, True):
+            other = node + 1.0
+            if other > count or (other == count and after):
+                other -= count
+            at.append(node)
+            values.append(_limit(own, node, after) - share * _limit(own, other, after))
+    return SizeTable(own.over, tuple(at), tuple(values))
+
+
+def _limit(table: SizeTable, at: float, after: bool) -> float:
+    """Return what a table with jumps comes to just before an abscissa, or just after it."""
+    find = bisect_right if after else bisect_left
+    high = find(table.at, at)
+    if high == 0 or high == len(table.at):
+        return table.values[min(high, len(table.at) - 1)]
+    (x0, x1), (y0, y1) = table.at[high - 1 : high + 1], table.values[high - 1 : high + 1]
+    return y0 + (y1 - y0) * (at - x0) / (x1 - x0)
+
+
+def _read_area(faults: Faults, path: str, value: object) -> float | None:
+    if value is None:
+        return None
+    return read_number(faults, path, value, "an area in m²", low=1e-9, high=1e3, positive=True)
+
+
+_INDICATOR = (
+    'For example: { law = "indicator", area = 0.01, strokes = [[[0, 5e5], [0.2, 1e5], [1, 1e5]], '
+    "[[0, 5e5], [0.3, 5e5], [1, 1e5]]] }: the share of the stroke and the pressure in Pa."
+)
 
 
 def _read_over(
     faults: Faults, path: str, value: object, drive: Drive | None, *, couple: bool
 ) -> Over | None:
-    over = read_member(faults, path, value, Over)
-    if over is None:
+    word = read_word(faults, path, value, _OVERS)
+    if word is None:
         return None
-    if couple and over in (Over.X, Over.Y):
+    over = Over(word)
+    if over is Over.PATH and drive is not None and not drive.is_crank:
+        faults.add(path, f"link {drive.link} slides: there is no stroke of a whole turn")
+        return None
+    if couple and over in (Over.X, Over.Y, Over.PATH):
         hint = "A couple has no point: give it over phi, s or position."
         faults.add(path, f"'{over.value}' does not go with a couple", hint)
         return None
@@ -115,7 +244,13 @@ Rows = tuple[tuple[float, ...], tuple[float, ...]]
 
 
 def _read_rows(
-    faults: Faults, path: str, value: object, over: Over, what: str, drive: Drive | None
+    faults: Faults,
+    path: str,
+    value: object,
+    over: Over,
+    what: str,
+    drive: Drive | None,
+    turn: float,
 ) -> Rows | None:
     """Read the rows of a table: abscissae and values."""
     if not isinstance(value, list):
@@ -133,7 +268,7 @@ def _read_rows(
         )
         return None
     before = len(faults)
-    read = read_angle if over is Over.PHI else read_coordinate
+    read = {Over.PHI: read_angle, Over.PATH: _read_share}.get(over, read_coordinate)
     rows: list[tuple[float, float]] = []
     for index, row in enumerate(value):
         where = f"{path}[{index}]"
@@ -144,7 +279,7 @@ def _read_rows(
         size = _read_value(faults, f"{where}[1]", row[1], what)
         if at is not None and size is not None:
             rows.append((at, size))
-    if len(faults) != before or not _check_order(faults, path, rows, over):
+    if len(faults) != before or not _check_order(faults, path, rows, over, turn):
         return None
     return tuple(at for at, _ in rows), tuple(size for _, size in rows)
 
@@ -164,10 +299,18 @@ def _read_by_position(
     return (), sizes
 
 
-def _check_order(faults: Faults, path: str, rows: list[tuple[float, float]], over: Over) -> bool:
+def _read_share(faults: Faults, path: str, value: object) -> float | None:
+    hint = "0 is where the stroke begins, 1 where it ends: divide the path by the stroke."
+    return read_number(faults, path, value, "a share of the stroke", low=0.0, high=1.0, hint=hint)
+
+
+def _check_order(
+    faults: Faults, path: str, rows: list[tuple[float, float]], over: Over, turn: float
+) -> bool:
     """Whether the rows increase, and lie within a turn where they repeat."""
+    jumps = over is Over.PATH  # two rows of one abscissa, no more
     for index, ((one, _), (two, _)) in enumerate(pairwise(rows), 1):
-        if two > one:
+        if two > one or (jumps and two == one and (index < 2 or rows[index - 2][0] < one)):
             continue
         if two == one:
             message, hint = f"{over.value} = {two:g} is in two rows", "Keep one of them."
@@ -178,11 +321,13 @@ def _check_order(faults: Faults, path: str, rows: list[tuple[float, float]], ove
     if over is not Over.PHI:
         return True
     (start, first), (end, last) = rows[0], rows[-1]
-    if end - start > TURN:
-        message = f"the rows span {end - start:g} degrees, a turn has {TURN:g}"
+    if end - start > turn:
+        message = f"the rows span {end - start:g} degrees, a turn has {turn:g}"
+        if turn != TURN:
+            message = message.replace("turn", "cycle")
         faults.add(path, message, "The table repeats with every turn.")
         return False
-    if end - start == TURN and first != last:
+    if end - start == turn and first != last:
         message = f"{first:g} at {start:g} degrees and {last:g} a turn later"
         faults.add(path, message, "The table repeats with every turn: its ends are one position.")
         return False

@@ -21,13 +21,13 @@ from planmethod.problem.selector import SelectorError, is_force, parse_selector
 
 Path = tuple[str, ...]
 
-_FREE = ("gears", "point")
+_FREE = ("gears", "point", "meshing")
 """Tables whose keys later parts check."""
 
 _HOLDERS = (Mapping, list)
 """What a path may lead through: a table, the loads or the answers."""
 
-_MOTION = ("frame", "links", "driver", "assembly", "gears", "point")
+_MOTION = ("frame", "links", "driver", "assembly", "gears", "point", "meshing")
 """Tables on which all published values depend."""
 
 TURNING = ("omega", "n", "train")

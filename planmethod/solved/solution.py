@@ -121,6 +121,16 @@ class Solution(Remembering):
         self._views = views
         self._scales = scales
 
+    def moved(self, positions: Sequence[float]) -> Solution:
+        """Return the same mechanism, assembled in the same way, in other positions."""
+        other = object.__new__(Solution)
+        Remembering.__init__(other)
+        for name in ("problem", "profile", "hand", "structure", "construction"):
+            setattr(other, name, getattr(self, name))
+        other._views, other._scales = self._views, self._scales
+        other.positions = np.asarray(positions, dtype=float)
+        return other
+
     # Readings --------------------------------------------------------------------------------
 
     def data(

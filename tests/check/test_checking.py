@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import replace
 
@@ -11,9 +12,14 @@ from planted import checked, exact, explanations, task_of, verdicts, work_of
 from worked import SIX, problem_of
 
 from planmethod.check.checking import check
+from planmethod.check.key import key_of, key_of_task
 from planmethod.check.marks import Settings
+from planmethod.check.mistakes.model import Scene
+from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Sense, Verdict, Work, Written
 from planmethod.check.task import Task
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import AskedAnswer, AskedSense
 from planmethod.solved.solution import Solution
 
 RANDOM = tuple(f"random-{seed}" for seed in range(some(60, 4)))
@@ -229,6 +235,70 @@ def test_positions_of_a_cycle_are_judged_each_by_itself() -> None:
     )
     found = [answer.verdict for answer in check(task, Work("s", written)).answers]
     assert found == [Verdict.OK, Verdict.OK, Verdict.WRONG, Verdict.UNREADABLE]
+
+
+def test_a_slip_in_one_number_leaves_what_is_measured_beside_it_alone() -> None:
+    """a_N is measured on the line of a_S3; ten times a_S3 says nothing of that line."""
+    task = task_of("press/press")
+    values = dict(exact(task))
+    values["a_S3"] *= 10.0
+    found = check(task, work_of(task, values))
+    assert [(d.codes, d.roots) for d in found.diagnosis] == [(("S4",), ("a_S3",))]
+    told = {name for name, verdict in verdicts(found).items() if verdict is Verdict.WRONG}
+    assert told == {"a_S3"}
+
+
+def test_mistakes_that_give_the_same_sheet_are_told_together() -> None:
+    """Link 4 of the press hardly turns: the other way to close it, or its sense misread."""
+    task = task_of("press/press")
+    (other,) = (e for e in explanations(task) if e.code == "P1" and e.where == "B")
+    (diagnosis,) = check(task, work_of(task, other.values)).diagnosis
+    assert set(diagnosis.codes) == {"P1", "sign"}
+    assert not diagnosis.sure
+
+
+def test_another_scale_is_found_by_the_sharpest_answers() -> None:
+    """v_S1 is exact, v_A3 read 2 % too long: the factor is 1.25 of the one, not between them."""
+    task = task_of("press/press")
+    change = scale_by(Scene(task.sheet(0)), PlanKind.VELOCITY, 1.25)
+    found = task.explanations(task.sheet(0)).of_change(change)
+    assert found is not None
+    values = {**found.values, "v_A3": found.values["v_A3"] * 1.02}
+    assert [d.codes for d in check(task, work_of(task, values, digits=3)).diagnosis] == [("scale",)]
+
+
+def test_the_direction_of_a_vector_is_an_answer_of_its_own() -> None:
+    problem = task_of("linkages/ex3").solution.problem
+    asked = AskedAnswer("v_B3", "v B3", ("VB₃",), points=2.0, sense=AskedSense.ANGLE)
+    task = Task(Solution(replace(problem, answers=(asked,))))
+    size, turned = task.declared
+    assert (size.points, turned.points, turned.question.unit) == (1.4, 0.6, "deg")
+    velocity = complex(task.solution.points["B3"].velocity[0])
+    right = math.degrees(cmath.phase(velocity))
+    entry = key_of_task(task).entries[1]
+    assert entry.exact == pytest.approx(right)
+    assert 0.5 < entry.tolerance < 5.0
+    for text, off, verdict in (
+        ("angle v B3", entry.tolerance * 0.9, Verdict.OK),
+        ("α(VB₃)", 360.0, Verdict.OK),
+        ("angle_v_B3", 180.0, Verdict.WRONG),
+    ):
+        found = check(task, Work("s", (Written(text, value=right + off, step=0.1),)))
+        assert found.answers[0].verdict is verdict, text
+
+
+def test_the_key_has_every_position_and_hides_what_none_shows() -> None:
+    solution = Solution(task_of("levers/crosshead").solution.problem, positions=[90.0, 150.0])
+    both = key_of(solution)
+    alone = [key_of(Solution(solution.problem, positions=[phi])) for phi in (90.0, 150.0)]
+    assert [(e.id, e.position) for e in both.entries] == [
+        (entry.id, at) for at, key in enumerate(alone) for entry in key.entries
+    ]
+    exact_of = [entry.exact for key in alone for entry in key.entries]
+    assert [entry.exact for entry in both.entries] == pytest.approx(exact_of)
+    for code in set(both.hidden) - {"V6", "N5"}:  # those are of one answer each
+        for where in both.hidden[code]:
+            assert all(where in key.hidden[code] for key in alone)
 
 
 def test_the_numbers_of_another_variant_earn_nothing() -> None:

@@ -217,7 +217,6 @@ def test_options_of_linkages_are_refused() -> None:
     done = run("solve", str(FILES[0]), "--csv")
     assert done.exit_code == ExitCode.USAGE
     assert "--csv is for linkages" in done.stderr
-    assert run("sheet", str(FILES[0])).exit_code == ExitCode.PROBLEM
 
 
 def test_a_kind_is_told_by_its_table_and_links_make_a_linkage(tmp_path: Path) -> None:

@@ -86,7 +86,7 @@ def test_the_longest_formulas_are_read() -> None:
         ("point = 3", ["point: expected a table, got the integer 3. "]),
         ("[point]\nx = 't'\ny = 't'", ["point.t: missing. "]),
         ("[point]\nx = 't'\nt = 0", ["point.y: missing. "]),
-        ("[point]\nt = 0", ["point: expected x and y, r and phi, or s. "]),
+        ("[point]\nt = 0", ["point: expected x and y, r and phi, or s, or a wheel and phi. "]),
         (
             "[point]\nx = 't'\ny = 't'\nr = 't'\nt = 0",
             ["point: the motion is stated twice: x, y and r, phi. Keep one of them."],

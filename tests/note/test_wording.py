@@ -14,6 +14,7 @@ from planmethod.errors import ExitCode
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
+from planmethod.note.wording.machine_model import SYMBOLS as MACHINE
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.problem.model import FORCE, MOMENT
 from planmethod.solved.selected.asking import NoAnswer
@@ -85,7 +86,7 @@ def test_a_language_says_all_that_russian_says_with_the_same_places(lang: str) -
 def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     words = language(lang)
     lever = {f"lever {one.quantity}" for one in (MOMENT, FORCE)}
-    assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol, *lever}
+    assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol, *lever, *MACHINE}
     for balance in (words.note.balance, words.sheets.balance, words.forces.and_balance):
         assert set(balance) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]

@@ -217,7 +217,8 @@ FAULTS = {
     ),
     "empty table": (
         F + "force = {}\n" + A,
-        ["loads[0].force.over: missing. Say what the values are over: phi, s, x, y, position.",
+        ["loads[0].force.over: missing. Say what the values are over: "
+         "phi, s, x, y, position, path.",
          'loads[0].force.values: missing. For example: { over = "phi", values = [[0, 0], '
          '[90, 730]], interpolation = "linear" }.',
          'loads[0].force.interpolation: missing. Say how to read between the rows: interpolation '
@@ -225,7 +226,8 @@ FAULTS = {
     ),
     "over what": (
         F + 'force = { over = "hpi", values = [[0, 0], [1, 1]], interpolation = "linear" }\n' + A,
-        ["loads[0].force.over: expected 'phi', 's', 'x', 'y' or 'position', got the string 'hpi'. "
+        ["loads[0].force.over: expected 'phi', 's', 'x', 'y', 'position' or 'path', "
+         "got the string 'hpi'. "
          "Did you mean 'phi'?"],
     ),
     "interpolation": (

@@ -17,7 +17,7 @@ from worked import every_file
 
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
 from planmethod.problem.model import Convention
-from planmethod.problem.selector import FORCES, QUANTITIES, parse_selector
+from planmethod.problem.selector import FORCES, MACHINE, QUANTITIES, parse_selector
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = every_file()
@@ -161,6 +161,9 @@ SCHEMA_TABLES = {
     "span": SCHEMA["$defs"]["span"]["properties"],
     "rule": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
     "moving": SCHEMA["$defs"]["moving"]["properties"],
+    "cycle": SCHEMA["$defs"]["cycle"]["properties"],
+    "pole": SCHEMA["$defs"]["cycle"]["properties"]["pole"]["properties"],
+    "rolling": SCHEMA["$defs"]["rolling"]["properties"],
     "scales": SCHEMA["$defs"]["scales"]["properties"],
     "stamp": SCHEMA["$defs"]["stamp"]["properties"],
     "sheet": SCHEMA["$defs"]["sheet"]["properties"],
@@ -171,10 +174,13 @@ SCHEMA_TABLES = {
     "load": SCHEMA["$defs"]["load"]["properties"],
     "table": SCHEMA["$defs"]["table"]["properties"],
     "phases": SCHEMA["$defs"]["phases"]["properties"],
+    "machine": SCHEMA["$defs"]["machine"]["properties"],
+    "flywheel": SCHEMA["$defs"]["machine"]["properties"]["flywheel"]["properties"],
     "gears": SCHEMA["$defs"]["gears"]["properties"],
     "wheel": SCHEMA["$defs"]["gearWheel"]["properties"],
     "mesh": SCHEMA["$defs"]["gearMesh"]["properties"],
     "picture": SCHEMA["$defs"]["gears"]["properties"]["picture"]["properties"],
+    "meshing": SCHEMA["$defs"]["meshing"]["properties"],
 }
 
 
@@ -193,7 +199,7 @@ def test_every_key_is_documented(kind: str) -> None:
         assert set(keys.KNOWN[kind]) <= documented
 
 
-@each("kind", [*QUANTITIES, *FORCES])
+@each("kind", [*QUANTITIES, *FORCES, *MACHINE])
 def test_every_quantity_is_documented(kind: str) -> None:
     assert re.search(rf"`{kind}[ `]", DOCS)
 

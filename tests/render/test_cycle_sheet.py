@@ -19,9 +19,10 @@ from planmethod.note.wording import language
 from planmethod.problem.model import Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
-from planmethod.render.forces.hodograph import HODOGRAPH, POLE, polar_groups
+from planmethod.render.forces.hodograph import polar_groups
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text, View
 from planmethod.render.pictures.diagram import AXIS, CURVE
+from planmethod.render.pictures.polar import HODOGRAPH, POLE
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.errors.forces import drawn_forces

@@ -29,10 +29,12 @@ TURN = tuple(range(0, 360, 60))
 CASES = [
     *((name, "linkages/ex3", (20.0,)) for name in ("one-position", "homework")),
     ("many-positions", "press/press-stone", TURN),
+    ("coursework", "linkages/ex1", TURN),
     ("coursework-12", "linkages/ex1", TURN),
     *(("forces", name, None) for name in ("levers/six-link", "levers/task12", "press/press")),
     ("forces-cycle", "levers/task12", TURN),
     ("forces-cycle", "press/press", TURN),
+    ("flywheel", "press/flywheel", None),
 ]
 
 

@@ -201,14 +201,16 @@ def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: P
 
 @needs_chromium
 def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) -> None:
-    for told, load in LOADS.items():
-        scene = opened(page, watt(load), tmp_path)
+    problems = {told: watt(load) for told, load in LOADS.items()}
+    problems |= {name: problem_of(f"machines/{name}") for name in ("engine", "compressor")}
+    for told, problem in problems.items():
+        scene = opened(page, problem, tmp_path)
         assert scene.loads() is not None, told
         positions = np.concatenate((np.linspace(-29.0, 57.0, 87) % 360.0, [20.0, 350.0]))
-        found = page.ask(
-            f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v===v ? v : null))"
-        )
-        made = np.array(found, dtype=float).T[:-1]
+        if problem.machine is not None:
+            positions = np.linspace(*scene.way, 121)
+        asked = f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v === v ? v : null))"
+        made = np.array(page.ask(asked), dtype=float).T[:-1]
         assert apart(made, scene.sweep, positions) < 1e-11, told
         assert not page.said, told
 

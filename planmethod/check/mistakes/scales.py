@@ -71,7 +71,7 @@ def scale_by(scene: Scene, plan: PlanKind, factor: float) -> Change:
     steps: dict[Name, tuple[Step, ...]] = {
         step.out: (replace(step, factor=step.factor * factor),) for step in _readings(scene, plan)
     }
-    return Change("scale", FACTS[plan].scale, steps, prior=0.05, of_scale=True)
+    return Change("scale", FACTS[plan].scale, steps, prior=0.02, of_scale=True)
 
 
 def units_of_speed(scene: Scene) -> Iterator[Change]:

@@ -12,6 +12,7 @@ from functools import cache, lru_cache
 from io import BytesIO
 from typing import Any, TypeAlias
 
+from reportlab import rl_config
 from reportlab.lib import colors
 from reportlab.lib.pagesizes import A4, landscape
 from reportlab.pdfbase import pdfmetrics
@@ -23,6 +24,8 @@ from planmethod.render.ink.lettering import STYLES, OutlineLettering
 
 Word: TypeAlias = tuple[tuple[str, str], ...]
 """Pieces of text without a space, each with its level: "", "_" or "^"."""
+
+rl_config.useA85 = 0  # text in place of bytes, which takes longer than all the drawing
 
 MM = 72.0 / 25.4
 MARGIN = 12.0 * MM
@@ -133,6 +136,8 @@ class Document:
         self._foot = foot
         self._page = 1
         self._rules: list[float] = []
+        self._text: Any = None
+        self._size = self._rise = 0.0
         self.y = self._top
 
     def close(self) -> bytes:
@@ -142,10 +147,11 @@ class Document:
         return self._file.getvalue()
 
     def _end_page(self) -> None:
+        self._put_text(colors.black)
         if self._foot is not None:
-            self.sheet.setFillColor(GREY)
             line = broken(self._foot(self._page), 7.5, self.width)[0]
             self._draw(line, MARGIN, MARGIN * 0.5, 7.5)
+            self._put_text(GREY)
         self.sheet.showPage()
         self._page += 1
         self.y = self._top
@@ -164,7 +170,6 @@ class Document:
         for line in broken(rich, size, self.width - indent):
             self.need(size * LEADING)
             self.y -= size * LEADING
-            self.sheet.setFillGray(0.0)
             self._draw(line, MARGIN + indent, self.y + size * 0.3, size)
 
     def heading(self, rich: str, room: float = 60.0) -> None:
@@ -240,7 +245,6 @@ class Document:
             if colours[column] is not None:
                 sheet.setFillColor(colours[column])
                 sheet.rect(x, self.y, width, height, stroke=0, fill=1)
-            sheet.setFillGray(0.0)
             for number, line in enumerate(lines):
                 at = x + PAD
                 if column in right:
@@ -274,15 +278,29 @@ class Document:
                     pieces[-1][0] += text
                 else:
                     pieces.append([text, level])
-        run = self.sheet.beginText(x, y)
+        self._text = self._text or self.sheet.beginText()
+        self._text.setTextOrigin(x, y)
         for text, level in pieces:
-            run.setFont(font(), size * SMALL if level else size)
-            run.setRise(RISE[level] * size)
-            run.textOut(text)
-        self.sheet.drawText(run)
+            self._take(size * SMALL if level else size, RISE[level] * size)
+            self._text.textOut(text)
+
+    def _take(self, size: float, rise: float) -> None:
+        """Go on with letters of another size, and raised: only where they differ."""
+        if size != self._size:
+            self._text.setFont(font(), size)
+        if rise != self._rise:
+            self._text.setRise(rise)
+        self._size, self._rise = size, rise
+
+    def _put_text(self, colour: Any) -> None:
+        """Put the text of the page on it, above all the rest."""
+        if self._text is not None:
+            self._take(self._size, 0.0)
+            self.sheet.setFillColor(colour)
+            self.sheet.drawText(self._text)
+        self._text, self._size = None, 0.0
 
     def caption(self, rich: str, x: float, y: float, width: float) -> None:
         """Write one line of small letters in the middle of a width."""
         line = broken(rich, NOTE, max(width, 1e4))[0]
-        self.sheet.setFillGray(0.0)
         self._draw(line, x + max(0.0, (width - self._long(line, NOTE)) / 2), y, NOTE)

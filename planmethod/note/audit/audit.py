@@ -12,7 +12,7 @@ from planmethod.languages import LANGUAGES
 from planmethod.note.wording import wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Published, Scales
-from planmethod.problem.selector import FORCES, Selector, parse_selector
+from planmethod.problem.selector import FORCES, MACHINE, Selector, parse_selector
 from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError
 from planmethod.solved.selected.quantities import Quantities, is_angle
 from planmethod.solved.selfcheck import verify
@@ -180,6 +180,11 @@ def source_force_scale(problem: Problem) -> float | None:
 def _audited(places: Sequence[Quantities], scales: Scales, value: Published) -> Audited:
     try:
         selector = _selector(value, scales)
+        if selector.kind in MACHINE:
+            from planmethod.note.audit.machine import machine_value
+
+            exact, read = machine_value(places[0].solution, selector)
+            return Audited(value, exact, read, value.per_mm)
         at = places[_position(value, len(places))]
         unit = _unit(at, selector, value)
         exact, read = at.exact(selector) * unit, at.read(selector)

@@ -8,6 +8,7 @@ import numpy as np
 
 from planmethod.mechanism.structure import Structure
 from planmethod.note.numbers import finite_or_none, plain
+from planmethod.note.records.cycle import analogue_records, cycle_record
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.plans.motion.board import pole_letter
@@ -115,10 +116,11 @@ def record(solution: Solution) -> dict[str, Any]:
     ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along the hand's
     own chain, and ``sigma``, one standard deviation of the drafting error. ``hand`` holds the
     quantities that follow from the read segments with theirs, and the labels of those whose sigma
-    was found by random draws because first order does not hold. ``forces`` is there for a problem
-    with ``[dynamics]``: see `planmethod.note.tables.forces`.
+    was found by random draws because first order does not hold. ``cycle`` is there for a problem
+    with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see `planmethod.note.tables.forces`.
     """
     segments = {kind: solution.segments(kind) for kind in MOTION}
+    told = analogue_records(solution)
     links = {
         name: {q.kind.columns[0].removeprefix("."): solution.exact(q) for q in quantities}
         for name, quantities in solution.quantities(*TURNING).items()
@@ -140,6 +142,7 @@ def record(solution: Solution) -> dict[str, Any]:
             name: {key: plain(values[i]) for key, values in columns.items()}
             for name, columns in links.items()
         }
+        entry["analogues"] = told[i]
         entry["relative"] = [
             {
                 "point": r.point,
@@ -171,12 +174,20 @@ def record(solution: Solution) -> dict[str, Any]:
 
             entry["forces"] = forces_record(solution, i)
         positions.append(entry)
+    machine = {}
+    if solution.problem.machine is not None:
+        from planmethod.note.records.machine import machine_record
+        from planmethod.solved.machine.flywheel import flywheel_of
+
+        machine["machine"] = machine_record(flywheel_of(solution), solution.profile)
     return {
         "schema": SCHEMA,
         "problem": solution.problem.name,
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
         "structure": structure_record(solution.structure),
+        **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
         "positions": positions,
+        **machine,
     }
 
 

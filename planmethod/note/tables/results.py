@@ -20,6 +20,7 @@ from planmethod.note.plaintext import (
     wrap,
 )
 from planmethod.note.tables.sigmas import Sigmas, levelled
+from planmethod.note.tables.turn import cycle_tables
 from planmethod.note.wording import Wording, language, wording
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
@@ -64,6 +65,12 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
             lines += position_tables(solution, words, index, sigmas)
             lines += _forces(solution, words, index, sigmas)
             lines += _causes(solution, words, index) if sigma else []
+    if solution.problem.cycle is not None:
+        lines += ["", *cycle_tables(solution, language(words.lang))]
+    if solution.problem.machine is not None:
+        from planmethod.note.tables.machine import machine_tables
+
+        lines += ["", *machine_tables(solution, words)]
     ruler = given(solution.hand.ruler, words)
     lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
     return "\n".join(lines)

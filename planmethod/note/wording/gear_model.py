@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from planmethod.note.wording.gear_sheet_model import GearSheetWording
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GearWording:
@@ -16,8 +18,11 @@ class GearWording:
         By kind of train, name of the condition, reason why a value does not exist.
     columns_* : tuple of str
         Heads of the tables.
+    sheet : GearSheetWording
+        Sheet and protocol.
     """
 
+    sheet: GearSheetWording
     title: str
     structure: str
     kinds: Mapping[str, str]
@@ -29,7 +34,6 @@ class GearWording:
     closing: str
     equations: str
     equation: str
-    stage: str
     wheels: str
     columns_wheels: tuple[str, ...]
     speeds: str

@@ -9,16 +9,20 @@ from planmethod.note.numbers import Notation
 from planmethod.note.wording.audit_model import AuditWording
 from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.control_model import ControlWording
+from planmethod.note.wording.cycle_model import CycleWording
 from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.gear_model import GearWording
 from planmethod.note.wording.live_model import LiveWording
+from planmethod.note.wording.machine_model import MachineWording
+from planmethod.note.wording.meshing_model import MeshingWording
 from planmethod.note.wording.model import Wording
 from planmethod.note.wording.point_model import PointWording
 from planmethod.note.wording.sheet_model import SheetWording
 from planmethod.note.wording.specimen_model import SpecimenWording
 from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.synthesis_model import SynthesisWording
 from planmethod.note.wording.teeth_model import TeethWording
 
 
@@ -46,8 +50,14 @@ class Language:
         The form to fill in, and what cannot be read in works.
     point : PointWording
         The moving point.
-    gears, teeth : GearWording, TeethWording
-        Gear trains, and the choice of their teeth.
+    cycle : CycleWording
+        The turn of a crank.
+    gears, teeth, meshing : GearWording, TeethWording, MeshingWording
+        Gear trains, the choice of their teeth, two wheels in mesh.
+    machine : MachineWording
+        A machine and its flywheel.
+    synthesis : SynthesisWording
+        Syntheses.
     live : LiveWording
         The page of a moving mechanism.
     layouts : mapping
@@ -70,6 +80,10 @@ class Language:
     form: FormWording
     point: PointWording
     gears: GearWording
+    cycle: CycleWording
+    machine: MachineWording
+    meshing: MeshingWording
+    synthesis: SynthesisWording
     teeth: TeethWording
     live: LiveWording
     layouts: Mapping[str, str]

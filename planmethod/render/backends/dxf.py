@@ -20,6 +20,7 @@ from typing import Any
 import ezdxf
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
+from ezdxf.math import global_bspline_interpolation
 
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.layers import (
@@ -50,6 +51,7 @@ LINE_TYPES: Mapping[Pen, str] = MappingProxyType(
 _WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it stands for
 _BY_BLOCK = -2  # line weight of what takes that of its block
 _SMOOTH = radians(20.0)
+_DEGREE = 3  # of splines
 _NOT_TEXT = re.compile("[\x00-\x1f\x7f-\x9f]")
 
 
@@ -263,6 +265,10 @@ class DxfCanvas(Canvas):
         if len(item.points) == 2 and item.points[0] != item.points[1]:
             (a, b) = _pairs(item.points)
             self._space.add_line(a, b, dxfattribs=attributes)
+            return
+        if item.smooth and len(item.points) > _DEGREE:
+            curve = global_bspline_interpolation(_pairs(item.points), _DEGREE)
+            self._space.add_spline(dxfattribs=attributes).apply_construction_tool(curve)
             return
         if PENS[item.pen].dashes and _is_smooth(item.points):
             attributes["flags"] = 128  # the line type runs on through the corners

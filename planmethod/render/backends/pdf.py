@@ -8,6 +8,7 @@ from io import BytesIO
 from math import radians, tau
 from typing import Any
 
+from reportlab import rl_config
 from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import FILL_NON_ZERO
@@ -18,6 +19,8 @@ from planmethod.render.backends.curves import arc_curves
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
+
+rl_config.useA85 = 0  # bytes as they are: a fifth smaller than as text, and quicker
 
 _MM = 72.0 / 25.4
 _CAPS = {"butt": 0, "round": 1}

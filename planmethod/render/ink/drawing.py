@@ -38,12 +38,17 @@ class Ink(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """Open or closed polyline."""
+    """Open or closed polyline.
+
+    ``smooth`` tells that its points are of a curve without corners, which a format that has splines
+    draws as one.
+    """
 
     points: tuple[complex, ...]
     pen: Pen = Pen.MAIN
     closed: bool = False
     tag: str = ""
+    smooth: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +127,7 @@ class Span:
 
 VIEW_KINDS = (
     "position", "velocity", "acceleration", "forces", "balance", "reactions", "hodograph",
-    "structure",
+    "structure", "flywheel", "diagram", "meshing", "trajectory",
 )  # fmt: skip
 """Kinds of views: whoever tells of them has a word for each."""
 

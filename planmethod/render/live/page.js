@@ -14,9 +14,24 @@ function branch(one, x) {  // which side of its line a closing is on
   return passed % 2 === 0 ? 1 : -1;
 }
 
-function within(x, start) {  // angle from a start, [0, 360)
-  const turned = (((x - start) % TURN) + TURN) % TURN;
-  return turned > TURN - SLACK ? 0 : turned;
+const modulo = (x, turn) => ((x % turn) + turn) % turn;
+
+function within(x, start, turn) {  // angle from a start, [0, turn)
+  const turned = modulo(x - start, turn);
+  return turned > turn - SLACK ? 0 : turned;
+}
+
+function course(load, x, out) {  // share of the stroke of a point, or strokes done in the cycle
+  const { start, towards, dead, first, sense, cycle } = load.stroke;
+  const along = (out[load.place] - start[0]) * towards[0] + (out[load.place + 1] - start[1]) * towards[1];
+  const share = Math.min(1, Math.max(0, along / (towards[0] ** 2 + towards[1] ** 2)));
+  if (load.over === "path") return share;
+  let turned = modulo(sense * (x - first) * Math.PI / 180, cycle);
+  if (turned > cycle - 1e-9) turned = 0;
+  const since = modulo(turned - dead[0], cycle);
+  const number = [...dead.map(angle => angle - dead[0]), cycle].filter(m => m <= since + 1e-9).length - 1;
+  const done = number >= dead.length ? 0 : number % 2 ? 1 - share : share;
+  return Number.isNaN(share) ? NaN : number % dead.length + done;
 }
 
 function tabled(load, x, out) {  // size of a load that a table has
@@ -27,16 +42,17 @@ function tabled(load, x, out) {  // size of a load that a table has
   }
   let place = load.over === "x" ? out[load.place] : load.over === "y" ? out[load.place + 1] : x;
   if (load.over === "phi") {
-    place = within(x, at[0]);
+    place = within(x, at[0], load.turn);
     at = at.map(node => node - load.at[0]);
-    if (at[at.length - 1] < TURN) [at, values] = [[...at, TURN], [...values, values[0]]];
+    if (at[at.length - 1] < load.turn) [at, values] = [[...at, load.turn], [...values, values[0]]];
   }
+  if (load.stroke) place = course(load, x, out);
   const last = at.length - 1;
   if (load.step) {
     const slack = SLACK * (at[last] - at[0]);
     return values[Math.max(0, at.filter(node => node <= place + slack).length - 1)];
   }
-  if (!(place > at[0])) return Number.isNaN(place) ? NaN : values[0];
+  if (!(place >= at[0])) return Number.isNaN(place) ? NaN : values[0];
   if (place >= at[last]) return values[last];
   const k = at.findIndex(node => node > place) - 1;
   return values[k] + (values[k + 1] - values[k]) / (at[k + 1] - at[k]) * (place - at[k]);
@@ -51,7 +67,7 @@ function loads(x, out) {  // what the tape is told of loads that differ from pos
     let size = load.values ? tabled(load, x, out) : load.size;
     const { spans, ahead } = load;
     if (spans && spans.length && !spans.some(([start, end]) =>
-      within(x, start) <= ((((end - start) % TURN) + TURN) % TURN || TURN) + SLACK)) size = 0;
+      within(x, start, TURN) <= (modulo(end - start, TURN) || TURN) + SLACK)) size = 0;
     if (ahead && !(vx * ahead[0] + vy * ahead[1] > STILL * speed)) size = 0;
     if (load.turning && sense !== load.turning) size = 0;
     if (load.place === undefined) return [load.against ? -size * sense : size];
@@ -121,7 +137,8 @@ for (const view of D.views) {
   const look = event => {
     const inside = view.svg.getScreenCTM().inverse();
     const p = new DOMPoint(event.clientX, event.clientY).matrixTransform(inside);
-    const near = view.segments.map(one => one.symbol && one.ends ? distance([p.x, p.y], one.ends) : 1e9);
+    const near = view.segments.map(one => one.symbol && one.ends && !one.covered ?
+      distance([p.x, p.y], one.ends) : 1e9);
     const best = Math.min(...near);
     view.hot = best * view.svg.getScreenCTM().a < 22 ? near.indexOf(best) : -1;
     tell(view);
@@ -353,7 +370,7 @@ function plot(q) {
     rule([[PAD[0], q.y(value)], [WIDE - PAD[1], q.y(value)]], value ? "grid" : "axis");
     text(PAD[0] - 4, q.y(value) + 3.5, short(+value.toPrecision(6), 6), "end");
   }
-  const across = D.crank ? [0, 90, 180, 270, 360] : ticks(LOW, HIGH, 5);
+  const across = D.crank ? [0, 1, 2, 3, 4].map(k => k * HIGH / 4) : ticks(LOW, HIGH, 5);
   for (const value of across) {
     rule([[q.x(value), PAD[2]], [q.x(value), TALL - PAD[3]]], "grid");
     text(q.x(value), TALL - 5, short(+value.toPrecision(4), 4), "middle");
@@ -413,7 +430,7 @@ function edge(x, step) {  // the last position before a gap, seen from inside it
     const half = (inside + out) / 2;
     if (at(half)[END] >= 0) inside = half; else out = half;
   }
-  return D.crank ? ((out % TURN) + TURN) % TURN : out;
+  return D.crank ? modulo(out, HIGH) : out;
 }
 
 function warn(out) {
@@ -451,9 +468,10 @@ function show(x) {
 function tick(time) {
   if (!playing) return;
   const speed = +byId("speed").value, whole = HIGH - LOW;
-  let next = position + sense * Math.min(0.1, (time - playing) / 1000) * whole / 8 * speed;
+  let next = position + sense * Math.min(0.1, (time - playing) / 1000) * speed *
+    (D.crank ? TURN : whole) / 8;
   playing = time;
-  if (D.crank) next = ((next % TURN) + TURN) % TURN;
+  if (D.crank) next = modulo(next, HIGH);
   // It turns back where there is no way on.
   if (next < LOW || next > HIGH || (!exists(at(next)) && exists(now))) sense = -sense;
   else show(next);
@@ -469,7 +487,7 @@ play.addEventListener("click", () => {
 slider.addEventListener("input", () => show(+slider.value));
 exact.addEventListener("input", () => {
   const x = parseFloat(exact.value);
-  if (Number.isFinite(x)) show(D.crank ? ((x % TURN) + TURN) % TURN : Math.min(HIGH, Math.max(LOW, x)));
+  if (Number.isFinite(x)) show(D.crank ? modulo(x, HIGH) : Math.min(HIGH, Math.max(LOW, x)));
 });
 byId("trace").addEventListener("change", event => {
   for (const node of traces) node.setAttribute("visibility", event.target.checked ? "visible" : "hidden");

@@ -25,13 +25,14 @@ from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.bodies import rotation
-from planmethod.problem.load_records import Fixed, Interpolation, Table, Turning
+from planmethod.problem.load_records import Fixed, Interpolation, Over, Table, Turning
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.parts import Part, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
 from planmethod.solved.asked import results_for
+from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.cycle import only_in_positions
 from planmethod.solved.forces.loads import AHEAD, applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
@@ -309,7 +310,7 @@ class Scene:
         """Look where the mechanism can go; choose the scales."""
         drive = self.problem.drive
         if drive.is_crank:
-            self.way = (0.0, 360.0)
+            self.way = (0.0, self._cycle())
         else:
             self.way = self._reach()
         count = _STEPS[drive.is_crank] * _LOOKS
@@ -337,7 +338,7 @@ class Scene:
         self.shown = Solution(self.problem, positions=chosen.tolist(), scales=unit)
         self.start = float(mine[0] if mine.size else able[0])
         if drive.is_crank:
-            self.start %= 360.0
+            self.start %= self.way[1]
 
     def _run(self, positions: Array) -> tuple[Array, Array]:
         """Return the outputs in some positions, and the first guard that fails, or -1.
@@ -416,6 +417,27 @@ class Scene:
             "positions": list(self.problem.drive.positions),
         }
 
+    def _cycle(self) -> float:
+        """Return after how many degrees all is as before, the loads too."""
+        dynamics, machine = self.problem.dynamics, self.problem.machine
+        tables = [load.size for load in dynamics.loads] if dynamics is not None else []
+        turns = [table.turn for table in tables if isinstance(table, Table)]
+        if machine is not None and any(isinstance(table, Table) for table in tables):
+            turns.append(machine.cycle_deg)
+        return max([360.0, *turns])
+
+    def _stroke(self, point: str) -> dict[str, Any]:
+        turn = TurnMotion(self.problem)
+        stroke = turn.stroke(point)
+        return {
+            "start": [stroke.start.real, stroke.start.imag],
+            "towards": [stroke.towards.real, stroke.towards.imag],
+            "dead": stroke.dead.tolist(),
+            "first": turn.start_deg,
+            "sense": turn.sense,
+            "cycle": turn.cycle,
+        }
+
     def _load(self, load: Any) -> dict[str, Any]:
         phase = load.phase
         told: dict[str, Any] = {"omega": self._row[f"{load.link}.omega"]}
@@ -423,6 +445,9 @@ class Scene:
         if isinstance(size, Table):
             told["over"], told["step"] = size.over.value, size.interpolation is Interpolation.STEP
             told["at"], told["values"] = list(size.at), list(size.values)
+            told["turn"] = size.turn
+            if size.over in (Over.PATH, Over.STROKES):
+                told["stroke"] = self._stroke(load.at)
         else:
             told["size"] = size
         if phase is not None:

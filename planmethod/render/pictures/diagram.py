@@ -90,6 +90,8 @@ def diagram_picture(
     *,
     letter_height: float,
     name: str,
+    construction: Sequence[Item] = (),
+    labels: Sequence[Label] = (),
 ) -> Picture:
     """Return a diagram, the crossing of its axes at the origin.
 
@@ -97,6 +99,10 @@ def diagram_picture(
     ----------
     marks : iterable of (Mark, complex)
         Points that were found on their own.
+    construction : sequence of Item
+        Lines that the diagram was found with.
+    labels : sequence of Label
+        Letters of a pole and its rays, which leave the axis of ordinates no room for its numbers.
     letter_height : float, mm
         Of the letters; the numbers are a size smaller, 2.5 mm at least.
     name : str
@@ -105,10 +111,9 @@ def diagram_picture(
     heights = [place.imag for curve in curves for part in curve.parts for place in part]
     low, high = min([0.0, *heights]), max([0.0, *heights])
     size = max(2.5, 0.7 * letter_height)
-    items = [
-        *_axes(across, up, low, high, letter_height),
-        *_ordinate_numbers(up, low, high, size),
-    ]
+    items = [*_axes(across, up, low, high, letter_height), *construction]
+    if not labels:
+        items += _ordinate_numbers(up, low, high, size)
     for x in across.at:
         items.append(Stroke((complex(x, -_TICK), complex(x, _TICK)), Pen.THIN, tag=AXIS))
     for curve in curves:
@@ -116,7 +121,7 @@ def diagram_picture(
     for mark, at in marks:
         items += mark_items(mark, at)
     every = _every(across.at, 2.0 * size)
-    labels = [
+    numbers = [
         Label(
             typeset(number, size),
             complex(x, 0.0),
@@ -125,10 +130,9 @@ def diagram_picture(
             name=f"{name}: position {k}",
         )
         for k, (x, number) in enumerate(zip(across.at, across.numbers, strict=True))
-        if k % every == 0
+        if number and k % every == 0
     ]
-    labels += _letters(curves, letter_height, name)
-    return lettered(items, labels)
+    return lettered(items, [*numbers, *labels, *_letters(curves, letter_height, name)])
 
 
 def _every(at: Sequence[float], least: float) -> int:

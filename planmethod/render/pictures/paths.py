@@ -18,6 +18,7 @@ from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.travel import TURN, Travel
+from planmethod.solved.turn.turn import turn_of
 
 TRAJECTORY = "trajectory"
 """Tag of the line that a point moves along: ``trajectory B``."""
@@ -117,6 +118,9 @@ class Paths:
     def output(self) -> tuple[str, str] | None:
         """Link of the last group that is joined with the frame, and its moving point."""
         s = self.solution
+        if s.problem.cycle is not None:
+            output = turn_of(s).output
+            return output.link, output.point
         bodies, fixed = s.problem.bodies, s.problem.bodies[FRAME].points
         on_frame = {
             slide.slider: slide for slide in s.problem.slides.values() if slide.host == FRAME
@@ -139,6 +143,9 @@ class Paths:
         """
         if self.output is None:
             return ()
+        if self.course.closed and self.solution.problem.drive.is_crank:
+            ends = turn_of(self.solution).ends or ()
+            return tuple(sorted(round(end.phi % TURN, 9) % TURN for end in ends))
         link, point = self.output
         places = self.of(point)
         if np.isnan(places).any() or len(places) < 5:
@@ -157,21 +164,16 @@ class Paths:
 
     def _turn(self, reach: Reals, k: int) -> float | None:
         """Return the driver position of an extreme near the one numbered ``k``."""
-        last = len(reach) - 1
-        if self.course.closed:
-            before, after = (k - 1 if k else last - 1), (k + 1 if k < last else 1)
-        elif k in (0, last):
+        if k in (0, len(reach) - 1):
             return None
-        else:
-            before, after = k - 1, k + 1
+        before, after = k - 1, k + 1
         a, b, c = float(reach[before]), float(reach[k]), float(reach[after])
         bend = a - 2 * b + c
         if abs(bend) < 1e-12:
             return None
         step = float(self.course.positions[1] - self.course.positions[0])
         # The vertex of the parabola through three places.
-        at = float(self.course.positions[k]) + step * (a - c) / (2 * bend)
-        return at % TURN if self.course.closed else at
+        return float(self.course.positions[k]) + step * (a - c) / (2 * bend)
 
 
 def _unbroken(places: Complexes) -> list[Complexes]:

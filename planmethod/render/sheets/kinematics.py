@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
@@ -24,6 +25,7 @@ from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 from planmethod.solved.scaling import Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import turn_of
 
 MOST_POSITIONS = 120
 """Most positions drawn in one call: ten sheets of a dozen plans."""
@@ -149,29 +151,35 @@ def kinematics_sheets(
     CompositionError
         When the composition is faulty.
     """
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
+    if positions is None and made is not None and made.turn:
+        positions = turn_of(Solution(problem)).positions.tolist()
     asked = problem.drive.positions if positions is None else tuple(positions)
     if len(asked) > MOST_POSITIONS:
         raise LayoutError(
             f"{problem.name}: sheets are drawn for at most {MOST_POSITIONS} positions, "
             f"{len(asked)} are asked. Ask fewer (--phi 0:360:30); for tables take solve --csv."
         )
-    if layout is None:
-        layout = "one-position" if len(asked) == 1 else "many-positions"
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    made = layout if isinstance(layout, Composition) else composition(layout, words.lang)
+    if made is None:
+        made = composition("one-position" if len(asked) == 1 else "many-positions", words.lang)
     _check_positions(made, len(asked))
     paper = paper or problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)
     extras = Extras(words, errors, sigma)
     papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
-    task = _Task(problem, made, tuple(asked), ruler, profile, extras)
+    scales = problem.scales
+    tasks = [_Task(problem, made, tuple(asked), ruler, profile, extras)]
+    if made.turn and (scales.mu_v, scales.mu_a) != (None, None):
+        # Scales for one position may be too fine for a dozen plans on one sheet.
+        free = replace(problem, scales=replace(scales, mu_v=None, mu_a=None))
+        tasks.append(replace(tasks[0], problem=free))
     with using(lettering(problem.sheet.lettering or "B")):
-        for name in papers:
+        for name, task in product(papers, tasks):
             fmt = paper_format(name)
             pages = task.on(Paper(name, partial(furniture.room, fmt), forced=paper is not None))
             if pages is not None:
                 return _drawn(problem, pages, fmt, fields or {}, furniture)
-    scales = problem.scales
     given = any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
     advice = (
         "Take coarser scales in [scales], or leave them out"

@@ -96,6 +96,8 @@ class Composition:
         Positions on one sheet: as many as fit; the others go on further sheets.
     grow : bool
         Plans whose scale is free are drawn larger where the paper has room.
+    turn : bool
+        The positions are those of ``[cycle]`` where no others are asked.
     sizes : mapping
         By basic format.
     arranged : mapping
@@ -109,6 +111,7 @@ class Composition:
     formats: tuple[str, ...]
     per_sheet: tuple[int, ...]
     grow: bool
+    turn: bool
     sizes: Mapping[str, Sizes]
     arranged: Mapping[tuple[str, ...], Arrange]
     titles: Mapping[int, str]

@@ -92,6 +92,7 @@ def wheel_profile(
     *,
     ways: tuple[int, ...] = (1, -1),
     loose: bool = False,
+    bore: float = 0.0,
     tag: str = "",
 ) -> list[Item]:
     """Return a wheel from the side: its disc and a cross-bar at the teeth (колесо, вид сбоку).
@@ -107,10 +108,12 @@ def wheel_profile(
     loose : bool
         The wheel turns on its shaft: a hub of two cross-bars with the shaft between them (колесо
         на подшипнике). Otherwise it is fixed to it.
+    bore : float, mm
+        Half the width of the hollow shaft that its disc begins on.
     """
     tooth = SIZES.teeth / 2
     rim = radius - SIZES.mesh / 2
-    root = SIZES.mesh / 2 if loose else 0.0
+    root = SIZES.mesh / 2 if loose else bore
     items: list[Item] = []
     for way in ways:
         top, low = centre + 1j * way * rim, centre + 1j * way * root
@@ -121,31 +124,40 @@ def wheel_profile(
     return items
 
 
-def ring_profile(centre: complex, radius: float, *, stem: float = 6.0) -> list[Item]:
+def ring_profile(centre: complex, radius: float, *, stem: float = 6.0, way: int = 1) -> list[Item]:
     """Return the upper half of a fixed wheel with inner teeth, from the side (неподвижное колесо).
 
     Its cross-bar stands half a mesh outside the pitch radius; from there a stem of ``stem`` mm goes
-    to the hatched frame.
+    to the hatched frame. ``way`` -1: the lower half.
     """
     tooth, base = SIZES.teeth / 2, SIZES.base / 2
-    top = centre + 1j * (radius + SIZES.mesh / 2)
-    foot = top + 1j * stem
+    top = centre + 1j * way * (radius + SIZES.mesh / 2)
+    foot = top + 1j * way * stem
     return [
         Stroke((top - tooth, top + tooth)),
         Stroke((top, foot)),
-        *ground_line(foot - base, foot + base, side=1),
+        *ground_line(foot - base, foot + base, side=way),
     ]
 
 
-def bell_profile(centre: complex, radius: float, *, web: float, tag: str = "") -> list[Item]:
+def bell_profile(
+    centre: complex,
+    radius: float,
+    *,
+    web: float,
+    way: int = 1,
+    bore: float = 0.0,
+    tag: str = "",
+) -> list[Item]:
     """Return the upper half of a wheel with inner teeth that turns (колесо с внутренними зубьями).
 
     Its rim stands half a mesh outside the pitch radius and goes ``web`` mm beside the mesh
-    (negative: to the left) to the web, which comes down to the axis.
+    (negative: to the left) to the web, which comes down to the axis, or to a hollow shaft of half
+    the width ``bore``. ``way`` -1: the lower half.
     """
     tooth = SIZES.teeth / 2 * (-1 if web > 0 else 1)
-    out, beside = 1j * (radius + SIZES.mesh / 2), centre + web
-    return [Stroke((centre + out + tooth, beside + out, beside), tag=tag)]
+    out, beside = 1j * way * (radius + SIZES.mesh / 2), centre + web
+    return [Stroke((centre + out + tooth, beside + out, beside + 1j * way * bore), tag=tag)]
 
 
 def carrier_profile(pin: complex, centre: complex, *, reach: float, tag: str = "") -> list[Item]:

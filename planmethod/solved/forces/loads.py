@@ -28,7 +28,8 @@ from planmethod.problem.load_records import (
     Turning,
 )
 from planmethod.problem.model import Problem
-from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.course.motion import Moved, TurnMotion
+from planmethod.solved.reading import Complexes, Reals, Remembering
 from planmethod.solved.solution import LinkMotion, PointMotion
 
 STILL = 1e-10
@@ -92,7 +93,7 @@ def applied(solution: MotionValues) -> tuple[Applied, ...]:
         mass = dynamics.masses.get(link)
         if mass is not None:
             found += _of_mass(solution, dynamics.gravity, link, mass)
-        found += _external(solution, dynamics, link)
+        found += external(solution, dynamics, link)
     return tuple(found)
 
 
@@ -107,7 +108,7 @@ def changing(solution: MotionValues) -> dict[str, Applied]:
     dynamics = solution.problem.dynamics
     assert dynamics is not None, "who has no loads has none that change"
     links = solution.problem.mechanism.links
-    found = (one for link in links for one in _external(solution, dynamics, link))
+    found = (one for link in links for one in external(solution, dynamics, link))
     return {one.name: one for one in found if one.steady is None}
 
 
@@ -118,7 +119,8 @@ def needs_motion(load: Load | Couple) -> bool:
         return True
     if phase is not None and (phase.moving is not None or phase.turning is not None):
         return True
-    return isinstance(load.size, Table) and load.size.over in (Over.X, Over.Y)
+    of_point = (Over.X, Over.Y, Over.PATH, Over.STROKES)
+    return isinstance(load.size, Table) and load.size.over in of_point
 
 
 def _force(
@@ -176,7 +178,8 @@ def _may_turn_unevenly(solution: MotionValues, link: str) -> bool:
 # External loads ----------------------------------------------------------------------------------
 
 
-def _external(solution: MotionValues, dynamics: Dynamics, link: str) -> Iterator[Applied]:
+def external(solution: MotionValues, dynamics: Dynamics, link: str) -> Iterator[Applied]:
+    """Yield the external loads of a link, in file order; none that is zero by nature."""
     for index, load in enumerate(dynamics.loads):
         if load.link != link or _is_nothing(solution, load):
             continue
@@ -249,10 +252,10 @@ def _within(phi: Reals, start: float, end: float) -> Mask:
     return _from(phi, start) <= width + SLACK
 
 
-def _from(phi: Reals, start: float) -> Reals:
-    """Return angles counted from a start, degrees in [0, 360); rounding leaves the start 0."""
-    turned = np.mod(phi - start, TURN)
-    return np.where(turned > TURN - SLACK, 0.0, turned)
+def _from(phi: Reals, start: float, turn: float = TURN) -> Reals:
+    """Return angles counted from a start, degrees in [0, turn); rounding leaves the start 0."""
+    turned = np.mod(phi - start, turn)
+    return np.where(turned > turn - SLACK, 0.0, turned)
 
 
 # Tables ------------------------------------------------------------------------------------------
@@ -275,6 +278,36 @@ def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | fl
             assert isinstance(load, Load), "a couple has no point"
             place = solution.points[load.at].place
             return _read(size, place.real if size.over is Over.X else place.imag)
+        case Over.PATH | Over.STROKES:
+            assert isinstance(load, Load), "a couple has no point"
+            turn, place = _turn(solution), solution.points[load.at].place
+            stroke = turn.stroke(load.at)
+            if size.over is Over.PATH:
+                return _read(size, stroke.share(place))
+            given, there = round(size.at[-1]), len(stroke.dead)
+            if given != there:
+                fault = Fault(
+                    f"loads[{index}].force.strokes",
+                    f"{given} strokes, point {load.at} makes {there} in a cycle of "
+                    f"{np.degrees(turn.cycle):g} degrees",
+                    "A four-stroke engine has [machine] cycle_deg = 720.",
+                )
+                raise ProblemError(solution.problem.name, [fault])
+            turned = turn.turned(solution.positions)
+            return _read(size, stroke.progress(turned, place, turn.cycle))
+
+
+def _turn(solution: MotionValues) -> TurnMotion:
+    """Return the motion of the whole cycle: what a path or a stroke is, is known of it only."""
+    if isinstance(solution, Moved):
+        return solution.turn
+    if isinstance(solution, Remembering):
+        return solution.once(_turn_of)
+    return _turn_of(solution)
+
+
+def _turn_of(solution: MotionValues) -> TurnMotion:
+    return TurnMotion(solution.problem)
 
 
 def _periodic(table: Table, phi: Reals) -> Reals:
@@ -282,9 +315,10 @@ def _periodic(table: Table, phi: Reals) -> Reals:
     start = table.at[0]
     at = tuple(node - start for node in table.at)
     values = table.values
-    if at[-1] < TURN:
-        at, values = (*at, TURN), (*values, values[0])
-    return _read(Table(table.over, at, values, table.interpolation), _from(phi, start))
+    if at[-1] < table.turn:
+        at, values = (*at, table.turn), (*values, values[0])
+    since = _from(phi, start, table.turn)
+    return _read(Table(table.over, at, values, table.interpolation), since)
 
 
 def _read(table: Table, at: Reals) -> Reals:

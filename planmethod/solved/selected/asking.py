@@ -48,6 +48,7 @@ class NoAnswer(Enum):
     NO_FORCES = "no forces"  # the file has neither masses nor loads
     NO_JOINT = "no joint"  # the links do not touch each other
     NO_DIRECTION = "no direction"  # a force that is nothing has no angle and no arm
+    NO_MACHINE = "no machine"  # the file has no [machine]
     STANDS = "stands"  # the lever of a driving link that does not move
 
 

@@ -36,6 +36,9 @@ def _load(solution: Solution, load: Load | Couple, words: Language) -> str:
         case Over.X | Over.Y:
             assert isinstance(load, Load), "a couple has no point"
             over = f"{load.size.over.value}_{{{point_name(load.at)}}}"
+        case Over.PATH | Over.STROKES:
+            assert isinstance(load, Load), "a couple has no point"
+            over = f"s_{{{point_name(load.at)}}}"
         case Over.POSITION:
             over = words.note.number
     return words.sheets.load_table.format(

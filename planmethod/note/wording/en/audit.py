@@ -58,6 +58,7 @@ AUDIT = AuditWording(
         "no arm": "the point is on the axis of the crank, its arm is zero",
         "no sliding": "no sliding pair of these points",
         "zero divisor": "the divisor is zero",
+        "no machine": "the file has no [machine]",
         "no forces": "the file has no masses and no loads",
         "no joint": "these links have no joint",
         "no direction": "the force is zero: it has no direction and no arm",

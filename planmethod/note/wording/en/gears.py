@@ -1,8 +1,10 @@
 """Words of gear trains in English (зубчатые механизмы по-английски)."""
 
+from planmethod.note.wording.en.gearsheet import GEAR_SHEET
 from planmethod.note.wording.gear_model import GearWording
 
 GEARS = GearWording(
+    sheet=GEAR_SHEET,
     title="Gear train: {title}",
     structure="Structure",
     kinds={
@@ -21,7 +23,6 @@ GEARS = GearWording(
     closing="Closing chain: {meshes}",
     equations="Mesh equations",
     equation="{name}: {equation};  {stage}",
-    stage="U{hat}_{one}-{other} = {value}",
     wheels="Wheels",
     columns_wheels=("wheel", "{letter}", "axis, {unit}"),
     speeds="Speeds",

@@ -11,11 +11,22 @@ LAYOUTS = MappingProxyType(
         "coursework_about": "course project: twelve positions on one A1 sheet",
         "coursework_scheme": "Position plans of the mechanism",
         "coursework_results": "Results by positions",
+        "turn_head": "Sheet 1 of a coursework: the turn of the crank on A1. Positions are those of "
+        "[cycle] (or its defaults).\n# The scheme in twelve positions with the extreme ones, "
+        "velocity plans, chosen acceleration plans,\n# hodographs, diagrams of s, v and a, "
+        "the table.",
+        "turn_about": "sheet 1 of a coursework: the turn, position 0, twelve positions, diagrams, "
+        "hodographs",
+        "turn_title": "Kinematic analysis of the mechanism",
         "cycle_head": "Force analysis over the cycle: reactions and balancing moment in all "
         "positions.\n# The problem file needs [dynamics] and [[loads]], and several positions.",
         "cycle_about": "force analysis over the cycle: diagrams of reactions and balancing "
         "moment, polar diagrams, table by positions",
         "cycle_title": "Force analysis over the cycle",
+        "flywheel_head": "Sheet 3 of a course work: the choice of the flywheel.\n# Needs [machine] "
+        "in the problem file.",
+        "flywheel_about": "flywheel: moments, work, inertia, energy-mass diagram, sizes",
+        "flywheel_title": "Choice of the flywheel",
         "forces_head": "Sheet 2 of a course work: forces in one position. Groups are cut free "
         "from the last to the first.\n# The problem file needs [dynamics] and [[loads]]; of "
         "several positions each has its sheet.",

@@ -6,6 +6,7 @@ UNITS = {
     "m": "m",
     "mm": "mm",
     "mm²": "mm²",
+    "s": "s",
     "m/s": "m/s",
     "m/s²": "m/s²",
     "1/min": "min⁻¹",
@@ -17,6 +18,8 @@ UNITS = {
     "kg·m²": "kg·m²",
     "N": "N",
     "N·m": "N·m",
+    "J": "J",
+    "kg/m³": "kg/m³",
 }
 """Units as plain text, by those of SI."""
 
@@ -24,6 +27,16 @@ NOTATION = Notation(
     decimal=".",
     units={name: raised(unit) for name, unit in UNITS.items()},
     symbols={
+        "resisting moment": "M_{r}",
+        "driving moment": "M_{d}",
+        "resisting work": "A_{r}",
+        "driving work": "A_{d}",
+        "energy gain": "ΔT",
+        "reduced inertia": "J_{r}",
+        "flywheel": "J_{f}",
+        "crank inertia": "J_{cr}",
+        "mean speed": "ω_{m}",
+        "moment by lever": "M^{Zh}",
         "balancing moment": "M_{b}",
         "balancing force": "F_{b}",
         "lever moment": "M^{L}_{b}",

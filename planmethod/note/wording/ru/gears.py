@@ -1,8 +1,10 @@
 """Words of gear trains in Russian (зубчатые механизмы по-русски)."""
 
 from planmethod.note.wording.gear_model import GearWording
+from planmethod.note.wording.ru.gearsheet import GEAR_SHEET
 
 GEARS = GearWording(
+    sheet=GEAR_SHEET,
     title="Зубчатый механизм: {title}",
     structure="Структура",
     kinds={
@@ -21,7 +23,6 @@ GEARS = GearWording(
     closing="Замыкающая цепь: {meshes}",
     equations="Уравнения зацеплений",
     equation="{name}: {equation};  {stage}",
-    stage="U{hat}_{one}-{other} = {value}",
     wheels="Колёса",
     columns_wheels=("колесо", "{letter}", "ось, {unit}"),
     speeds="Скорости звеньев",

@@ -6,6 +6,7 @@ UNITS = {
     "m": "м",
     "mm": "мм",
     "mm²": "мм²",
+    "s": "с",
     "m/s": "м/с",
     "m/s²": "м/с²",
     "1/min": "мин⁻¹",
@@ -17,6 +18,8 @@ UNITS = {
     "kg·m²": "кг·м²",
     "N": "Н",
     "N·m": "Н·м",
+    "J": "Дж",
+    "kg/m³": "кг/м³",
 }
 """Units as plain text, by those of SI."""
 
@@ -24,6 +27,16 @@ NOTATION = Notation(
     decimal=",",
     units={name: raised(unit) for name, unit in UNITS.items()},
     symbols={
+        "resisting moment": "M_{с}",
+        "driving moment": "M_{д}",
+        "resisting work": "A_{с}",
+        "driving work": "A_{д}",
+        "energy gain": "ΔT",
+        "reduced inertia": "J_{п}",
+        "flywheel": "J_{м}",
+        "crank inertia": "J_{кр}",
+        "mean speed": "ω_{ср}",
+        "moment by lever": "M^{Ж}",
         "balancing moment": "M_{ур}",
         "balancing force": "F_{ур}",
         "lever moment": "M^{Ж}_{ур}",

@@ -32,7 +32,18 @@ from planmethod.render.sheets.composition.values import (
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text
 from planmethod.render.sheets.model import FORMATS, Composition, Entry, Sizes
 
-TOP = ("about", "formats", "per_sheet", "grow", "arrange", "sizes", "groups", "sheets", "blocks")
+TOP = (
+    "about",
+    "formats",
+    "per_sheet",
+    "grow",
+    "turn",
+    "arrange",
+    "sizes",
+    "groups",
+    "sheets",
+    "blocks",
+)
 SIZES = ("letter", "title", "text", "column", "scheme", "velocity", "acceleration")
 SHEET = ("title",)
 
@@ -89,6 +100,7 @@ def read_composition(text: str, *, name: str) -> Composition:
     formats = _read_formats(faults, given.get("formats", ["A3", "A2", "A1", "A0"]))
     per_sheet = _read_per_sheet(faults, given.get("per_sheet", [12, 6, 4, 2, 1]))
     grow = read_switch(faults, "grow", given.get("grow", False))
+    turn = read_switch(faults, "turn", given.get("turn", False))
     sizes = _read_sizes(faults, given.get("sizes", {}), whole=name == SHIPPED[0])
     blocks = read_entries(faults, given.get("blocks"))
     made = Composition(
@@ -97,6 +109,7 @@ def read_composition(text: str, *, name: str) -> Composition:
         formats=formats,
         per_sheet=per_sheet,
         grow=grow,
+        turn=turn,
         sizes=sizes,
         arranged=_read_groups(faults, given, blocks),
         titles=_read_sheets(faults, given.get("sheets", {}), {entry.sheet for entry in blocks}),

@@ -12,7 +12,16 @@ from string import Template
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import language
 
-SHIPPED = ("one-position", "many-positions", "homework", "coursework-12", "forces", "forces-cycle")
+SHIPPED = (
+    "one-position",
+    "many-positions",
+    "homework",
+    "coursework",
+    "coursework-12",
+    "forces",
+    "forces-cycle",
+    "flywheel",
+)
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
 

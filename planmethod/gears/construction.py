@@ -1,0 +1,453 @@
+"""The pictures of velocities as one construction, and what is read off it (построение картин).
+
+The axis of contact points, ``yy``, is vertical, velocities are laid off to the right of it. The
+velocity of a body is a straight line over it; a body's line is drawn as soon as two of its points
+are known, and gives all its other points. Rays parallel to the lines, from the pole to a level line
+at the pole distance, cut off segments as long as the bodies are quick.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import combinations
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.drafting import Counted, Profile, Propagated
+from planmethod.construct.dual import as_dual
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.hand import Hand
+from planmethod.construct.program import Builder, Program
+from planmethod.construct.steps import LineName, NumberName, PointName
+from planmethod.errors import PlanMethodError
+from planmethod.gears.asked import parse
+from planmethod.gears.motion import Motion
+from planmethod.gears.picture import Picture, carrier_of
+
+LETTERS = "abcdefghklmnqrstuvwxz"
+"""Letters of contact points, in the order of the meshes; ``p`` is the pole."""
+
+NEAR = 1e-6
+"""Difference of the construction from the mesh equations that is a fault, not rounding."""
+
+FEET, POLE = PointName("o'"), PointName("p")
+"""Foot of the main axis on ``yy``, and the pole of the rays: they may stand anywhere."""
+
+
+class PictureError(PlanMethodError):
+    """The pictures contradict the mesh equations: a fault of the program (самопроверка)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A point of the picture of linear velocities (точка картины).
+
+    Attributes
+    ----------
+    contact : str
+        As `Picture` names it: ``pitch 1-2``, ``axis 2``.
+    letter : str
+        Rich text.
+    foot, end : PointName
+        Its place on ``yy``, and the end of its velocity.
+    bodies : tuple of str
+        Those that have this velocity there.
+    height, speed : Fraction, mm
+    read : NumberName or None
+        Its segment as it is read; None where it is laid off, or nothing.
+    """
+
+    contact: str
+    letter: str
+    foot: PointName
+    end: PointName
+    bodies: tuple[str, ...]
+    height: Fraction
+    speed: Fraction
+    read: NumberName | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A quantity that is read off the pictures (снятая величина).
+
+    Attributes
+    ----------
+    name : str
+        As it is asked for: ``n_5``, ``U_1_5^H``.
+    exact : Fraction or float
+        A float where it is no fraction: 1/s of rev/min.
+    read : NumberName
+    rays : tuple of str
+        Bodies whose rays it is computed from.
+    """
+
+    name: str
+    exact: Fraction | float
+    read: NumberName
+    rays: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Construction:
+    """Both pictures as steps (построение).
+
+    Attributes
+    ----------
+    data : mapping
+        Lengths in mm, angles in degrees, scales; exact.
+    starts : tuple of str
+        Bodies whose speed is laid off; ``calculated`` are those of them that are no inputs while
+        all inputs together would not close the picture.
+    lines, rays : mapping
+        By body: its line, the end of its ray.
+    segments : mapping
+        By body: its segment on the line of the rays, as it is read.
+    """
+
+    motion: Motion
+    picture: Picture
+    program: Program
+    data: Mapping[str, Fraction]
+    starts: tuple[str, ...]
+    calculated: tuple[str, ...]
+    spots: tuple[Spot, ...]
+    lines: Mapping[str, LineName]
+    rays: Mapping[str, PointName]
+    segments: Mapping[str, NumberName]
+    found: tuple[Found, ...]
+
+    def label(self, body: str) -> str:
+        """Return what a line of a body is called: all the numbers of the body."""
+        body_of = self.motion.train.body_of
+        labels = dict.fromkeys(label.rstrip("'") for label in body_of)
+        return ", ".join(label for label in labels if body_of[label] == body)
+
+    def numbers(self) -> dict[str, Number]:
+        """Return the data as floats."""
+        return {name: float(value) for name, value in self.data.items()} | {FEET: 0j, POLE: 0j}
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """The construction drawn and read (чтение построения).
+
+    Attributes
+    ----------
+    exact : Trace
+        In float64.
+    read : Trace
+        With the ruler.
+    sigma : mapping
+        Drafting errors of the numbers, one standard deviation.
+    """
+
+    exact: Trace
+    read: Trace
+    sigma: Mapping[str, float]
+
+    def point(self, name: PointName) -> complex:
+        """Return a point, mm."""
+        return complex(self.exact.value[name])
+
+
+def read(drawn: Construction, profile: Profile) -> Reading:
+    """Draw the construction, and read it with the ruler of a draughtsman.
+
+    Raises
+    ------
+    PictureError
+        The construction does not give the fractions of the mesh equations.
+    """
+    program, data = drawn.program, drawn.numbers()
+    free = frozenset((str(FEET), str(POLE)))
+    counted = Counted(profile, free)
+    evaluate(program, data, counted)
+    pencil = Propagated(profile, free, counted.causes)
+    slopes = evaluate(program, data, pencil).value
+    names = [*drawn.segments.values(), *(one.read for one in drawn.found)]
+    names += [spot.read for spot in drawn.spots if spot.read is not None]
+    sigma: dict[str, float] = {}
+    for name in names:
+        slope = as_dual(slopes[name]).slope
+        sigma[name] = 0.0 if slope is None else float(np.sqrt((slope**2).sum()))
+    exact = evaluate(program, data, Float64())
+    for one in drawn.found:
+        got, due = float(exact.value[one.read]), float(one.exact)
+        if not abs(got - due) <= NEAR * max(1.0, abs(due)):
+            told = f"the pictures give {one.name} = {got:.12g}, the mesh equations {due:.12g}"
+            raise PictureError(f"{told}. Please report the problem file.")
+    return Reading(exact, evaluate(program, data, Hand(ruler=profile.ruler)), sigma)
+
+
+def construct(motion: Motion, picture: Picture) -> Construction:
+    """Return the construction of the pictures of a train."""
+    return _Drawing(motion, picture).construction()
+
+
+@dataclass
+class _Drawing:
+    """A construction while it is made."""
+
+    motion: Motion
+    picture: Picture
+    builder: Builder = field(default_factory=Builder)
+    data: dict[str, Fraction] = field(default_factory=dict)
+    feet: dict[Fraction, PointName] = field(default_factory=dict)
+    lines: dict[str, LineName] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        train, scale = self.motion.train, self.motion.train.unit_m / self.picture.mu_l
+        used = {body for mesh in train.meshes for body in train.ends(mesh)} | set(train.carriers)
+        self.heights = {b: self.motion.axes.heights[b] * scale for b in train.bodies if b in used}
+        self.over = {body: carrier_of(self.motion, body) for body in self.heights}
+        meshes = {f"pitch {mesh.name}": train.ends(mesh) for mesh in train.meshes}
+        self.points: dict[str, tuple[Fraction, tuple[str, ...]]] = {}
+        for one in self.picture.contacts:
+            body = one.name.removeprefix("axis ")
+            over = self.over.get(body)
+            bodies = meshes.get(one.name) or ((body,) if over is None else (body, over))
+            self.points[one.name] = one.height_mm, bodies
+        self.speeds = {one.name: one.speed_mm for one in self.picture.contacts}
+        self.ends: dict[str, PointName] = {}
+
+    def construction(self) -> Construction:
+        builder, train = self.builder, self.motion.train
+        origin = builder.given(FEET)
+        self.base = builder.at_angle(origin, None, self._known("level", Fraction(0)))
+        self.axis = builder.perpendicular(origin, self.base)
+        self.feet[Fraction(0)] = origin
+        for name, (height, _) in self.points.items():
+            if height not in self.feet:
+                letter = f"{self._letter(name)}'"
+                length = self._known(f"height {letter}", height)
+                self.feet[height] = builder.lay_off(letter, origin, self.axis, length)
+        starts = self._starts()
+        self._hold(train.fixed)
+        for start in starts:
+            self._spread()
+            if start not in self.lines:
+                self._lay_off(start)
+        self._spread()
+        spots = tuple(self._spot(name) for name in self.points)
+        rays, segments = self._rays()
+        inputs = [body for body in train.inputs if body in self.lines]
+        calculated = () if len(starts) == self._mobility() == 1 else set(starts) - set(inputs)
+        mu = self._scale(starts, inputs, segments)
+        found = tuple(self._found(mu, segments))
+        return Construction(
+            self.motion, self.picture, builder.program(), self.data, starts,
+            tuple(body for body in starts if body in calculated), spots, self.lines, rays,
+            segments, found,
+        )  # fmt: skip
+
+    def _known(self, name: str, value: Fraction) -> NumberName:
+        self.data[name] = value
+        return self.builder.known(name)
+
+    def _mobility(self) -> int:
+        return self.motion.structure.mobility
+
+    def _letter(self, contact: str) -> str:
+        kind, _, name = contact.partition(" ")
+        if kind == "axis":
+            return f"o_{{{name}}}"
+        number = [mesh.name for mesh in self.motion.train.meshes].index(name)
+        turn, place = divmod(number, len(LETTERS))
+        return LETTERS[place] + (f"_{{{turn}}}" if turn else "")
+
+    # Lines ---------------------------------------------------------------------------------------
+
+    def _known_at(self, body: str, ends: Mapping[str, object]) -> dict[Fraction, str | None]:
+        """Return at what heights the velocity of a body is known, and by which contact.
+
+        None stands for its own axis, where that is fixed.
+        """
+        known: dict[Fraction, str | None] = {}
+        if self.over[body] is None:
+            known[self.heights[body]] = None
+        for name, (height, bodies) in self.points.items():
+            if body in bodies and name in ends:
+                known.setdefault(height, name)
+        return known
+
+    def _is_at_rest(self, name: str, lines: Mapping[str, object]) -> bool:
+        """Whether a point belongs to a fixed body, or to a fixed axis."""
+        _, bodies = self.points[name]
+        fixed = self.motion.train.fixed
+        return any(body in fixed and body in lines for body in bodies) or (
+            name.startswith("axis ") and len(bodies) == 1
+        )
+
+    def _closes(self, starts: Sequence[str]) -> int:
+        """Return how many bodies have lines when some are laid off."""
+        lines: dict[str, object] = dict.fromkeys([*self.motion.train.fixed, *starts])
+        ends: dict[str, object] = {}
+        count = -1
+        while count != len(lines):
+            count = len(lines)
+            for name, (_, bodies) in self.points.items():
+                if any(body in lines for body in bodies) or self._is_at_rest(name, lines):
+                    ends[name] = None
+            lines |= dict.fromkeys(b for b in self.heights if len(self._known_at(b, ends)) > 1)
+        return sum(body in lines for body in self.heights)
+
+    def _starts(self) -> tuple[str, ...]:
+        """Choose bodies whose lines are laid off: the inputs where the picture closes with them."""
+        train, count = self.motion.train, self._mobility()
+        fixed = train.fixed
+        inputs = [b for b in train.inputs if b in self.heights and b not in fixed]
+        able = [b for b in self.heights if self.over[b] is None and b not in fixed and self._arm(b)]
+        ordered = [*(b for b in inputs if b in able), *(b for b in able if b not in inputs)]
+        whole = len(self.heights)
+        for tried in combinations(ordered, count) if count < 3 else ():
+            if self._closes(tried) == whole:
+                return tried
+        chosen = tuple(b for b in inputs if b in able)[:count]
+        while self._closes(chosen) < whole and len(chosen) < len(ordered):
+            more = [b for b in ordered if b not in chosen]
+            chosen = (*chosen, max(more, key=lambda b: self._closes((*chosen, b))))
+        return chosen
+
+    def _arm(self, body: str) -> str | None:
+        """Return the contact of a body that is farthest from its axis."""
+        own = [
+            (abs(height - self.heights[body]), name)
+            for name, (height, bodies) in self.points.items()
+            if body in bodies and height != self.heights[body]
+        ]
+        return max(own, key=lambda one: one[0])[1] if own else None
+
+    def _hold(self, fixed: frozenset[str]) -> None:
+        for body in self.heights:
+            if body in fixed:
+                self.lines[body] = self.axis
+        for name, (height, _) in self.points.items():
+            if self._is_at_rest(name, self.lines):
+                self.ends[name] = self.feet[height]
+
+    def _lay_off(self, body: str) -> None:
+        name = self._arm(body)
+        assert name is not None
+        height, letter = self.points[name][0], self._letter(name)
+        if name not in self.ends:
+            length = self._known(f"laid {letter}", self.speeds[name])
+            level = self.builder.parallel(self.feet[height], self.base)
+            self.ends[name] = self.builder.lay_off(letter, self.feet[height], level, length)
+
+    def _spread(self) -> None:
+        """Draw the line of every body that has two points, and take its other points off it."""
+        count = -1
+        while count != len(self.lines):
+            count = len(self.lines)
+            for body in self.heights:
+                known = self._known_at(body, self.ends)
+                if body in self.lines or len(known) < 2:
+                    continue
+                low, high = min(known), max(known)
+                ends = [self._end(known[height], height) for height in (low, high)]
+                self.lines[body] = self.builder.join(ends[0], ends[1])
+                for name, (height, bodies) in self.points.items():
+                    if body in bodies and name not in self.ends:
+                        level = self.builder.parallel(self.feet[height], self.base)
+                        letter = self._letter(name)
+                        self.ends[name] = self.builder.meet_lines(letter, level, self.lines[body])
+
+    def _end(self, name: str | None, height: Fraction) -> PointName:
+        if name is not None:
+            return self.ends[name]
+        if height not in self.feet:  # a fixed axis without a contact of its own
+            letter = f"o_{{{len(self.feet)}}}'"
+            length = self._known(f"height {letter}", height)
+            self.feet[height] = self.builder.lay_off(letter, FEET, self.axis, length)
+        return self.feet[height]
+
+    def _spot(self, name: str) -> Spot:
+        """Read a segment of the picture of linear velocities."""
+        (height, bodies), end = self.points[name], self.ends[name]
+        foot, letter, read = self.feet[height], self._letter(name), None
+        if end != foot and f"laid {letter}" not in self.data:
+            read = self.builder.measure_along(f"read {letter}", foot, end, self.base)
+        return Spot(name, letter, foot, end, bodies, height, self.speeds[name], read)
+
+    # Rays ----------------------------------------------------------------------------------------
+
+    def _rays(self) -> tuple[dict[str, PointName], dict[str, NumberName]]:
+        builder = self.builder
+        pole = builder.given(POLE)
+        down = builder.parallel(pole, self.axis)
+        far = self._known("pole distance", -self.picture.pole_mm)
+        foot = builder.lay_off("o", pole, down, far)
+        level = builder.parallel(foot, self.base)
+        rays: dict[str, PointName] = {}
+        segments: dict[str, NumberName] = {}
+        for body, line in self.lines.items():
+            if body in self.motion.train.fixed:
+                continue
+            ray = builder.parallel(pole, line)
+            rays[body] = builder.meet_lines(f"ray {body}", ray, level)
+            segments[body] = builder.measure_along(f"segment {body}", foot, rays[body], self.base)
+        return rays, segments
+
+    def _scale(
+        self, starts: Sequence[str], inputs: Sequence[str], segments: Mapping[str, NumberName]
+    ) -> NumberName:
+        """Return the scale of the rays: chosen, or by the input where another body is laid off."""
+        quick = [body for body in inputs if self.motion.speeds[body]]
+        if len(starts) == self._mobility() == 1 and quick and starts[0] not in inputs:
+            speed = self._known("input", self.motion.speeds[quick[0]])
+            return self.builder.compute("mu", (speed, 1), (segments[quick[0]], -1))
+        return self._known("mu", self.picture.turn_per_mm)
+
+    def _found(self, mu: NumberName, segments: Mapping[str, NumberName]) -> list[Found]:
+        train, speeds = self.motion.train, self.motion.speeds
+        unit, found = train.unit, {}
+        for label in dict.fromkeys(label.rstrip("'") for label in train.body_of):
+            body = train.body_of[label]
+            if body in segments:
+                number = self.builder.compute(f"{unit}_{label}", (mu, 1), (segments[body], 1))
+                found[str(number)] = Found(f"{unit}_{label}", speeds[body], number, (body,))
+        for name in dict.fromkeys(train.ask):
+            asked = parse(name, tuple(train.body_of))
+            if asked.kind not in ("U", "n", "omega") or name in found:
+                continue
+            carrier = None if asked.carrier is None else train.body_of[asked.carrier]
+            parts = [self._seen(train.body_of[x], carrier, segments) for x in asked.labels]
+            exact = [self.motion.speed(label, asked.carrier) for label in asked.labels]
+            if None in parts or (asked.kind == "U" and not exact[1]):
+                continue
+            rays = (*(train.body_of[x] for x in asked.labels), *([carrier] if carrier else []))
+            powers = [(part, 1) for part in parts if part is not None]
+            value: Fraction | float
+            factor = 1.0
+            if asked.kind == "U":
+                powers[1] = (powers[1][0], -1)
+                value = exact[0] / exact[1]
+            else:
+                powers.append((mu, 1))
+                other = asked.kind != unit
+                factor = (math.pi / 30 if unit == "n" else 30 / math.pi) if other else 1.0
+                value = float(exact[0]) * factor if other else exact[0]
+            number = self.builder.compute(name, *powers, factor=factor)
+            found[name] = Found(name, value, number, rays)
+        return list(found.values())
+
+    def _seen(
+        self, body: str, carrier: str | None, segments: Mapping[str, NumberName]
+    ) -> NumberName | None:
+        """Return the segment of a body, less that of a carrier; None of fixed bodies alone."""
+        if carrier is None or carrier not in segments:
+            return segments.get(body)
+        back = NumberName(f"less {carrier}")
+        if back not in [step.out for step in self.builder.steps]:
+            self.builder.compute(str(back), (segments[carrier], 1), factor=-1.0)
+        if body not in segments:
+            return back
+        total = NumberName(f"segment {body} to {carrier}")
+        if total not in [step.out for step in self.builder.steps]:
+            self.builder.total(str(total), segments[body], back)
+        return total

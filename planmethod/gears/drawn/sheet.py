@@ -1,0 +1,438 @@
+"""Sheet of a train: both views of the scheme, both pictures, formulas, tables (лист передачи)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import product
+from math import pi
+from typing import NamedTuple
+
+from planmethod.construct.drafting import Profile
+from planmethod.construct.scale import series_near
+from planmethod.errors import LayoutError
+from planmethod.gears.arrangement import Order, Scheme, arrange, best_order
+from planmethod.gears.construction import Construction, Reading, construct, read
+from planmethod.gears.drawn.front import front
+from planmethod.gears.drawn.side import Side
+from planmethod.gears.drawn.velocities import angular, angular_spans, linear, linear_spans
+from planmethod.gears.model import GearProblem, PictureSettings
+from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.picture import Picture, draw
+from planmethod.gears.told import calculation, given, results
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import Language, language
+from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame.titleblock import merged
+from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View, shifted
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
+from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
+from planmethod.render.layout.block import Picture as Drawn
+from planmethod.render.layout.cuttings import Group, Part
+from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.pack import pack
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.lettered import lettered
+
+PAPERS = ("A3", "A2", "A1")
+"""Formats tried in turn when none is asked for."""
+
+TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
+"""Heights of the scheme, mm, that scales of the sheet's own aim at."""
+
+LEAST_TARGET, MOST_A3 = 85.0, 130.0
+"""The least of these where a larger paper can be taken, the most on A3, mm."""
+
+LEAST, MOST = 75.0, 260.0
+"""Heights of the scheme, mm, between which the scale of the file is kept."""
+
+WIDEST = 170.0
+"""Width of the picture of angular velocities above which a scale of the sheet's own shrinks it."""
+
+MOST_FRONT = 130.0
+"""Height of the view along the axes, mm, where it has a coarser scale than the side view."""
+
+WIDTHS = (STAMP_WIDTH - 10.0, 140.0)
+"""Widths of the texts, mm."""
+
+POLES = (40, 30, 25, 20, 15, 10)
+
+
+SHARES = (1.2, 2.2, 1.1, 1.1, 0.7, 0.8)
+"""Widths of the columns of the results, in parts."""
+
+GAP = 12.0
+"""White between the side view and the picture beside it, mm."""
+
+
+def drawings(
+    problem: GearProblem,
+    *,
+    fields: Mapping[str, str],
+    profile: Profile,
+    before: int = 0,
+    total: int | None = None,
+) -> list[Drawing]:
+    """Draw the sheet of a train (лист зубчатого механизма).
+
+    Parameters
+    ----------
+    problem : GearProblem
+    fields : mapping
+        Texts of the title block that outrank the file's.
+    profile : Profile
+        Who draws and reads the pictures.
+    before, total : int
+        Sheets of the set before this one, and of the whole set.
+
+    Raises
+    ------
+    ProblemError
+        The train cannot be, or its inputs do not fit.
+    LayoutError
+        It does not fit the paper.
+    """
+    motion = solve_motion(problem)
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    furniture = Furniture.of(problem.sheet, before=before, total=total)
+    default = {"title": problem.title, "sheets": "1"}
+    texts = merged(default, problem.stamp, furniture.numbers(1, 1), fields)
+    plain = Scheme(motion, float(motion.train.unit_m / motion.train.picture.mu_l))
+    order = None if plain.undrawn else best_order(plain)
+    made: dict[tuple[PictureSettings, _Sizes], list[tuple[Part, ...]]] = {}
+    asked = problem.sheet.paper and paper_format(problem.sheet.paper).name
+    with using(lettering(problem.sheet.lettering or "B")):
+        for name, settings, sizes in _tries(motion, asked):
+            fmt = paper_format(name)
+            items, inner, stamp, taken = sheet_frame(fmt, texts, furniture)
+            sheet = _Sheet(motion, settings, profile, words, sizes, order)
+            if (settings, sizes) not in made:
+                made[settings, sizes] = list(sheet.orders())
+            for parts in made[settings, sizes]:
+                if not _has_room(parts, inner, stamp):
+                    continue
+                corners = pack(Group(parts), inner, stamp, taken)
+                if corners is None:
+                    continue
+                views: list[View] = []
+                for part, corner in zip(parts, corners, strict=True):
+                    items += part.block.place(corner)
+                    views += part.block.views(corner) if isinstance(part.block, _Viewed) else []
+                return [Drawing(fmt.width, fmt.height, texts.get("title", ""), items, views)]
+    advice = "Take a larger --paper." if asked else "Ask for less in gears.ask."
+    raise LayoutError(
+        f"{problem.name}: the sheet of {len(motion.train.wheels)} wheels does not fit "
+        f"{asked or PAPERS[-1]}. {advice}"
+    )
+
+
+def _tries(motion: Motion, asked: str | None) -> Iterator[tuple[str, PictureSettings, _Sizes]]:
+    """Yield papers and scales in turn: first the scale of the file, where the scheme suits it."""
+    train, settings = motion.train, motion.train.picture
+    extent = _extent(motion) * float(train.unit_m)
+    papers = (asked,) if asked else PAPERS
+    if LEAST <= extent / float(settings.mu_l) <= MOST:
+        kept = (name for name in papers if name != PAPERS[-1] or asked)
+        yield from ((name, settings, _Sizes()) for name in kept)
+    for sizes, name in product((_Sizes(), DENSE) if asked else (_Sizes(),), papers):
+        for target in TARGETS:
+            if not asked and (target < LEAST_TARGET or (name == "A3" and target > MOST_A3)):
+                continue
+            mu_l = Fraction(repr(series_near(extent / target, up=True)))
+            tried = replace(settings, mu_l=mu_l)
+            yield name, replace(tried, pole_mm=_pole(motion, tried)), sizes
+
+
+def _has_room(parts: Sequence[Part], inner: Bounds, stamp: Bounds) -> bool:
+    """Whether blocks could be packed at all: none is too large, nor are they all together."""
+    width, height = inner[2] - inner[0], inner[3] - inner[1]
+    free = width * height - (stamp[2] - stamp[0]) * (stamp[3] - stamp[1])
+    blocks = [part.block for part in parts]
+    fit = all(block.width < width and block.height < height for block in blocks)
+    return fit and sum(block.width * block.height for block in blocks) < free
+
+
+def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
+    """Return a pole distance that keeps the rays within a width."""
+    for pole in POLES:
+        tried = replace(settings, pole_mm=Fraction(pole))
+        picture = draw(motion, tried)
+        if picture is None:
+            break
+        ends = [Fraction(0), *(segment for _, segment in picture.rays)]
+        if max(ends) - min(ends) <= WIDEST:
+            return tried.pole_mm
+    return Fraction(POLES[-1])
+
+
+def _extent(motion: Motion) -> float:
+    """Return how high the scheme is, in sizes."""
+    scheme = Scheme(motion, 1.0)
+    rims = [rim for column in scheme.columns for rim in column] if not scheme.undrawn else []
+    rims += [] if scheme.undrawn else [cone.rim for one in scheme.across for cone in one.cones]
+    ends = [rim.centre + way * rim.radius for rim in rims for way in (1, -1)]
+    return max(ends) - min(ends) if ends else 100.0
+
+
+class _Sizes(NamedTuple):
+    """Heights of letters on views, of titles, of texts; of the rows of tables, mm."""
+
+    letter: float = 5.0
+    title: float = 5.0
+    text: float = 3.5
+    row: float = 7.0
+
+
+DENSE = _Sizes(3.5, 3.5, 2.5, 5.5)
+"""Where the format was asked for and nothing larger fits."""
+
+
+@dataclass(frozen=True)
+class _Viewed:
+    """Block that is a view, or some: their boxes from its upper left corner (вид на листе)."""
+
+    block: Block
+    told: tuple[tuple[str, str, float, Bounds, tuple[Span, ...]], ...]
+
+    @property
+    def width(self) -> float:
+        return self.block.width
+
+    @property
+    def height(self) -> float:
+        return self.block.height
+
+    def place(self, corner: complex) -> list[Item]:
+        return self.block.place(corner)
+
+    def views(self, corner: complex) -> list[View]:
+        x, y = corner.real, corner.imag
+        return [
+            View(
+                kind,
+                (left + x, low + y, right + x, high + y),
+                scale,
+                per_mm,
+                tuple(replace(s, start=s.start + corner, end=s.end + corner) for s in spans),
+            )
+            for kind, scale, per_mm, (left, low, right, high), spans in self.told
+        ]
+
+
+@dataclass(frozen=True)
+class _Sheet:
+    """Blocks of a sheet."""
+
+    motion: Motion
+    settings: PictureSettings
+    profile: Profile
+    words: Language
+    sizes: _Sizes
+    order: Order | None
+
+    def orders(self) -> Iterator[tuple[Part, ...]]:
+        """Yield the blocks in orders of reading; the last stands on the title block."""
+        picture = draw(self.motion, self.settings)
+        drawn = None if picture is None else construct(self.motion, picture)
+        seen = None if drawn is None else read(drawn, self.profile)
+        scheme = Scheme(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
+        strip, last = Part(self._strip(scheme, drawn, seen)), Part(self._results(drawn, seen))
+        shown = [] if drawn is None or seen is None else [
+            Part(self._angular(drawn, seen)), Part(self._segments(drawn, seen), text=True)
+        ]  # fmt: skip
+        for view, width in product(self._fronts(), WIDTHS):
+            views = [strip] if view is None else [strip, Part(view)]
+            texts = [Part(self._told(width), text=True)]
+            if not shown:
+                yield (*views, *texts, last)
+                continue
+            rays = shown[0]
+            texts.append(shown[1])
+            yield (*views, rays, *texts, last)
+            yield (*views, *texts, rays, last)
+            yield (strip, *texts, *views[1:], rays, last)
+            yield (strip, rays, *views[1:], *texts, last)
+
+    # Views ---------------------------------------------------------------------------------------
+
+    def _head(self, title: str, width: float, *scales: str) -> Block:
+        lines: list[Block] = [paragraph(title, self.sizes.title, width, align="centre")]
+        lines += [Line(typeset(scale, self.sizes.text)) for scale in scales]
+        return Column(lines, gap=2.5, align="centre")
+
+    def _scale(self, key: str, value: float, **more: str) -> str:
+        say = self.words.say
+        return self.words.gears.sheet.inscriptions[key].format(value=say.short(value, 4), **more)
+
+    def _strip(self, scheme: Scheme, drawn: Construction | None, seen: Reading | None) -> _Viewed:
+        """Return the side view and, at the same heights, the picture of linear velocities."""
+        say = self.words.gears.sheet
+        if scheme.undrawn:
+            kinds = ", ".join(say.kinds[kind] for kind in scheme.undrawn)
+            text = paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
+            return _Viewed(text, ())
+        spots = () if drawn is None else drawn.spots
+        side = Side(arrange(scheme, self.order), {spot.contact: spot.letter for spot in spots})
+        items, labels = side.items(), list(side.labels(self.sizes.letter))
+        left, _, right, _ = ink_bounds(items)
+        mu_l = self._scale("mu_l", float(self.settings.mu_l))
+        heads = [(self._head(say.scheme, max(right - left, 50.0), mu_l), (left + right) / 2)]
+        middle = right
+        origin = 0.0
+        if drawn is not None and seen is not None:
+            lines, named = linear(drawn, seen, self.sizes.letter)
+            box = ink_bounds(lines)
+            head = self._head(say.linear, max(box[2] - box[0], 60.0), self._mu_v(drawn.picture))
+            room = max(0.0, (head.width - (box[2] - box[0])) / 2)
+            end = max(right, heads[0][1] + heads[0][0].width / 2)
+            origin = end + GAP + room - box[0]
+            middle = end + GAP / 2
+            items += [*side.projections(origin), *shifted(lines, origin)]
+            labels += [_moved(label, origin) for label in named]
+            heads.append((head, origin + (box[0] + box[2]) / 2))
+        whole = lettered(items, labels)
+        top = whole.bounds[3] + 5.0
+        titles = [
+            item
+            for head, x in heads
+            for item in head.place(complex(x - head.width / 2, top + head.height))
+        ]
+        placed = [*whole.items, *titles]
+        bounds = ink_bounds(placed)
+        x, y = -bounds[0], -bounds[3]
+        scheme_box = (0.0, bounds[1] + y, middle + x, 0.0)
+        told = [("position", "μ_{l}", float(self.settings.mu_l), scheme_box, ())]
+        if drawn is not None and seen is not None:
+            spans = tuple(linear_spans(drawn, seen, complex(origin + x, y)))
+            box = (middle + x, bounds[1] + y, bounds[2] + x, 0.0)
+            told.append(("velocity", "μ_{v}", self._per_mm(drawn.picture), box, spans))  # type: ignore[arg-type]
+        return _Viewed(Drawn(tuple(placed), bounds), tuple(told))
+
+    def _per_mm(self, picture: Picture) -> float:
+        return float(picture.speed_per_mm) * (pi / 30 if self.motion.train.unit == "n" else 1.0)
+
+    def _mu_v(self, picture: Picture) -> str:
+        return self._scale("mu_v", self._per_mm(picture))
+
+    def _fronts(self) -> Iterator[_Viewed | None]:
+        """Yield the view along the axes at the scale of the side view, then at a coarser one.
+
+        None where no axes are parallel.
+        """
+        if self._is_turned():
+            yield None
+            return
+        extent = _extent(self.motion) * float(self.motion.train.unit_m)
+        own = float(self.settings.mu_l)
+        coarse = series_near(extent / MOST_FRONT, up=True)
+        for mu_l in (own, coarse) if coarse > own else (own,):
+            scheme = Scheme(self.motion, float(self.motion.train.unit_m) / mu_l)
+            title = self.words.gears.sheet.front
+            scales = [self._scale("mu_l", mu_l)]
+            yield self._titled(
+                front(scheme, self.sizes.letter), title, "position", "μ_{l}", mu_l, scales
+            )
+
+    def _is_turned(self) -> bool:
+        scheme = Scheme(self.motion, 1.0)
+        return bool(scheme.undrawn) or not scheme.columns
+
+    def _titled(
+        self,
+        view: Drawn,
+        title: str,
+        kind: str,
+        scale: str,
+        per_mm: float,
+        scales: Sequence[str],
+        spans: Sequence[Span] = (),
+    ) -> _Viewed:
+        """Return a view under its title; its spans are in the view's own coordinates."""
+        head = self._head(title, max(view.width, 60.0), *scales)
+        block = Column([head, view], gap=5.0, align="centre")
+        shift = complex(
+            (block.width - view.width) / 2 - view.bounds[0], -head.height - 5.0 - view.bounds[3]
+        )
+        moved = tuple(replace(s, start=s.start + shift, end=s.end + shift) for s in spans)
+        box = (0.0, -block.height, block.width, 0.0)
+        return _Viewed(block, ((kind, scale, per_mm, box, moved),))
+
+    def _angular(self, drawn: Construction, seen: Reading) -> _Viewed:
+        picture = drawn.picture
+        per_mm = self._per_mm(picture) / float(picture.mu_l * picture.pole_mm)
+        pole = self.words.say.given(float(picture.pole_mm))
+        scales = [self._scale("mu_omega", per_mm, pole=pole)]
+        if self.motion.train.unit == "n":
+            scales.append(self._scale("mu_n", float(picture.turn_per_mm)))
+        spans = list(angular_spans(drawn, seen, 0j))
+        title = self.words.gears.sheet.angular
+        view = angular(drawn, seen, self.sizes.letter)
+        return self._titled(view, title, "velocity", "μ_{ω}", per_mm, scales, spans)
+
+    # Texts ---------------------------------------------------------------------------------------
+
+    def _told(self, width: float) -> Block:
+        """Return what is given and the calculation."""
+        facts = (fact.replace(" ", "\u00a0") for fact in given(self.motion, self.words))
+        text = self.words.note.given.format(given="; ".join(facts))
+        blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
+        blocks.append(heading(self.words.gears.sheet.calculation, self.sizes.text))
+        lines = calculation(self.motion, self.words)
+        blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
+        return Column(blocks, gap=2.4)
+
+    def _segments(self, drawn: Construction, seen: Reading) -> Block:
+        say, rows = self.words.say, []
+        for spot in drawn.spots:
+            length = float(spot.speed)
+            shown = (float(spot.height), length)
+            told = "—" if spot.read is None else say.ruled(float(seen.read.value[spot.read]))
+            rows.append((f"{spot.foot}{spot.letter}", *map(self._mm, shown), told))
+        for body, name in drawn.segments.items():
+            exact, ruled = (float(trace.value[name]) for trace in (seen.exact, seen.read))
+            rows.append((f"o({drawn.label(body)})", "—", self._mm(exact), say.ruled(ruled)))
+        columns = self.words.gears.sheet.columns_segments
+        table = _table(columns, rows, 27.0 * self.sizes.text, self.sizes)
+        return Column(
+            [Line(typeset(self.words.gears.sheet.segments, self.sizes.text)), table], gap=2.5
+        )
+
+    def _mm(self, value: float) -> str:
+        return self.words.say.number(f"{value + 0.0:.2f}")
+
+    def _results(self, drawn: Construction | None, seen: Reading | None) -> Block:
+        whole = list(results(self.motion, drawn, seen, self.words))
+        say = self.words.gears.sheet
+        columns = say.columns_results if drawn is not None else say.columns_results[:3]
+        rows = [row[: len(columns)] for row in whole]
+        table = _table(columns, rows, STAMP_WIDTH, self.sizes, SHARES)
+        title = say.results if drawn is not None else self.words.gears.asked
+        blocks: list[Block] = [Line(typeset(title, self.sizes.text)), table]
+        if drawn is None:
+            blocks.append(paragraph(self.words.gears.no_picture, self.sizes.text, STAMP_WIDTH))
+        return Column(blocks, gap=2.5)
+
+
+def _moved(label: Label, by: float) -> Label:
+    along = None if label.along is None else (label.along[0] + by, label.along[1] + by)
+    return replace(label, anchor=label.anchor + by, along=along)
+
+
+def _table(
+    heads: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    width: float,
+    sizes: _Sizes,
+    shares: Sequence[float] = (),
+) -> Block:
+    shares = shares[: len(heads)] or [1.0] * len(heads)
+    columns = [
+        TableColumn(head, tuple(cells), width=width * share / sum(shares))
+        for head, cells, share in zip(heads, zip(*rows, strict=True), shares, strict=True)
+    ]
+    return table_block(columns, sizes.text, width=width, units="none", row_height=sizes.row)

@@ -1,0 +1,132 @@
+"""Limits of the shifts: undercut, pointed teeth, contact ratio, interference (блокирующий контур).
+
+Each limit is a margin that is not negative where it is kept. The curves of the blocking contour are
+where margins vanish; shifts are chosen among those that keep all of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from planmethod.gears.involute.model import Reals
+from planmethod.gears.involute.sizes import Pair
+
+STEP = 0.01
+"""Chosen shifts are multiples of it."""
+
+LOW, HIGH = -1.0, 1.5
+"""Between them shifts are looked for."""
+
+
+class LimitKind(Enum):
+    """What a limit keeps from (вид ограничения)."""
+
+    UNDERCUT = "undercut"
+    TIP = "tip"
+    OVERLAP = "overlap"
+    INTERFERENCE = "interference"
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """One limit (ограничение).
+
+    Attributes
+    ----------
+    kind : LimitKind
+    wheel : int or None
+        0 or 1; None for a limit of the pair.
+    least : float
+        Least thickness at the tip in modules, or least contact ratio.
+    hard : bool
+        Beyond it the pair does not work; other limits are advice.
+    """
+
+    kind: LimitKind
+    wheel: int | None
+    least: float = 0.0
+    hard: bool = False
+
+    def value(self, pair: Pair) -> Reals:
+        """Return what is compared with the limit: x, s_a/m, ε_α, ρ_p."""
+        match self.kind:
+            case LimitKind.UNDERCUT:
+                return np.asarray(pair.x[self.wheel])
+            case LimitKind.TIP:
+                return np.asarray(pair.s_a[self.wheel] / pair.m)
+            case LimitKind.OVERLAP:
+                return pair.epsilon
+            case LimitKind.INTERFERENCE:
+                return np.asarray(pair.rho_p[self.wheel])
+
+    def bound(self, pair: Pair) -> Reals:
+        """Return the limit itself: x_min, the least s_a/m or ε_α, ρ_l."""
+        match self.kind:
+            case LimitKind.UNDERCUT:
+                return np.asarray(pair.x_min[self.wheel])
+            case LimitKind.INTERFERENCE:
+                return np.asarray(pair.rho_l[self.wheel])
+            case _:
+                return np.asarray(self.least)
+
+    def margin(self, pair: Pair) -> Reals:
+        """Return how far the limit is, positive where it is kept; NaN where no pair exists."""
+        return np.asarray(self.value(pair) - self.bound(pair))
+
+
+def limits(tip: float, overlap: float) -> tuple[Limit, ...]:
+    """Return all limits: those without which the pair does not work, then those of good use."""
+    wheels = (0, 1)
+    return (
+        *(Limit(LimitKind.INTERFERENCE, k, hard=True) for k in wheels),
+        *(Limit(LimitKind.TIP, k, hard=True) for k in wheels),
+        Limit(LimitKind.OVERLAP, None, 1.0, hard=True),
+        *(Limit(LimitKind.UNDERCUT, k) for k in wheels),
+        *(Limit(LimitKind.TIP, k, tip) for k in wheels),
+        Limit(LimitKind.OVERLAP, None, overlap),
+    )
+
+
+def is_kept(pair: Pair, asked: tuple[Limit, ...]) -> Reals:
+    """Tell where all of some limits are kept."""
+    with np.errstate(all="ignore"):
+        return np.asarray(np.all([one.margin(pair) >= 0 for one in asked], axis=0))
+
+
+def tried(total: float | None) -> Reals:
+    """Return all shifts that are compared, shape (2, ...); of a certain sum where it is given."""
+    row = np.round(np.arange(round(LOW / STEP), round(HIGH / STEP) + 1) * STEP, 9)
+    return np.stack([row, total - row] if total is not None else np.meshgrid(row, row))
+
+
+def choose(
+    pair: Pair, asked: tuple[Limit, ...], total: float | None = None
+) -> tuple[float, float] | None:
+    """Return shifts that keep all limits, with the least of the greatest specific sliding.
+
+    All multiples of `STEP` from `LOW` to `HIGH` are compared, so that nothing is missed; of the
+    greater ones at the lower points the least wins.
+
+    Parameters
+    ----------
+    total : float, optional
+        Sum of the shifts where the distance of the axes is given; then x₁ alone is a multiple.
+
+    Returns
+    -------
+    (float, float) or None
+        None where no shifts keep all limits.
+    """
+    x = tried(total)
+    every = pair.shifted(x)
+    with np.errstate(all="ignore"):
+        worst = np.max(np.abs(every.theta_p), axis=0)
+        worst = np.where(is_kept(every, asked), worst, np.inf)
+    worst = np.where(np.isnan(worst), np.inf, worst)
+    best = np.unravel_index(int(np.argmin(worst)), worst.shape)
+    if not np.isfinite(worst[best]):
+        return None
+    return float(x[0][best]), float(x[1][best])

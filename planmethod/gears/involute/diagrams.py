@@ -1,0 +1,314 @@
+"""Blocking contour in the plane of the shifts, and specific sliding (контур и диаграмма)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, floor
+
+import numpy as np
+from matplotlib.figure import Figure
+from shapely import Polygon, contains_xy, prepare, union_all
+
+from planmethod.construct.scale import series_near
+from planmethod.gears.involute.blocking import Limit, LimitKind, is_kept
+from planmethod.gears.involute.meshpicture import nearest_scale
+from planmethod.gears.involute.model import Reals
+from planmethod.gears.involute.quantities import Solved
+from planmethod.note.numbers import Notation, trimmed
+from planmethod.note.wording import Language
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.symbols import arrowhead
+
+CONTOUR = "diagram contour"
+"""Tag of the curves of the contour, with the kind of the limit."""
+
+LOW, HIGH = -2.0, 3.0
+"""Shifts between which the contour is drawn."""
+
+_COARSE, _FINE = 201, 161  # rows of the grids that the region and the curves are found on
+_NECK = 1.5  # steps of the grid: half the width of what does not join two regions
+_DENSER = 6  # times as many points as where a curve crosses the grid
+_SERIES = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0)  # mm for a unit of the shifts, times a power of ten
+_LETTERS = 30.0  # mm: room that the letters around a diagram take
+_MARGIN = 0.05  # of the window: white around the contour
+_POLISHED = 8  # steps that bring a point of the grid's curve to the curve itself
+_NAMED = 14.0  # mm: shorter parts of a curve have no name
+_HEAD = 4.0
+_TICK = 1.2
+_APART = 11.0  # mm: between the numbers of an axis
+
+
+# The curves -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Part of the plane of the shifts that is drawn: bounds of x₁ and of x₂."""
+
+    left: float
+    right: float
+    low: float
+    high: float
+
+    def grid(self, count: int) -> Reals:
+        """Return shifts all over the window, shape (2, n, n)."""
+        across = np.linspace(self.left, self.right, count)
+        up = np.linspace(self.low, self.high, count)
+        return np.stack(np.meshgrid(across, up))
+
+
+def working(solved: Solved, window: Window) -> Polygon:
+    """Return the largest region of a window where pairs work, a little widened."""
+    grid = window.grid(_COARSE)
+    every = solved.pair.shifted(grid)
+    with np.errstate(all="ignore"):
+        margins = [one.margin(every) for one in solved.limits if one.hard]
+    least = np.nan_to_num(np.min(margins, axis=0), nan=-1.0)
+    least[[0, -1], :] = least[:, [0, -1]] = -1.0  # so that its outlines are closed
+    step = (window.right - window.left) / _COARSE
+    outlines = [Polygon(line) for line in _zero_lines(grid, least) if len(line) > 3]
+    # Parts that only meet in a corner are told apart by making all narrower and wider again.
+    narrow = union_all(outlines).buffer(-_NECK * step)
+    largest = max(getattr(narrow, "geoms", [narrow]), key=lambda part: float(part.area))
+    return largest.buffer((_NECK + 0.6) * step, join_style="mitre")
+
+
+def _zero_lines(grid: Reals, values: Reals) -> list[Reals]:
+    """Return the lines along which values on a grid vanish, arrays (n, 2)."""
+    with np.errstate(all="ignore"):
+        if not np.nanmin(values) < 0 < np.nanmax(values):
+            return []
+    shown = np.ma.masked_invalid(values)
+    return list(Figure().subplots().contour(*grid, shown, levels=[0.0]).allsegs[0])
+
+
+def window_of(solved: Solved, region: Polygon) -> Window:
+    """Return the part of the plane that is drawn: the region, the origin, the pair itself."""
+    bounds: list[float] = []
+    for k in (0, 1):
+        shown = [0.0, float(solved.pair.x[k]), *(b for b in region.bounds[k::2] if b == b)]
+        white = _MARGIN * (max(shown) - min(shown) + 0.5)
+        bounds += [min(shown) - white, max(shown) + white]
+    return Window(*bounds)
+
+
+def curves(solved: Solved, region: Polygon, window: Window) -> Iterator[tuple[Limit, list[Reals]]]:
+    """Yield limits with the parts of their curves that the contour shows, arrays (2, n).
+
+    Those of hard limits bound the pairs that work, the others run among these.
+    """
+    hard = tuple(one for one in solved.limits if one.hard)
+    grid = window.grid(_FINE)
+    every = solved.pair.shifted(grid)
+    prepare(region)
+    for limit in solved.limits:
+        parts: list[Reals] = []
+        others = tuple(one for one in hard if one is not limit)
+        with np.errstate(all="ignore"):
+            lines = _zero_lines(grid, limit.margin(every))
+        for line in lines:
+            places = np.linspace(0, len(line) - 1, _DENSER * len(line))
+            whole = np.stack([np.interp(places, range(len(line)), column) for column in line.T])
+            points = _polished(solved, limit, whole)
+            shown = is_kept(solved.pair.shifted(points), others).astype(bool)
+            shown &= contains_xy(region, *points)
+            edges = np.flatnonzero(np.diff(shown.astype(int))) + 1
+            runs = np.split(np.arange(points.shape[1]), edges)
+            parts += [points[:, run] for run in runs if len(run) > 1 and shown[run[0]]]
+        yield limit, parts
+
+
+def _polished(solved: Solved, limit: Limit, points: Reals) -> Reals:
+    """Bring points near a curve onto it, along the gradient of the margin (Newton's method)."""
+    small = 1e-6
+    with np.errstate(all="ignore"):
+        for _ in range(_POLISHED):
+            here = limit.margin(solved.pair.shifted(points))
+            slope = np.stack(
+                [
+                    (limit.margin(solved.pair.shifted(points + small * way)) - here) / small
+                    for way in (np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]]))
+                ]
+            )
+            points = points - slope * here / np.sum(slope**2, axis=0)
+    return np.asarray(points[:, np.isfinite(points).all(axis=0)])
+
+
+# The contour ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Contour:
+    """Blocking contour of a pair: what is drawn of the plane, and the curves in it."""
+
+    solved: Solved
+    window: Window
+    parts: list[tuple[Limit, list[Reals]]]
+
+    @classmethod
+    def of(cls, solved: Solved) -> Contour:
+        """Return the contour of a pair."""
+        window = window_of(solved, working(solved, Window(LOW, HIGH, LOW, HIGH)))
+        return cls(solved, window, list(curves(solved, working(solved, window), window)))
+
+
+def contour_picture(
+    contour: Contour, words: Language, width: float, height: float, letter: float
+) -> Picture:
+    """Return the blocking contour with the chosen point, not larger than a room but for letters."""
+    solved, window = contour.solved, contour.window
+    wide, tall = window.right - window.left, window.high - window.low
+    room = (width - _LETTERS, height - _LETTERS)
+    per_unit = series_near(min(room[0] / wide, room[1] / tall), up=False, series=_SERIES)
+
+    def at(x: Reals) -> complex:
+        return complex(x[0], x[1]) * per_unit
+
+    items: list[Item] = list(_axes(window, per_unit, letter))
+    labels = _axis_numbers(window, per_unit, words.say, letter)
+    for limit, parts in contour.parts:
+        pen = Pen.MAIN if limit.hard else Pen.THIN
+        tag = f"{CONTOUR} {limit.kind.value}"
+        strokes = [tuple(at(point) for point in part.T) for part in parts]
+        items += [Stroke(points, pen, tag=tag) for points in strokes]
+        for k, points in enumerate(strokes):
+            if _length(points) < _NAMED:
+                continue
+            middle = points[len(points) // 2]
+            text = typeset(_sign(limit, words.say), letter)
+            name = f"{limit.kind.value} {limit.wheel} {limit.least} {k}"
+            out = middle - complex(window.left + wide / 2, window.low + tall / 2) * per_unit
+            way = out / abs(out) * (1 if limit.hard else -1) if abs(out) > 1.0 else 1j
+            labels.append(Label(text, middle, prefer=way, gap=1.5, name=name, manner=BUSY))
+    point = at(solved.pair.x)
+    for foot in (complex(point.real, 0.0), complex(0.0, point.imag)):
+        if abs(point - foot) > 2.0:
+            items.append(
+                Stroke((point, foot), Pen.HIDDEN if abs(point - foot) > 12.0 else Pen.THIN)
+            )
+    items.append(Disc(point, 1.3, Ink.BLACK, tag=CONTOUR))
+    shown = "; ".join(words.say.number(f"{x + 0.0:.2f}") for x in solved.pair.x)
+    labels.append(
+        Label(typeset(f"({shown})", letter), point, gap=2.0, priority=1, name="x", manner=BUSY)
+    )
+    return lettered(items, labels)
+
+
+def _length(points: tuple[complex, ...]) -> float:
+    return sum(abs(end - start) for start, end in pairwise(points))
+
+
+def _sign(limit: Limit, say: Notation) -> str:
+    """Return what a curve is called, rich text."""
+    number = "" if limit.wheel is None else limit.wheel + 1
+    match limit.kind:
+        case LimitKind.UNDERCUT:
+            return f"x_{{{number}}} = x_{{min{number}}}"
+        case LimitKind.INTERFERENCE:
+            return f"ρ_{{p{number}}} = ρ_{{l{number}}}"
+        case LimitKind.TIP:
+            share = f"{say.given(limit.least)}m" if limit.least else "0"
+            return f"s_{{a{number}}} = {share}"
+        case LimitKind.OVERLAP:
+            return f"ε_{{α}} = {say.given(limit.least)}"
+
+
+def _axes(window: Window, per_unit: float, letter: float) -> Iterator[Item]:
+    """Yield both axes through the origin with arrows, letters and ticks."""
+    for turn, high, name in ((1 + 0j, window.right, "x_{1}"), (1j, window.high, "x_{2}")):
+        tip = high * per_unit + 6.0
+        low = window.left if turn == 1 else window.low
+        ends = (turn * low * per_unit, turn * (tip - _HEAD / 2))
+        yield Stroke(ends, Pen.THIN, tag="diagram axis")
+        yield from arrowhead(turn * tip, turn, length=_HEAD, tag="diagram axis")
+        text = typeset(name, letter)
+        beside = complex(-text.width, text.descent + 2.0) if turn == 1 else complex(2.5, -letter)
+        yield from text.at(turn * tip + beside)
+        for place, _ in _ticks(low, high, per_unit):
+            across = turn * 1j * _TICK
+            yield Stroke(
+                (turn * place - across, turn * place + across), Pen.THIN, tag="diagram axis"
+            )
+
+
+def _ticks(low: float, high: float, per_unit: float) -> Iterator[tuple[float, float]]:
+    """Yield places of round numbers on an axis, mm, and the numbers."""
+    step = series_near(_APART / per_unit, up=True)
+    for k in range(ceil(low / step), floor(high / step + 1e-9) + 1):
+        if k:
+            yield k * step * per_unit, k * step
+
+
+def _axis_numbers(window: Window, per_unit: float, say: Notation, letter: float) -> list[Label]:
+    size = max(2.5, 0.7 * letter)
+    spans = ((1 + 0j, window.left, window.right), (1j, window.low, window.high))
+    return [
+        Label(
+            typeset(say.number(trimmed(number, 3)), size),
+            turn * place,
+            prefer=turn * (-1j if turn == 1 else 1j),
+            gap=2.2,
+            name=f"axis {turn} {number:g}",
+        )
+        for turn, low, high in spans
+        for place, number in _ticks(low, high, per_unit)
+    ]
+
+
+# Sliding ------------------------------------------------------------------------------------------
+
+
+def sliding_scale(solved: Solved, width: float) -> float:
+    """Return the scale in which the line of action has room, mm of paper for one."""
+    return nearest_scale((width - _LETTERS) / float(solved.pair.line))
+
+
+def sliding_picture(
+    solved: Solved, words: Language, width: float, height: float, letter: float
+) -> Picture:
+    """Return the diagram of specific sliding along the line of action from N₁ to N₂.
+
+    Thick lines are of the active part AB; near N₁ and N₂ the curves leave the diagram downwards.
+    """
+    pair, contact = solved.pair, solved.contact
+    line, scale = float(pair.line), sliding_scale(solved, width)
+    ends = np.array([contact.start, contact.end])
+    with np.errstate(all="ignore"):
+        worst = float(np.nanmin(pair.sliding(ends), initial=-1.0))
+    floor_at = max(1.4 * worst, -8.0)
+    per_mm = series_near((1.0 - floor_at) / (height - _LETTERS), up=True)
+
+    def part(wheel: int, low: float, high: float) -> tuple[complex, ...]:
+        rho = np.linspace(low, high, 400)
+        with np.errstate(all="ignore"):
+            theta = pair.sliding(rho)[wheel]
+        places = zip(rho[theta >= floor_at], theta[theta >= floor_at], strict=True)
+        return tuple(complex(r * scale, v / per_mm) for r, v in places)
+
+    drawn = []
+    for wheel in (0, 1):
+        symbol = f"ϑ_{{{wheel + 1}}}"
+        drawn.append(Curve(symbol, (part(wheel, contact.start, contact.end),)))
+        for low, high in ((1e-6, contact.start), (contact.end, line - 1e-6)):
+            points = part(wheel, low, high) if high > low else ()
+            if len(points) > 1:
+                drawn.append(Curve("", (points,), Pen.THIN))
+    for rho in ends:
+        upright = (complex(rho * scale, floor_at / per_mm), complex(rho * scale, 1.0 / per_mm))
+        drawn.append(Curve("", (upright,), Pen.THIN))
+    pole = pair.d_b[0] / 2 * np.tan(float(pair.alpha_w))
+    marks = {"N_{1}": 0.0, "A": contact.start, "P": float(pole), "B": contact.end, "N_{2}": line}
+    return diagram_picture(
+        Abscissae("ρ_{1}", tuple(rho * scale for rho in marks.values()), tuple(marks)),
+        Ordinates("ϑ", per_mm, words.say),
+        drawn,
+        letter_height=letter,
+        name="sliding",
+    )

@@ -1,0 +1,406 @@
+"""Picture of two wheels in mesh (картина зацепления): three teeth of each, the line of action.
+
+The pitch point P is the origin, wheel 1 is below it and turns clockwise; a tooth of each wheel
+touches the other one in P. Lengths are millimetres of paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+import numpy as np
+
+from planmethod.gears.involute.profile import Points, Tooth
+from planmethod.gears.involute.quantities import Solved
+from planmethod.note.wording import Language
+from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import BUSY, CROWDED, Label
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.symbols import arrowhead, turn_arrow
+from planmethod.render.symbols.axes import axis_line, centre_lines, kinked_line
+
+POINTS = 61
+"""Points of a flank and of a fillet."""
+
+CURVE = "profile"
+"""Tag of flanks and fillets, with the number of the wheel."""
+
+HIGH, LEAST = 50.0, 32.0
+"""Height that a tooth shall have at most, and below which the centres are rather left out, mm."""
+
+SCALES = (
+    *(1 / k for k in (1000, 800, 500, 400, 200, 100, 75, 50, 40, 25, 20, 15, 10, 5, 4, 2.5, 2)),
+    *(1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0),
+    *(100.0, 200.0, 500.0, 1000.0),
+)
+"""Scales of GOST 2.302, millimetres of paper for one."""
+
+_BAND = 2.0  # mm: width of the hatched band of an active flank
+_DOT = 1.0  # mm: radius of a point's dot
+_HEAD = 4.0  # mm: arrowhead of a dimension
+_SHORTEST = 150.0  # mm: a line of centres that is broken is so long
+_ASIDE = 22.0  # mm: from the circles to the dimension of the distance of the axes
+_OVER = 14.0  # mm: circles and lines go on beyond the teeth
+
+
+@dataclass(frozen=True)
+class View:
+    """How the picture lies on the paper (масштаб картины).
+
+    Attributes
+    ----------
+    scale : float
+        Millimetres of paper for one of the wheels.
+    reach : (float, float), mm
+        How far below and above P the centres are drawn: nearer than they are where the line of
+        centres is broken.
+    """
+
+    solved: Solved
+    scale: float
+    reach: tuple[float, float]
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Working radii on the paper, mm."""
+        one, two = (tooth.size("d_w") / 2 * self.scale for tooth in self.solved.teeth)
+        return one, two
+
+    def centre(self, wheel: int) -> complex:
+        """Return where the centre of a wheel is, drawn or not."""
+        return 1j * (-self.radii[0] if wheel == 0 else self.radii[1])
+
+    def is_broken(self, wheel: int) -> bool:
+        """Whether the line to the centre of a wheel is broken."""
+        return self.reach[wheel] < self.radii[wheel] - 1e-9
+
+    def drawn_centre(self, wheel: int) -> complex:
+        """Return where the centre of a wheel is drawn."""
+        return 1j * (-self.reach[0] if wheel == 0 else self.reach[1])
+
+    def axis(self, wheel: int, number: int = 0) -> float:
+        """Return the direction of a tooth's axis; number 0 touches the other wheel in P, rad."""
+        tooth = self.solved.teeth[wheel]
+        rho = tooth.size("d_b") / 2 * np.tan(float(self.solved.pair.alpha_w))
+        start = pi / 2 if wheel == 0 else -pi / 2
+        return start + float(tooth.half(rho)) + 2 * pi * number / tooth.z
+
+    def placed(self, points: Points | complex, wheel: int, number: int = 0) -> Points:
+        """Return points of a tooth where they are on the paper."""
+        turn = np.exp(1j * self.axis(wheel, number))
+        return np.asarray(self.centre(wheel) + self.scale * np.asarray(points) * turn)
+
+    @property
+    def along(self) -> complex:
+        """Direction of the line of action, from N₁ to N₂."""
+        alpha_w = float(self.solved.pair.alpha_w)
+        return complex(cos(alpha_w), sin(alpha_w))
+
+    def on_line(self, rho: float) -> complex:
+        """Return the point of the line of action at a radius of curvature of wheel 1, mm."""
+        start = -self.radii[0] * self.along.imag
+        return self.along * (start + rho * self.scale)
+
+    @property
+    def half_width(self) -> float:
+        """How far the teeth reach to the left and right of P, mm."""
+        wide = 0.0
+        for wheel, tooth in enumerate(self.solved.teeth):
+            corners = [tooth.size("d_f") / 2 * np.exp(-1j * pi / tooth.z)]
+            corners += [complex(tooth.flank(tooth.rho_high))]
+            both = np.array([*corners, *np.conj(corners)])
+            for number in (-1, 1):
+                wide = max(wide, float(np.max(np.abs(self.placed(both, wheel, number).real))))
+        return wide
+
+
+def nearest_scale(most: float) -> float:
+    """Return the largest scale of GOST 2.302 that is not larger than ``most``."""
+    return max((scale for scale in SCALES if scale <= most * (1 + 1e-9)), default=SCALES[0])
+
+
+def view_for(solved: Solved, width: float, height: float) -> View:
+    """Return how the picture of a pair fills a room best, in a scale of GOST 2.302.
+
+    The whole pair is shown where its teeth are then high enough; else the line of centres is
+    broken and the teeth are as high as `HIGH`.
+    """
+    pair = solved.pair
+    tooth = max(float(d) for d in (pair.d_a - pair.d_f) / 2)
+    unit = View(solved, 1.0, (1e9, 1e9))
+    wide = 2 * unit.half_width
+    whole = nearest_scale((height - 4 * _OVER) / float(pair.a_w))
+    scale = min(whole, nearest_scale(max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide))
+    if scale * tooth >= LEAST:
+        most = nearest_scale(1.4 * HIGH / tooth)
+        scale = min(scale, most)
+        return View(solved, scale, View(solved, scale, (0.0, 0.0)).radii)
+    limit = min(HIGH / tooth, max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide)
+    scale = nearest_scale(limit)
+    one, two = View(solved, scale, (0.0, 0.0)).radii
+    room = height - 4 * _OVER
+    if one + two <= room:
+        return View(solved, scale, (one, two))
+    is_whole = min(one, two) <= room - _SHORTEST
+    below = room / 2 if not is_whole else one if one <= two else room - two
+    return View(solved, scale, (below, min(two, room - below)))
+
+
+def meshing_picture(view: View, words: Language, letter: float) -> Picture:
+    """Return the picture with its letters; ``letter`` is their height, mm."""
+    items: list[Item] = []
+    for wheel, tooth in enumerate(view.solved.teeth):
+        items += _circles(view, wheel)
+        for number in (-1, 0, 1):
+            items += _tooth(view, tooth, wheel, number)
+        items += _active(view, tooth, wheel)
+    items += _line_of_action(view)
+    items += _centres(view)
+    items += _angle(view)
+    items += _distance(view, ink_bounds(items)[0] - _ASIDE, words, letter)
+    return lettered(items, [*_letters(view, letter), *_circle_letters(view, letter)])
+
+
+# Teeth --------------------------------------------------------------------------------------------
+
+
+def _tooth(view: View, tooth: Tooth, wheel: int, number: int) -> Iterator[Item]:
+    """Yield a tooth from the middle of a space to that of the next: arcs, fillets, flanks."""
+    turn, centre = view.axis(wheel, number), view.centre(wheel)
+    tag = f"{CURVE} {wheel + 1}"
+    fillet, flank = tooth.fillet_points(POINTS), tooth.flank_points(POINTS)
+    for curve in (fillet, flank, fillet.conj(), flank.conj()):
+        yield Stroke(tuple(view.placed(curve, wheel, number).tolist()), tag=tag, smooth=True)
+    root = float(np.angle(fillet[0]))
+    low = tooth.size("d_f") / 2 * view.scale
+    for start, end in ((-pi / tooth.z, root), (-root, pi / tooth.z)):
+        if end - start > 1e-9:
+            yield Arc(centre, low, turn + start, turn + end, tag=tag)
+    top = float(np.angle(flank[-1]))
+    if top < -1e-6:
+        yield Arc(centre, abs(flank[-1]) * view.scale, turn + top, turn - top, tag=tag)
+
+
+def _active(view: View, tooth: Tooth, wheel: int) -> Iterator[Item]:
+    """Yield the hatched band along the flank that takes part in the mesh (активный профиль)."""
+    contact, line = view.solved.contact, float(view.solved.pair.line)
+    ends = (contact.start, contact.end)
+    low, high = ends if wheel == 0 else (line - ends[1], line - ends[0])
+    if high <= low:
+        return
+    rho = np.linspace(low, high, POINTS)
+    points = tooth.flank(rho)
+    centres = (
+        tooth.size("d_b")
+        / 2
+        * np.exp(1j * (np.angle(points) + np.arctan(2 * rho / tooth.size("d_b"))))
+    )
+    gone = centres - points
+    inward = gone / np.maximum(np.abs(gone), 1e-12) * _BAND / view.scale
+    outer = view.placed(points, wheel)
+    inner = view.placed(points + inward, wheel)
+    tag = "active flank"
+    yield Stroke(tuple(inner.tolist()), Pen.THIN, tag=tag, smooth=True)
+    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(outer)))])
+    marks = np.linspace(0.0, way[-1], max(2, round(way[-1] / _BAND)))
+    for at in marks:
+        start, end = np.interp(at, way, outer), np.interp(at, way, inner)
+        yield Stroke((complex(start), complex(end)), Pen.HATCH, tag=tag)
+
+
+def _circles(view: View, wheel: int) -> Iterator[Item]:
+    """Yield arcs of the circles of a wheel along its three teeth and beyond, on one side more."""
+    for radius, pen, _ in _circle_sizes(view, wheel):
+        start, end = _arc_ends(view, wheel, radius)
+        yield Arc(view.centre(wheel), radius, start, end, pen, tag="circle")
+
+
+def _circle_sizes(view: View, wheel: int) -> list[tuple[float, Pen, str]]:
+    """Return radii on the paper, pens and letters of the circles of a wheel, from inside."""
+    tooth, number = view.solved.teeth[wheel], wheel + 1
+    told = [
+        ("d_f", Pen.THIN, f"d_{{f{number}}}"),
+        ("d_b", Pen.THIN, f"d_{{b{number}}}"),
+        ("d", Pen.AXIS, f"d_{{{number}}}"),
+        ("d_w", Pen.AXIS, f"d_{{w{number}}}"),
+        ("d_a", Pen.THIN, f"d_{{a{number}}}"),
+    ]
+    found: list[tuple[float, Pen, str]] = []
+    for name, pen, letters in told:
+        radius = tooth.size(name) / 2 * view.scale
+        if view.is_broken(wheel) and view.radii[wheel] - radius > view.reach[wheel] - 5 * _OVER:
+            continue  # the base circle of a large wheel is beyond the break
+        same = next((k for k, one in enumerate(found) if abs(one[0] - radius) < 0.1), None)
+        if same is None:
+            found.append((radius, pen, letters))
+        else:
+            before = found[same]
+            found[same] = (before[0], before[1], f"{before[2]} = {letters}")
+    return found
+
+
+def _arc_ends(view: View, wheel: int, radius: float) -> tuple[float, float]:
+    """Return where an arc starts and ends: at the side of its letters it goes on."""
+    z = view.solved.teeth[wheel].z
+    middle = view.axis(wheel)
+    half = min(3 * pi / z + 0.4 * _OVER / radius, pi)
+    more = min(3 * pi / z + 2.2 * _OVER / radius, pi)
+    # Letters of wheel 1 on the left (its axis leans to the left), those of wheel 2 on the right.
+    return middle - half, middle + more
+
+
+# Lines --------------------------------------------------------------------------------------------
+
+
+def _line_of_action(view: View) -> Iterator[Item]:
+    """Yield the line of action with its active part, and the common tangent in P."""
+    contact = view.solved.contact
+    start, end = (_near(view, wheel) for wheel in (0, 1))
+    for wheel, tip in ((0, start), (1, end)):
+        beyond = view.along * (-_OVER if wheel == 0 else _OVER) / 2
+        yield Stroke((tip, tip + beyond), Pen.THIN, tag="line of action")
+        if _shows_end(view, wheel):
+            foot = view.drawn_centre(wheel)
+            if view.is_broken(wheel):
+                way = view.centre(wheel) - tip
+                foot = tip + way / abs(way) * min(2.5 * _OVER, abs(way))
+            yield Stroke((tip, foot), Pen.THIN, tag="base radius")
+            yield from _square(tip, view.along * (1 if wheel == 0 else -1), foot - tip)
+    a, b = view.on_line(contact.start), view.on_line(contact.end)
+    yield Stroke((start, a), Pen.THIN, tag="line of action")
+    yield Stroke((a, b), Pen.MAIN, tag="active line")
+    yield Stroke((b, end), Pen.THIN, tag="line of action")
+    wide = _angle_radius(view) + _OVER
+    yield Stroke((complex(-0.5 * wide), complex(wide)), Pen.THIN, tag="tangent")
+
+
+def _near(view: View, wheel: int) -> complex:
+    """Return the end of the line of action, N₁ or N₂; a nearer point where it is far away."""
+    full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
+    if _shows_end(view, wheel):
+        return full
+    return full / abs(full) * _farthest(view)
+
+
+def _shows_end(view: View, wheel: int) -> bool:
+    full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
+    return abs(full) <= _farthest(view)
+
+
+def _farthest(view: View) -> float:
+    contact = view.solved.contact
+    active = max(abs(view.on_line(contact.start)), abs(view.on_line(contact.end)))
+    return max(1.6 * view.half_width, active + _OVER)
+
+
+def _square(corner: complex, one: complex, two: complex) -> Iterator[Item]:
+    """Yield the mark of a right angle."""
+    one, two = one / abs(one) * 4.0, two / abs(two) * 4.0
+    yield Stroke((corner + one, corner + one + two, corner + two), Pen.THIN, tag="right angle")
+
+
+def _centres(view: View) -> Iterator[Item]:
+    """Yield the line of centres, the centres and the senses of rotation."""
+    for wheel in (0, 1):
+        centre, way = view.drawn_centre(wheel), 1j if wheel else -1j
+        if view.is_broken(wheel):
+            gap = centre - way * 2.5 * _OVER
+            yield from axis_line(0j, gap + 0j, tag="line of centres")
+            yield from kinked_line(gap - 10.0, gap + 10.0)
+            yield from kinked_line(gap + way * 4.0 - 10.0, gap + way * 4.0 + 10.0)
+            yield from axis_line(gap + way * 4.0, centre + way * 8.0, centre, tag="line of centres")
+        else:
+            yield from axis_line(0j, centre + way * 8.0, centre, tag="line of centres")
+        yield from centre_lines(centre, 5.0, directions=(1 + 0j,))
+        yield Disc(centre, _DOT, Ink.BLACK)
+        yield from turn_arrow(
+            centre, 11.0, -1 if wheel == 0 else 1, middle=90.0 if wheel else -90.0
+        )
+    yield Disc(0j, _DOT, Ink.BLACK)
+
+
+def _distance(view: View, x: float, words: Language, letter: float) -> Iterator[Item]:
+    """Yield the dimension of the distance of the axes at an abscissa (межосевое расстояние)."""
+    low, high = view.drawn_centre(0), view.drawn_centre(1)
+    for centre in (low, high):
+        yield Stroke((centre - 6.0, complex(x - 3.0, centre.imag)), Pen.THIN, tag="dimension")
+    ends = complex(x, low.imag), complex(x, high.imag)
+    yield Stroke((ends[0] + 1j * _HEAD / 2, ends[1] - 1j * _HEAD / 2), Pen.THIN, tag="dimension")
+    yield from arrowhead(ends[0], -1j, length=_HEAD, tag="dimension")
+    yield from arrowhead(ends[1], 1j, length=_HEAD, tag="dimension")
+    shown = words.say.number(f"{float(view.solved.pair.a_w):.3f}")
+    text = typeset(f"a_{{w}} = {shown}", letter)
+    at = complex(x - text.descent - 1.2, (low.imag + high.imag) / 2)
+    yield from text.at(at, anchor="centre", angle=90.0)
+
+
+def _angle_radius(view: View) -> float:
+    end = abs(_near(view, 1)) - 14.0
+    return min(view.half_width + 1.2 * _OVER, end)
+
+
+def _angle(view: View) -> Iterator[Item]:
+    """Yield the dimension of the working angle between the tangent and the line of action."""
+    radius, angle = _angle_radius(view), float(view.solved.pair.alpha_w)
+    lean = _HEAD / radius / 2
+    yield Arc(0j, radius, lean, angle - lean, Pen.THIN, tag="dimension")
+    yield from arrowhead(complex(radius), -1j + lean, length=_HEAD, tag="dimension")
+    tip = radius * view.along
+    yield from arrowhead(tip, view.along * (1j + lean), length=_HEAD, tag="dimension")
+
+
+# Letters ------------------------------------------------------------------------------------------
+
+
+def _letters(view: View, height: float) -> list[Label]:
+    contact = view.solved.contact
+    named: list[tuple[str, complex, complex]] = [
+        ("P", 0j, -1 + 0j),
+        ("A", view.on_line(contact.start), -1j),
+        ("B", view.on_line(contact.end), 1j),
+        ("O_{1}", view.drawn_centre(0), 1 - 0.3j),
+        ("O_{2}", view.drawn_centre(1), 1 + 0.3j),
+    ]
+    named += [
+        (f"N_{{{wheel + 1}}}", _near(view, wheel), view.along * (1 if wheel else -1))
+        for wheel in (0, 1)
+        if _shows_end(view, wheel)
+    ]
+    labels = [
+        Label(typeset(letters, height), at, prefer=way, gap=2.0, name=letters, manner=BUSY)
+        for letters, at, way in named
+    ]
+    middle = _angle_radius(view) * np.exp(0.5j * float(view.solved.pair.alpha_w))
+    labels.append(Label(typeset("α_{w}", height), complex(middle), prefer=1 + 0j, name="α_w"))
+    for wheel in (0, 1):
+        at = view.drawn_centre(wheel) + (11j if wheel else -11j)
+        sign = typeset(f"ω_{{{wheel + 1}}}", height)
+        labels.append(Label(sign, at, prefer=1 + 0j, gap=3.0, name=f"ω_{wheel + 1}", manner=BUSY))
+    return labels
+
+
+def _circle_letters(view: View, height: float) -> list[Label]:
+    """Return the letters of the circles at the ends of their arcs."""
+    labels = []
+    for wheel in (0, 1):
+        for radius, _, letters in _circle_sizes(view, wheel):
+            _, end = _arc_ends(view, wheel, radius)
+            at = view.centre(wheel) + radius * np.exp(1j * end)
+            away = -1 + 0j if wheel == 0 else 1 + 0j
+            labels.append(
+                Label(
+                    typeset(letters, height),
+                    complex(at),
+                    prefer=away,
+                    gap=1.0,
+                    name=f"{letters}",
+                    manner=CROWDED,
+                    series=f"circles {wheel + 1}",
+                )
+            )
+    return labels

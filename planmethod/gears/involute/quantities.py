@@ -1,0 +1,290 @@
+"""What is told of a pair: names of the standard, symbols, units, formulas (величины и формулы)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from planmethod.gears.involute.blocking import Limit, LimitKind, limits
+from planmethod.gears.involute.model import MeshingProblem, Reals
+from planmethod.gears.involute.profile import Contact, Tooth
+from planmethod.gears.involute.sizes import Pair, involute
+from planmethod.note.numbers import Notation, trimmed
+from planmethod.note.wording import Language
+
+
+class Unit(Enum):
+    """Unit of a quantity, and the decimals it is shown with."""
+
+    MM = ("mm", 3)
+    DEGREE = ("°", 4)
+    NONE = ("", 4)
+    FINE = ("", 6)
+    COUNT = ("", 0)
+
+    @property
+    def places(self) -> int:
+        """Decimals that are shown."""
+        return self.value[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """One quantity of the record, the table and the protocol (величина).
+
+    Attributes
+    ----------
+    key : str
+        Its name in JSON; that of `Pair` where it stands there.
+    symbol : str
+        Rich text; ``#`` stands for the number of the wheel.
+    formula, numbers : str
+        What it is computed by: in letters, and the same with fields for numbers. ``#`` is the
+        wheel, ``@`` the other one. A quantity without them is not derived in the protocol.
+    in_table : bool
+        It stands in the table of the sheet.
+    """
+
+    key: str
+    symbol: str
+    unit: Unit
+    formula: str = ""
+    numbers: str = ""
+    in_table: bool = True
+
+
+_OF_PAIR = (
+    Quantity("m", "m", Unit.MM),
+    Quantity("alpha", "α", Unit.DEGREE),
+    Quantity("ha", "h_{a}^{*}", Unit.NONE),
+    Quantity("c", "c^{*}", Unit.NONE),
+    Quantity("rho_f", "ρ_{f}^{*}", Unit.NONE, in_table=False),
+    Quantity("z_min", "z_{min}", Unit.NONE, "2·h_{l}^{*}/sin^{2}α", "2·{h_l}/{sin}^{{2}}", False),
+    Quantity("inv_alpha", "inv α", Unit.FINE, "{tan} α − α", "{tan_alpha} − {rad_alpha}", False),
+    Quantity("x_sum", "x_{Σ}", Unit.NONE, "x_{1} + x_{2}", "{x1} + {x2}"),
+    Quantity(
+        "inv_alpha_w",
+        "inv α_{w}",
+        Unit.FINE,
+        "inv α + 2·x_{Σ}·{tan} α/(z_{1} + z_{2})",
+        "{inv_alpha} + 2·{x_sum}·{tan_alpha}/({z1} + {z2})",
+    ),
+    Quantity("alpha_w", "α_{w}", Unit.DEGREE),
+    Quantity("a", "a", Unit.MM, "m·(z_{1} + z_{2})/2", "{m}·({z1} + {z2})/2"),
+    Quantity(
+        "a_w",
+        "a_{w}",
+        Unit.MM,
+        "a·cos α/cos α_{w}",
+        "{a}·{cos}/{cos_w}",
+    ),
+    Quantity("y", "y", Unit.NONE, "(a_{w} − a)/m", "({a_w} − {a})/{m}"),
+    Quantity("delta_y", "Δy", Unit.NONE, "x_{Σ} − y", "{x_sum} − {y}"),
+    Quantity("p", "p", Unit.MM, "π·m", "π·{m}"),
+    Quantity("p_b", "p_{b}", Unit.MM, "p·cos α", "{p}·{cos}"),
+)
+_OF_WHEELS = (
+    Quantity("z", "z_{#}", Unit.COUNT),
+    Quantity(
+        "x_min", "x_{min#}", Unit.NONE, "h_{l}^{*} − z_{#}·sin^{2}α/2", "{h_l} − {z#}·{sin}^{{2}}/2"
+    ),
+    Quantity("x", "x_{#}", Unit.NONE),
+    Quantity("d", "d_{#}", Unit.MM, "m·z_{#}", "{m}·{z#}"),
+    Quantity("d_b", "d_{b#}", Unit.MM, "d_{#}·cos α", "{d#}·{cos}"),
+    Quantity("d_w", "d_{w#}", Unit.MM, "d_{b#}/cos α_{w}", "{d_b#}/{cos_w}"),
+    Quantity(
+        "d_a",
+        "d_{a#}",
+        Unit.MM,
+        "d_{#} + 2·m·(h_{a}^{*} + x_{#} − Δy)",
+        "{d#} + 2·{m}·({ha} + {x#} − {delta_y})",
+    ),
+    Quantity(
+        "d_f",
+        "d_{f#}",
+        Unit.MM,
+        "d_{#} − 2·m·(h_{a}^{*} + c^{*} − x_{#})",
+        "{d#} − 2·{m}·({ha} + {c} − {x#})",
+    ),
+    Quantity("s", "s_{#}", Unit.MM, "m·(π/2 + 2·x_{#}·{tan} α)", "{m}·(π/2 + 2·{x#}·{tan_alpha})"),
+    Quantity(
+        "alpha_a", "α_{a#}", Unit.DEGREE, "arccos(d_{b#}/d_{a#})", "arccos({d_b#}/{d_a#})", False
+    ),
+    Quantity(
+        "s_a",
+        "s_{a#}",
+        Unit.MM,
+        "d_{a#}·(s_{#}/d_{#} + inv α − inv α_{a#})",
+        "{d_a#}·({s#}/{d#} + {inv_alpha} − {inv_alpha_a#})",
+    ),
+    Quantity("k", "k_{#}", Unit.COUNT),
+    Quantity(
+        "W",
+        "W_{#}",
+        Unit.MM,
+        "m·cos α·(π·(k_{#} − 0,5) + 2·x_{#}·{tan} α + z_{#}·inv α)",
+        "{m}·{cos}·(π·({k#} − 0,5) + 2·{x#}·{tan_alpha} + {z#}·{inv_alpha})",
+    ),
+    Quantity("rho_a", "ρ_{a#}", Unit.MM, "d_{b#}·{tan} α_{a#}/2", "{d_b#}·{tan_alpha_a#}/2", False),
+    Quantity("rho_p", "ρ_{p#}", Unit.MM, "a_{w}·sin α_{w} − ρ_{a@}", "{a_w}·{sin_w} − {rho_a@}"),
+    Quantity(
+        "rho_l",
+        "ρ_{l#}",
+        Unit.MM,
+        "d_{#}·sin α/2 − m·(h_{l}^{*} − x_{#})/sin α",
+        "{d#}·{sin}/2 − {m}·({h_l} − {x#})/{sin}",
+    ),
+    Quantity("rho_low", "ρ_{min#}", Unit.MM, in_table=False),
+    Quantity(
+        "theta_p",
+        "ϑ_{p#}",
+        Unit.NONE,
+        "1 − ρ_{a@}·z_{#}/(ρ_{p#}·z_{@})",
+        "1 − {rho_a@}·{z#}/({rho_p#}·{z@})",
+    ),
+    Quantity(
+        "theta_a",
+        "ϑ_{a#}",
+        Unit.NONE,
+        "1 − ρ_{p@}·z_{#}/(ρ_{a#}·z_{@})",
+        "1 − {rho_p@}·{z#}/({rho_a#}·{z@})",
+        False,
+    ),
+)
+_OF_CONTACT = (
+    Quantity("g_alpha", "g_{α}", Unit.MM, "ρ_{a1} − ρ_{p1}", "{rho_a1} − {rho_p1}", False),
+    Quantity(
+        "epsilon_alpha",
+        "ε_{α}",
+        Unit.NONE,
+        "(ρ_{a1} + ρ_{a2} − a_{w}·sin α_{w})/p_{b}",
+        "({rho_a1} + {rho_a2} − {a_w}·{sin_w})/{p_b}",
+    ),
+    Quantity("epsilon_active", "ε_{α}'", Unit.NONE, in_table=False),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A quantity with its value: one, or those of both wheels."""
+
+    quantity: Quantity
+    values: tuple[float, ...]
+
+    def shown(self, say: Notation) -> list[str]:
+        """Return the values as they are written, a dash for what does not exist."""
+        places = self.quantity.unit.places
+        return [say.number(f"{value + 0.0:.{places}f}") for value in self.values]
+
+
+class Solved:
+    """A pair solved: its sizes, its teeth, its line of action, its limits (решение)."""
+
+    def __init__(self, problem: MeshingProblem) -> None:
+        self.problem = problem
+        self.pair = pair = Pair.of(problem)
+        self.teeth = (Tooth(pair, 0), Tooth(pair, 1))
+        self.contact = Contact.of(*self.teeth)
+        self.limits = limits(problem.tip, problem.overlap)
+
+    def _value(self, key: str) -> Reals:
+        pair, rack = self.pair, self.pair.rack
+        own = {
+            "m": pair.m,
+            "alpha": np.degrees(rack.alpha),
+            "ha": rack.ha,
+            "c": rack.c,
+            "rho_f": rack.rho,
+            "inv_alpha": involute(rack.alpha),
+            "z": np.array(pair.z, dtype=float),
+            "W": pair.base_tangent,
+            "rho_low": np.array([tooth.rho_low for tooth in self.teeth]),
+            "g_alpha": pair.rho_a[0] - pair.rho_p[0],
+            "epsilon_alpha": pair.epsilon,
+            "epsilon_active": self.contact.overlap(pair),
+        }
+        found = own[key] if key in own else getattr(pair, key)
+        return np.asarray(np.degrees(found) if key in ("alpha_w", "alpha_a") else found)
+
+    def told(self) -> tuple[list[Told], list[Told], list[Told]]:
+        """Return the quantities of the pair, of both wheels, and of their contact."""
+        one, two, three = (
+            [Told(q, tuple(float(v) for v in np.atleast_1d(self._value(q.key)))) for q in group]
+            for group in (_OF_PAIR, _OF_WHEELS, _OF_CONTACT)
+        )
+        return one, two, three
+
+    def fields(self, say: Notation) -> dict[str, str]:
+        """Return the numbers that formulas are filled with, by their names; ``x1`` of a wheel."""
+        rack, alpha_w = self.pair.rack, float(self.pair.alpha_w)
+        values = {
+            "h_l": rack.straight,
+            "rad_alpha": rack.alpha,
+            "tan_alpha": np.tan(rack.alpha),
+            "cos": np.cos(rack.alpha),
+            "sin": np.sin(rack.alpha),
+            "cos_w": np.cos(alpha_w),
+            "sin_w": np.sin(alpha_w),
+        }
+        for group in self.told():
+            for one in group:
+                ends = ("",) if len(one.values) == 1 else ("1", "2")
+                values |= {one.quantity.key + e: v for e, v in zip(ends, one.values, strict=True)}
+        for k, angle in enumerate(self.pair.alpha_a):
+            values[f"inv_alpha_a{k + 1}"] = float(involute(angle))
+            values[f"tan_alpha_a{k + 1}"] = np.tan(angle)
+        return {
+            name: f"({shown})" if value < 0 else shown
+            for name, value in values.items()
+            for shown in [say.number(trimmed(float(value), 6))]
+        }
+
+    def formulas(self, words: Language) -> Iterator[tuple[str, str]]:
+        """Yield keys and formulas with their numbers and results, rich text, in order."""
+        say, fields = words.say, self.fields(words.say)
+        tan = words.meshing.tan
+        for group in self.told():
+            for one in group:
+                q = one.quantity
+                for k, shown in enumerate(one.shown(say)) if q.formula else ():
+                    own, other = ("1", "2") if k == 0 else ("2", "1")
+
+                    def put(text: str, own: str = own, other: str = other) -> str:
+                        text = text.replace("#", own).replace("@", other)
+                        return text.replace("0,5", say.number("0.5"))
+
+                    unit = "°" if q.unit is Unit.DEGREE else ""
+                    unit = f" {words.meshing.units['mm']}" if q.unit is Unit.MM else unit
+                    letters = put(q.formula).replace("{tan}", tan)
+                    numbers = put(q.numbers).format_map(fields)
+                    yield q.key, f"{put(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
+
+    def judged(self) -> Iterator[tuple[Limit, float, float]]:
+        """Yield every limit with what is compared with it, and its bound.
+
+        The contact ratio is that of the teeth as they are cut.
+        """
+        for one in self.limits:
+            if not (one.hard and one.kind in (LimitKind.TIP, LimitKind.OVERLAP)):
+                value = float(one.value(self.pair))
+                if one.kind is LimitKind.OVERLAP:
+                    value = self.contact.overlap(self.pair)
+                yield one, value, float(one.bound(self.pair))
+
+    def sentences(self, words: Language) -> list[tuple[Limit, bool, str]]:
+        """Return every limit: whether it is kept, and what is said of it, rich text."""
+        say, found = words.meshing, []
+        for one, value, bound in self.judged():
+            number = "" if one.wheel is None else str(one.wheel + 1)
+            shown = {
+                k: words.say.number(f"{v + 0.0:.3f}")
+                for k, v in (("value", value), ("bound", bound))
+            }
+            holds = value >= bound
+            sign = "≥" if holds else "<"
+            text = say.conditions[one.kind.value].format(wheel=number, sign=sign, **shown)
+            found.append((one, holds, text))
+        return found

@@ -1,0 +1,245 @@
+"""Read a file with ``[meshing]``: every fault at once (чтение файла задачи)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import cos, radians
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from planmethod.errors import ProblemError
+from planmethod.gears.involute.blocking import HIGH, LOW, LimitKind, choose, is_kept, limits, tried
+from planmethod.gears.involute.model import MeshingProblem, Rack
+from planmethod.gears.involute.profile import Tooth
+from planmethod.gears.involute.sizes import Pair, involute
+from planmethod.problem import keys
+from planmethod.problem.extras import read_heading
+from planmethod.problem.fields import (
+    Faults,
+    read_keys,
+    read_number,
+    read_table,
+    read_whole,
+    show,
+)
+from planmethod.problem.reader import varied
+from planmethod.problem.sheet import read_sheet, read_stamp
+
+TOP = ("title", "source", "stamp", "sheet", "variants", "meshing")
+"""Tables of the file that a meshing may have."""
+
+BLOCKING = "blocking"
+"""Word in place of the shifts: they are chosen by the blocking limits."""
+
+_EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'
+_WAYS = 'Give x = [0.5, 0.3], x = "blocking", or a_w = 110 (mm), with x1 or x2 beside it or alone.'
+_NUMBERS = {
+    "m": ("a module in mm", 0.05, 100.0, None),
+    "alpha": ("an angle in degrees", 10.0, 30.0, 20.0),
+    "ha": ("a factor of the module", 0.5, 1.3, 1.0),
+    "c": ("a factor of the module", 0.05, 0.5, 0.25),
+    "x1": ("a shift in modules", -2.0, 3.0, None),
+    "x2": ("a shift in modules", -2.0, 3.0, None),
+    "a_w": ("a distance in mm", 0.1, 1e5, None),
+    "s_a_min": ("a thickness in modules", 0.0, 1.0, 0.25),
+    "epsilon_min": ("a contact ratio", 1.0, 2.0, 1.2),
+}
+"""What the numbers are, their bounds, and what they are where the file does not say."""
+
+
+def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
+    """Read a file with ``[meshing]``.
+
+    Raises
+    ------
+    ProblemError
+        With every fault of the file; wheels that cannot be cut or do not mesh are faults, too.
+    """
+    path = Path(path)
+    table, faults = varied(path, variant)
+    given = read_keys(faults, "", table, TOP)
+    title, source = (read_heading(faults, given, key) for key in ("title", "source"))
+    stamp = read_stamp(faults, given.get("stamp", {}))
+    sheet = read_sheet(faults, given.get("sheet", {}))
+    body = read_table(faults, "meshing", given.get("meshing", {}), _EXAMPLE)
+    told = None if body is None else _read(faults, body)
+    if faults or told is None:
+        raise ProblemError(str(path), faults.found)
+    problem = MeshingProblem(
+        name=path.stem,
+        title=title,
+        source=source,
+        stamp=stamp,
+        sheet=sheet,
+        variant=variant,
+        **told,
+    )
+    _check_teeth(faults, Pair.of(problem))
+    if faults:
+        raise ProblemError(str(path), faults.found)
+    return problem
+
+
+def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return the fields of a problem that stand in its table."""
+    given = read_keys(faults, "meshing", body, keys.MESHING)
+    number: dict[str, float | None] = {}
+    for key, (what, low, high, usual) in _NUMBERS.items():
+        number[key] = usual
+        if key in given:
+            path, value = f"meshing.{key}", given[key]
+            hint = "Lengths of [meshing] are millimetres, as the standard has them."
+            read = read_number(faults, path, value, what, low=low, high=high, hint=hint)
+            number[key] = read
+    for key in ("z", "m"):
+        if key not in given:
+            faults.add(f"meshing.{key}", "missing", f"For example: {_EXAMPLE}")
+    z = _read_teeth(faults, given["z"]) if "z" in given else None
+    x = _read_shifts(faults, given)
+    if faults or z is None:
+        return None
+    m, alpha, ha, c, tip, overlap = (
+        float(number[key] or 0.0) for key in ("m", "alpha", "ha", "c", "s_a_min", "epsilon_min")
+    )
+    rack = Rack(radians(alpha), ha, c)
+    if rack.half_tip <= 0.0:
+        most = (np.pi / 4) / np.tan(rack.alpha)
+        faults.add(
+            "meshing",
+            f"the rack's tooth ends before its tip: ha + c = {ha + c:g}, at {alpha:g}° at most "
+            f"{most:.3f}",
+            "The standard rack has alpha = 20, ha = 1, c = 0.25.",
+        )
+        return None
+    pair = Pair(z, m, rack, np.zeros(2))
+    settled = _settle(faults, pair, x, (number["x1"], number["x2"]), number["a_w"], tip, overlap)
+    return settled and {
+        "z": z,
+        "m": m,
+        "rack": rack,
+        "x": settled,
+        "chosen": x is None and number["x1"] is number["x2"] is None,
+        "a_w": number["a_w"],
+        "tip": tip,
+        "overlap": overlap,
+    }
+
+
+def _read_teeth(faults: Faults, value: object) -> tuple[int, int] | None:
+    if not isinstance(value, list) or len(value) != 2:
+        faults.add("meshing.z", f"expected two numbers of teeth, got {show(value)}", "z = [12, 30]")
+        return None
+    if any(isinstance(one, int) and one < 0 for one in value):
+        hint = "Its wheel is cut by a pinion cutter, not by a rack; give two external wheels."
+        faults.add("meshing.z", "an internal pair is not computed here", hint)
+        return None
+    found = [read_whole(faults, f"meshing.z[{i}]", one, 5, 1000) for i, one in enumerate(value)]
+    one, two = found
+    return None if one is None or two is None else (one, two)
+
+
+def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float] | None:
+    """Read ``x``; None where the limits are to choose, or the distance of the axes tells."""
+    alone = [key for key in ("x1", "x2") if key in given]
+    value = given.get("x")
+    if isinstance(value, list):
+        if len(value) != 2:
+            faults.add("meshing.x", f"expected two shifts, got {show(value)}", "x = [0.5, 0.3]")
+            return None
+        for key in (*alone, *(["a_w"] if "a_w" in given else [])):
+            faults.add(f"meshing.{key}", "both shifts are given in x", "Keep one of them.")
+        what, low, high, _ = _NUMBERS["x1"]
+        found = [
+            read_number(faults, f"meshing.x[{i}]", one, what, low=low, high=high)
+            for i, one in enumerate(value)
+        ]
+        one, two = found
+        return None if one is None or two is None else (one, two)
+    if "x" in given and value != BLOCKING:
+        faults.add("meshing.x", f"expected two shifts or 'blocking', got {show(value)}", _WAYS)
+    elif "x" in given:
+        for key in alone:
+            faults.add(f"meshing.{key}", 'both shifts are chosen by x = "blocking"', _WAYS)
+    elif "a_w" not in given:
+        faults.add("meshing.x", "missing", _WAYS)
+    elif len(alone) == 2:
+        faults.add("meshing.x2", "a_w and x1 tell it already", "Leave one of the three out.")
+    return None
+
+
+def _settle(
+    faults: Faults,
+    pair: Pair,
+    x: tuple[float, float] | None,
+    alone: tuple[float | None, float | None],
+    a_w: float | None,
+    tip: float,
+    overlap: float,
+) -> tuple[float, float] | None:
+    """Return the shifts: as given, from the distance of the axes, or chosen."""
+    if x is not None:
+        return x
+    total = None
+    if a_w is not None:
+        least = pair.a * cos(pair.rack.alpha)
+        if a_w <= least:
+            what = f"{a_w:g} mm, the base circles meet at a·cos α = {least:.3f} mm"
+            faults.add("meshing.a_w", what, f"Without shifts it is a = {pair.a:g} mm.")
+            return None
+        alpha_w = float(np.arccos(least / a_w))
+        grown = float(involute(alpha_w) - involute(pair.rack.alpha))
+        total = grown * sum(pair.z) / (2 * float(np.tan(pair.rack.alpha)))
+        one, two = alone
+        if one is not None:
+            return one, total - one
+        if two is not None:
+            return total - two, two
+    asked = limits(tip, overlap)
+    found = choose(pair, asked, total)
+    if found is None:
+        faults.add("meshing.x", *_why_none(pair, total, tip, overlap))
+    return found
+
+
+def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tuple[str, str]:
+    """Say which limit the others leave no room for."""
+    with np.errstate(all="ignore"):
+        every = pair.shifted(tried(total))
+        asked = limits(tip, overlap)
+        others = tuple(one for one in asked if one.kind is not LimitKind.OVERLAP)
+        most = np.max(np.where(is_kept(every, others), every.epsilon, 0.0))
+    what = f"no shifts from {LOW:g} to {HIGH:g} keep all limits"
+    if total is not None:
+        what += f", x1 + x2 being {total:.4f} by a_w"
+    if most >= 1:
+        return what, (
+            f"Where the others are kept ε_α is at most {most:.3f}: give a smaller epsilon_min "
+            f"than {overlap:g}, or x."
+        )
+    return what, f"Give a smaller s_a_min than {tip:g}, other teeth, or x = [.., ..]."
+
+
+def _check_teeth(faults: Faults, pair: Pair) -> None:
+    """Note what keeps the wheels from being cut or from meshing."""
+    total = float(pair.x_sum)
+    if not float(pair.inv_alpha_w) >= 0:
+        least = -sum(pair.z) * float(involute(pair.rack.alpha)) / (2 * np.tan(pair.rack.alpha))
+        what = f"x1 + x2 = {total:g}: such wheels cannot come so near to each other"
+        faults.add("meshing.x", what, f"The sum must be at least {least:.4f}.")
+        return
+    for k in (0, 1):
+        tooth = Tooth(pair, k)
+        sizes = {name: tooth.size(name) for name in ("d_a", "d_b", "d_f")}
+        said = ", ".join(f"{name} = {value:.3f} mm" for name, value in sizes.items())
+        if not np.isfinite(tooth.size("rho_a")) or sizes["d_f"] <= 0:
+            what = f"wheel {k + 1} has no involute teeth: {said}"
+            faults.add("meshing.x", what, f"Take a larger x{k + 1}.")
+        elif not tooth.stands and not tooth.is_cut:
+            what = f"the tooth of wheel {k + 1} is pointed below its involute: x{k + 1} = "
+            faults.add("meshing.x", f"{what}{pair.x[k]:g}", f"Take a smaller x{k + 1}.")
+        elif not tooth.stands:
+            what = f"the rack cuts the tooth of wheel {k + 1} off: x{k + 1} = {pair.x[k]:g}"
+            hint = f"Without undercut x{k + 1} is at least {tooth.size('x_min'):.3f}."
+            faults.add("meshing.x", what, hint)

@@ -1,0 +1,48 @@
+"""What JSON says of a pair of wheels (запись для JSON)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from planmethod.gears.involute.model import MeshingProblem
+from planmethod.gears.involute.quantities import Solved
+from planmethod.note.numbers import finite_or_none
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import language
+
+
+def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
+    """Return one object for a problem: the standard's names, mm and degrees, full precision."""
+    solved, words = Solved(problem), language(lang)
+    told: dict[str, Any] = {"length": "mm", "angle": "deg", "shifts_chosen": problem.chosen}
+    for group in solved.told():
+        for one in group:
+            values = [finite_or_none(value) for value in one.values]
+            told[one.quantity.key] = values[0] if len(values) == 1 else values
+    told["k"] = [int(k) for k in told["k"]]
+    told["z"] = list(problem.z)
+    told["undercut"] = [tooth.is_cut for tooth in solved.teeth]
+    told["conditions"] = [
+        {
+            "name": limit.kind.value,
+            "wheel": None if limit.wheel is None else limit.wheel + 1,
+            "value": value,
+            "limit": bound,
+            "holds": holds,
+            "text": plain_text(text),
+        }
+        for (limit, holds, text), (_, value, bound) in zip(
+            solved.sentences(words), solved.judged(), strict=True
+        )
+    ]
+    missing = [k for k, value in enumerate(told["theta_p"]) if value is None]
+    if missing:
+        told["theta_reason"] = words.meshing.missing.format(wheel=missing[0] + 1)
+    return {
+        "schema": 1,
+        "problem": problem.name,
+        "variant": problem.variant,
+        "title": problem.title,
+        "source": problem.source,
+        "meshing": told,
+    }

@@ -1,0 +1,247 @@
+"""Sizes of a spur pair with external teeth by the formulas of GOST 16532 (геометрический расчёт).
+
+Everything is computed for many pairs of shifts at once: arrays of one quantity of both wheels have
+the shape (2, ...), those of the pair the shape (...). Lengths are millimetres, angles radians.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+
+import numpy as np
+
+from planmethod.gears.involute.model import MeshingProblem, Rack, Reals
+
+_ROUNDS = 40
+
+
+def involute(angle: Reals | float) -> Reals:
+    """Return inv α = tan α − α (инволюта угла)."""
+    return np.asarray(np.tan(angle) - angle)
+
+
+def angle_of_involute(value: Reals | float) -> Reals:
+    """Return the angle of an involute function by Newton's method, rad; NaN of a negative value.
+
+    From above the iteration comes down to the root of the convex function without passing it.
+    """
+    value = np.where(np.asarray(value) >= 0, value, np.nan)
+    angle = np.minimum(np.cbrt(3 * value), np.arctan(value + pi / 2))
+    for _ in range(_ROUNDS):
+        steep = np.tan(angle) ** 2
+        step = np.where(steep > 0, (involute(angle) - value) / np.where(steep > 0, steep, 1.0), 0.0)
+        angle = angle - step
+        if not np.any(np.abs(step) > 1e-16):
+            break
+    return np.asarray(angle)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two wheels in mesh without backlash (зубчатая пара).
+
+    Attributes
+    ----------
+    z : (int, int)
+    m : float, mm
+    rack : Rack
+    x : array of float, shape (2, ...)
+        Shifts of the rack, in modules. What does not exist for them is NaN.
+    """
+
+    z: tuple[int, int]
+    m: float
+    rack: Rack
+    x: Reals
+
+    @classmethod
+    def of(cls, problem: MeshingProblem) -> Pair:
+        """Return the pair of a problem."""
+        return cls(problem.z, problem.m, problem.rack, np.array(problem.x))
+
+    def shifted(self, x: Reals) -> Pair:
+        """Return the same wheels cut with other shifts."""
+        return Pair(self.z, self.m, self.rack, x)
+
+    def _both(self, values: Reals) -> Reals:
+        """Return one number of each wheel in a shape that goes with the shifts."""
+        return values.reshape(2, *[1] * (self.x.ndim - 1))
+
+    # The pair ---------------------------------------------------------------------------------
+
+    @property
+    def a(self) -> float:
+        """Distance of the axes without shifts, mm (делительное межосевое расстояние)."""
+        return self.m * sum(self.z) / 2
+
+    @property
+    def p(self) -> float:
+        """Pitch on the pitch circles, mm (шаг)."""
+        return pi * self.m
+
+    @property
+    def p_b(self) -> float:
+        """Pitch on the base circles, mm (основной шаг)."""
+        return self.p * float(np.cos(self.rack.alpha))
+
+    @cached_property
+    def x_sum(self) -> Reals:
+        """Sum of the shifts x_Σ."""
+        return np.asarray(self.x[0] + self.x[1])
+
+    @cached_property
+    def inv_alpha_w(self) -> Reals:
+        """Involute of the working pressure angle."""
+        by_shift = 2 * self.x_sum * np.tan(self.rack.alpha) / sum(self.z)
+        return np.asarray(involute(self.rack.alpha) + by_shift)
+
+    @cached_property
+    def alpha_w(self) -> Reals:
+        """Working pressure angle, rad (угол зацепления)."""
+        return angle_of_involute(self.inv_alpha_w)
+
+    @cached_property
+    def a_w(self) -> Reals:
+        """Distance of the axes, mm (межосевое расстояние)."""
+        return np.asarray(self.a * np.cos(self.rack.alpha) / np.cos(self.alpha_w))
+
+    @cached_property
+    def y(self) -> Reals:
+        """Factor of the extension of the axes (коэффициент воспринимаемого смещения)."""
+        return np.asarray((self.a_w - self.a) / self.m)
+
+    @cached_property
+    def delta_y(self) -> Reals:
+        """Factor of the tip shortening (коэффициент уравнительного смещения)."""
+        return np.asarray(self.x_sum - self.y)
+
+    @cached_property
+    def epsilon(self) -> Reals:
+        """Contact ratio ε_α (коэффициент торцового перекрытия)."""
+        return np.asarray((self.rho_a[0] + self.rho_a[1] - self.line) / self.p_b)
+
+    @cached_property
+    def line(self) -> Reals:
+        """Length of the line of action N₁N₂, mm (линия зацепления)."""
+        return np.asarray(self.a_w * np.sin(self.alpha_w))
+
+    # Both wheels ------------------------------------------------------------------------------
+
+    @cached_property
+    def d(self) -> Reals:
+        """Pitch diameters, mm (делительные)."""
+        return self._both(self.m * np.array(self.z, dtype=float))
+
+    @cached_property
+    def d_b(self) -> Reals:
+        """Base diameters, mm (основные)."""
+        return np.asarray(self.d * np.cos(self.rack.alpha))
+
+    @cached_property
+    def d_w(self) -> Reals:
+        """Working diameters, mm (начальные)."""
+        return np.asarray(self.d_b / np.cos(self.alpha_w))
+
+    @cached_property
+    def d_a(self) -> Reals:
+        """Tip diameters, mm (вершин)."""
+        return np.asarray(self.d + 2 * self.m * (self.rack.ha + self.x - self.delta_y))
+
+    @cached_property
+    def d_f(self) -> Reals:
+        """Root diameters, mm (впадин)."""
+        return np.asarray(self.d - 2 * self.m * (self.rack.ha + self.rack.c - self.x))
+
+    @cached_property
+    def s(self) -> Reals:
+        """Tooth thickness on the pitch circle, mm."""
+        return np.asarray(self.m * (pi / 2 + 2 * self.x * np.tan(self.rack.alpha)))
+
+    @cached_property
+    def alpha_a(self) -> Reals:
+        """Profile angle at the tip, rad; NaN where the tip is within the base circle."""
+        share = self.d_b / self.d_a
+        return np.arccos(np.where((share > 0) & (share <= 1), share, np.nan))
+
+    @cached_property
+    def s_a(self) -> Reals:
+        """Tooth thickness at the tip, mm; negative where the tooth is pointed below it."""
+        half = self.s / self.d + involute(self.rack.alpha) - involute(self.alpha_a)
+        return np.asarray(self.d_a * half)
+
+    @cached_property
+    def rho_a(self) -> Reals:
+        """Radius of curvature of the profile at the tip, mm."""
+        return np.asarray(self.d_b / 2 * np.tan(self.alpha_a))
+
+    @cached_property
+    def rho_p(self) -> Reals:
+        """Radius of curvature at the lower active point, mm (нижняя точка активного профиля)."""
+        return np.asarray(self.line - self.rho_a[::-1])
+
+    @cached_property
+    def rho_l(self) -> Reals:
+        """Radius of curvature where the fillet begins, mm (граничная точка); negative: undercut."""
+        sine = np.sin(self.rack.alpha)
+        return np.asarray(self.d / 2 * sine - self.m * (self.rack.straight - self.x) / sine)
+
+    @cached_property
+    def x_min(self) -> Reals:
+        """Least shift without undercut."""
+        sine = np.sin(self.rack.alpha)
+        return self.rack.straight - self._both(np.array(self.z) * sine**2 / 2)
+
+    @property
+    def z_min(self) -> float:
+        """Least number of teeth without undercut and without shift."""
+        return float(2 * self.rack.straight / np.sin(self.rack.alpha) ** 2)
+
+    @cached_property
+    def k(self) -> Reals:
+        """Number of teeth spanned by the base tangent (число зубьев в длине общей нормали)."""
+        z = self._both(np.array(self.z))
+        share = z * np.cos(self.rack.alpha) / (z + 2 * self.x)
+        near = np.where(share < 1, np.tan(np.arccos(np.minimum(share, 1.0))), 0.0)
+        shift = 2 * self.x * np.tan(self.rack.alpha) / z
+        count = z / pi * (near - shift - involute(self.rack.alpha)) + 0.5
+        # The tables take the smaller of two equally near ones: 2 of 18 teeth, not 3.
+        return np.asarray(np.maximum(2.0, np.ceil(count - 0.5 - 1e-9)))
+
+    @cached_property
+    def base_tangent(self) -> Reals:
+        """Length W of the base tangent, mm (длина общей нормали)."""
+        z = self._both(np.array(self.z))
+        by_shift = 2 * self.x * np.tan(self.rack.alpha) + z * involute(self.rack.alpha)
+        return np.asarray(self.m * np.cos(self.rack.alpha) * (pi * (self.k - 0.5) + by_shift))
+
+    def sliding(self, rho: Reals) -> Reals:
+        """Return the specific sliding ϑ of both profiles (удельное скольжение).
+
+        Parameters
+        ----------
+        rho : array of float, mm
+            Radius of curvature of the profile of wheel 1 at the contact.
+
+        Returns
+        -------
+        array of float, shape (2, ...)
+            ϑ₁ = 1 − ρ₂·z₁/(ρ₁·z₂) and ϑ₂ the other way round; NaN where the flank has no contact.
+        """
+        one, two = self.z
+        other = self.line - rho
+        ratio = np.where((rho > 0) & (other > 0), other, np.nan) / rho * one / two
+        return np.stack([1 - ratio, 1 - 1 / ratio])
+
+    @cached_property
+    def theta_p(self) -> Reals:
+        """Specific sliding of each wheel at its own lower active point."""
+        start, end = self.sliding(self.rho_p[0]), self.sliding(self.rho_a[0])
+        return np.stack([start[0], end[1]])
+
+    @cached_property
+    def theta_a(self) -> Reals:
+        """Specific sliding of each wheel at its own tip."""
+        start, end = self.sliding(self.rho_p[0]), self.sliding(self.rho_a[0])
+        return np.stack([end[0], start[1]])

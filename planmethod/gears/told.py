@@ -1,0 +1,164 @@
+"""What sheet and protocol say of a train, as rich text: given, calculation, results (тексты)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+
+from planmethod.gears.answers import Answer, answer
+from planmethod.gears.asked import parse
+from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.construction import Construction, Reading
+from planmethod.gears.model import Train
+from planmethod.gears.motion import Motion
+from planmethod.gears.text import equation_of
+from planmethod.note.numbers import MINUS, raised
+from planmethod.note.rounding import sigma_text
+from planmethod.note.wording import Language
+
+_GREEK = {"omega": "ω", "eta": "η"}
+
+
+def symbol(name: str, known: Collection[str]) -> str:
+    """Return the symbol of a quantity: ``U^{(H)}_{14}``, ``n_{5}``, ``ω_{2}``.
+
+    Raises
+    ------
+    AskedError
+    """
+    asked = parse(name, known)
+    letter = _GREEK.get(asked.kind, asked.kind)
+    if not asked.labels:
+        return letter
+    index = ("" if all(len(label) == 1 for label in asked.labels) else "-").join(asked.labels)
+    hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
+    return f"a_{{w{index}}}" if asked.kind == "a_w" else f"{letter}{hat}_{{{index}}}"
+
+
+def unit_of(one: Answer, words: Language) -> str:
+    """Return the unit of a value as rich text."""
+    return raised(words.gears.units[one.unit]) if one.unit else ""
+
+
+def speed_unit(train: Train) -> str:
+    """Return the unit of the inputs by its key: ``1/min`` or ``1/s``."""
+    return "1/min" if train.unit == "n" else "1/s"
+
+
+def speed_letter(train: Train) -> str:
+    """Return the letter of the speeds of the inputs."""
+    return "n" if train.unit == "n" else "ω"
+
+
+def indexed(text: str) -> str:
+    """Return plain text with indices as rich text: ``z_2'`` gives ``z_{2'}``, ``p₁`` ``p_{1}``."""
+    braced = re.sub(r"_([\w']+)", r"_{\1}", text)
+    return re.sub("[₁₂]", lambda sign: f"_{{{'₁₂'.index(sign[0]) + 1}}}", braced)
+
+
+def fraction_text(value: object) -> str:
+    """Return a fraction, or a float's place of none."""
+    return "—" if isinstance(value, float) or value is None else str(value).replace("-", MINUS)
+
+
+def given(motion: Motion, words: Language) -> list[str]:
+    """Return what is given of a train, as rich text (дано)."""
+    train, say, told = motion.train, words.say, words.gears.sheet
+    facts = []
+    for label, size in motion.axes.sizes.items():
+        letter, value = f"z_{{{label}}}", say.given(float(size))
+        if not train.counted(label):
+            letter = f"r_{{{label}}}"
+            value = f"{say.given(float(size * train.unit_m))} {words.gears.units['m']}"
+        by = told.by_coaxiality if label in train.unknown else "{symbol} = {value}"
+        facts.append(by.format(symbol=letter, value=value))
+    unit = raised(words.gears.units[speed_unit(train)])
+    for body, speed in train.inputs.items():
+        value = say.given(float(speed))
+        facts.append(f"{speed_letter(train)}_{{{body}}} = {value} {unit}")
+    if train.module is not None:
+        facts.append(told.module.format(value=say.given(float(train.module * 1000))))
+    if train.fixed:
+        facts.append(told.fixed.format(labels=", ".join(sorted(train.fixed))))
+    return facts
+
+
+def calculation(motion: Motion, words: Language) -> list[str]:
+    """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
+    train, say, found = motion.train, words.gears, motion.structure
+    formula = str(found.formula).replace("-", MINUS)
+    lines = [
+        say.kind.format(kind=say.kinds[found.kind.value]),
+        indexed(
+            say.chebyshev.format(n=found.moving, low=found.lower, high=found.higher, w=formula)
+        ).partition(" (")[0],
+    ]
+    for mesh in train.meshes:
+        lines.append(";  ".join(equation_of(motion, mesh)))
+    letter, known = speed_letter(train), tuple(train.body_of)
+    for name in dict.fromkeys(train.ask):
+        asked, one = parse(name, known), answer(motion, name)
+        if asked.kind != "U":
+            continue
+        if one.value is None:
+            told = say.reasons[one.reason].format(label=one.label)
+            lines.append(f"{symbol(name, known)}: {told}")
+            continue
+        hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
+        letters = "/".join(f"{letter}{hat}_{{{label}}}" for label in asked.labels)
+        value = fraction_text(one.exact)
+        decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
+        lines.append(f"{symbol(name, known)} = {letters} = {value}{decimal}")
+    rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
+    lines += ["; ".join(rest)] if rest else []
+    lines += [
+        indexed(sentence(one, words)) + f": {say.holds[one.holds]}" for one in conditions(motion)
+    ]
+    return lines
+
+
+def _plain(name: str, motion: Motion, words: Language) -> Iterator[str]:
+    """Yield a quantity that is neither a ratio nor a speed, with its value."""
+    known = tuple(motion.train.body_of)
+    if parse(name, known).kind in ("U", "n", "omega"):
+        return
+    one = answer(motion, name)
+    if one.value is None:
+        yield f"{symbol(name, known)}: {words.gears.reasons[one.reason].format(label=one.label)}"
+        return
+    value = words.say.short(one.value, 4)
+    yield f"{symbol(name, known)} = {value} {unit_of(one, words)}".rstrip()
+
+
+def results(
+    motion: Motion,
+    drawn: Construction | None,
+    seen: Reading | None,
+    words: Language,
+) -> Iterator[tuple[str, ...]]:
+    """Yield rows: symbol with unit, fraction, decimal, read off, sigma, difference in per cent."""
+    train, say = motion.train, words.say
+    known = tuple(train.body_of)
+    labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
+    speeds = [f"{'v' if train.body_of[x] in train.racks else train.unit}_{x}" for x in labels]
+    found = {} if drawn is None else {one.name: one for one in drawn.found}
+    for name in dict.fromkeys([*speeds, *train.ask]):
+        if drawn is not None and name not in found:
+            continue
+        one: Answer = answer(motion, name)
+        unit = unit_of(one, words)
+        head = symbol(name, known) + (f", {unit}" if unit else "")
+        if one.value is None:
+            yield head, "—", "—", "—", "—", "—"
+            continue
+        exact = say.found(one.value) if one.exact is None or one.exact.denominator != 1 else (
+            say.given(one.value)
+        )  # fmt: skip
+        row = (head, fraction_text(one.exact), exact)
+        if name not in found or seen is None:
+            yield (*row, "—", "—", "—")
+            continue
+        value = float(seen.read.value[found[name].read])
+        sigma = seen.sigma[found[name].read]
+        off = "—" if not one.value else say.number(f"{100 * (value / one.value - 1) + 0.0:.2f}")
+        yield (*row, say.found(value), say.number(sigma_text(sigma)), off)

@@ -1,0 +1,47 @@
+"""What sources print of a moving point, beside the exact values and the ruler's (сверка)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from planmethod.construct.drafting import PROFILES
+from planmethod.moving.construction import construct
+from planmethod.moving.course import course_of
+from planmethod.moving.model import PointProblem
+from planmethod.moving.motion import Why, move
+from planmethod.moving.sheet import sheet_scales
+from planmethod.note.audit.audit import Audited
+from planmethod.solved.selected.asking import NoAnswer
+
+
+def audited(problem: PointProblem, ruler: float) -> list[Audited]:
+    """Compare every printed value with the exact one, and with that read off the drawing.
+
+    Parameters
+    ----------
+    ruler : float, mm
+        Step to which lengths are read; the scales are those of the sheet.
+    """
+    if not problem.published:
+        return []
+    motion, profile = move(problem), replace(PROFILES["board"], ruler=ruler)
+    scales = sheet_scales(problem, course_of(problem), profile)
+    told = []
+    for item in problem.published:
+        k = item.position or 0
+        if not item.what:
+            told.append(Audited(item, why=NoAnswer.NO_WHAT))
+            continue
+        exact = float(motion.columns[item.what][k])
+        if np.isnan(exact):
+            divided = motion.reasons[k] in (Why.REST, Why.STRAIGHT)
+            told.append(Audited(item, why=NoAnswer.ZERO_DIVISOR if divided else NoAnswer.NO_POINT))
+            continue
+        built = construct(problem, motion, k, scales)
+        read = built.ruled(ruler).get(item.what, np.nan) if built is not None else np.nan
+        plan = item.what[0] if item.what != "rho" else ""
+        per_mm = scales[plan].per_mm if plan in scales else None
+        told.append(Audited(item, exact, None if np.isnan(read) else read, per_mm))
+    return told

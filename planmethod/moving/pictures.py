@@ -1,0 +1,389 @@
+"""Pictures of a moving point: its trajectory with vectors, and the hodographs.
+
+A picture is millimetres: the trajectory from its own origin, a hodograph from its pole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from math import ceil, floor
+
+import numpy as np
+
+from planmethod.construct.scale import Scale, choose_scale, series_near
+from planmethod.construct.steps import PointName
+from planmethod.moving.construction import POLES, Construction
+from planmethod.moving.course import Complexes, Course, places_of
+from planmethod.moving.model import Law, PointProblem
+from planmethod.moving.motion import Motion
+from planmethod.note.numbers import Notation, trimmed
+from planmethod.problem.model import Convention
+from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.typeset import typeset, vector_markup
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.labels.spots import shared_spots
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.pictures.paths import TRAJECTORY
+from planmethod.render.pictures.planview import POLE
+from planmethod.render.pictures.polar import HODOGRAPH
+from planmethod.render.symbols import arrowhead, revolute, vector_arrow
+
+AXIS = "axis of coordinates"
+SMALL = 3.5
+"""Height of the numbers of instants and of the letters of components, mm."""
+
+_BEYOND = 9.0  # mm: an axis goes on beyond what is drawn
+_HEAD = 3.5  # mm: arrowhead of an axis
+_TICK = 1.0  # mm: half of a tick
+_APART = 14.0  # mm: between the numbers of an axis
+_DOT = 0.8  # mm: a numbered instant
+_LEAST = 0.6  # mm: a shorter vector is not drawn
+_CURVED = 45.0  # mm: a circle of curvature up to this radius is drawn
+_ROOM = 3.0  # mm: least room that letters take around a picture
+_LONGEST = 45.0  # mm: of a vector at the trajectory
+_ARROW = 4.0  # mm: arrowhead of a vector
+
+
+def plan_scale(course: Course, plan: str, box: tuple[float, float], asked: float | None,
+               convention: Convention) -> Scale:  # fmt: skip
+    """Return the scale at which the hodograph of ``plan``, v or a, fills a box with its pole."""
+    names, unit = (f"{plan}x", f"{plan}y"), {"v": "m/s", "a": "m/s²"}[plan]
+    marks = course.numbered(*names)
+    extent = _extent([np.zeros(1, complex), marks[~np.isnan(marks)], *course.curves(*names)])
+    return Scale(f"mu_{plan}", asked or _chosen(extent, box, convention), unit)
+
+
+def _chosen(extent: tuple[float, float], box: tuple[float, float], convention: Convention) -> float:
+    return choose_scale(extent, box, mm_per_unit=convention is Convention.MM_PER_UNIT)
+
+
+def _extent(parts: Iterable[Complexes]) -> tuple[float, float]:
+    places = np.concatenate(list(parts))
+    return float(np.ptp(places.real)), float(np.ptp(places.imag))
+
+
+def vector_scales(course: Course, scales: Mapping[str, Scale]) -> dict[str, Scale]:
+    """Return the scales of the vectors at the trajectory: not so large that they hide it."""
+    found = dict(scales)
+    for plan in "va":
+        sizes = course.marks.columns[plan][list(course.shown)]
+        peak = float(np.nanmax(sizes, initial=0.0))
+        if peak > _LONGEST * scales[plan].per_mm:
+            per_mm = series_near(peak / _LONGEST, up=True)
+            found[plan] = replace(scales[plan], per_mm=per_mm)
+    return found
+
+
+def length_scale(
+    problem: PointProblem,
+    course: Course,
+    scales: Mapping[str, Scale],
+    box: tuple[float, float],
+) -> Scale:
+    """Return the scale at which the trajectory fills a box with the vectors at it."""
+    if problem.scales.mu_l is not None:
+        return Scale("mu_l", problem.scales.mu_l, "m")
+    convention, scales = problem.scales.convention, vector_scales(course, scales)
+    path = list(course.curves("x", "y"))
+    here = course.numbered("x", "y")
+    path.append(here[~np.isnan(here)])
+    if problem.wheel is not None:
+        corner = problem.wheel.radius * (1 + 1j)
+        centre = places_of(course.marks, "xC", "yC")[list(course.shown)]
+        path += [centre - corner, centre + corner]
+    room = box
+    for _ in range(8):
+        per_mm = _chosen(_extent(path), room, convention)
+        whole = [part / per_mm for part in path]
+        for plan in "va":
+            vectors = places_of(course.marks, f"{plan}x", f"{plan}y") / scales[plan].per_mm
+            tips = here / per_mm + vectors
+            whole.append(np.array([tips[k] for k in course.shown if not np.isnan(tips[k])]))
+        wide, high = _extent(whole)
+        if wide <= 1.05 * box[0] and high <= 1.05 * box[1]:
+            break
+        room = (0.8 * room[0], 0.8 * room[1])
+    return Scale("mu_l", per_mm, "m")
+
+
+# Trajectory ---------------------------------------------------------------------------------------
+
+
+def trajectory_picture(
+    problem: PointProblem,
+    course: Course,
+    scales: Mapping[str, Scale],
+    *,
+    letter_height: float,
+    say: Notation,
+    draft: bool = False,
+) -> Picture:
+    """Return the trajectory: axes, curve, numbered instants, vectors, the circle of curvature.
+
+    ``draft``: without letters, in little more than the room that the lines take.
+    """
+    per_mm, marks = scales["l"].per_mm, course.marks
+    here = course.numbered("x", "y") / per_mm
+    items: list[Item] = []
+    labels: list[Label] = []
+    for k in course.shown:
+        if problem.law is Law.ROLLING and not np.isnan(here[k]):
+            _wheel(problem, marks, k, per_mm, letter_height, items, labels)
+    if problem.wheel is not None and problem.wheel.track:
+        items.append(Arc(0j, abs(problem.wheel.track) / per_mm, pen=Pen.THIN, tag="track"))
+    items += _curve(course.curves("x", "y"), per_mm, f"{TRAJECTORY} M")
+    for number, k in enumerate(course.shown):
+        if not np.isnan(here[k]):
+            own = f"_{{{k}}}" if len(course.shown) > 1 else ""
+            vectors = _vectors_at(
+                marks, k, scales, complex(here[k]), own, letter_height, parts=not number
+            )
+            items += vectors[0]
+            labels += vectors[1]
+            if number == 0:
+                more = _curvature(marks, k, per_mm, complex(here[k]), letter_height)
+                # A wheel has circles enough.
+                items += more[0] if problem.wheel is None else more[0][1:]
+                labels += more[1]
+            labels.append(Label(typeset(f"M{own}", letter_height), complex(here[k]), gap=2.2,
+                                priority=2, name=f"point {k}"))  # fmt: skip
+    items = [*_axes(items, ("x", "y"), letter_height, labels, scale=scales["l"], say=say), *items]
+    items += _dots(here, labels, "instant")
+    for k in course.shown:
+        if not np.isnan(here[k]):
+            items += revolute(complex(here[k]))
+    return _roughly(items) if draft else lettered(items, labels)
+
+
+def _roughly(items: Sequence[Item]) -> Picture:
+    left, low, right, top = ink_bounds(items)
+    return Picture(tuple(items), (left - _ROOM, low - _ROOM, right + _ROOM, top + _ROOM))
+
+
+def _curve(parts: Iterable[Complexes], per_mm: float, tag: str) -> list[Item]:
+    """Return the smooth parts of a curve; a part that is nothing on paper is left out."""
+    drawn: list[Item] = []
+    for part in parts:
+        points = part / per_mm
+        if max(_extent([points])) < 0.05:
+            continue
+        steps = np.abs(np.diff(points))
+        kept = points[np.concatenate([[True], steps > 1e-6])]
+        if len(kept) > 1:
+            drawn.append(Stroke(tuple(map(complex, kept)), Pen.MAIN, tag=tag, smooth=True))
+    return drawn
+
+
+def _dots(places: Complexes, labels: list[Label], name: str) -> list[Item]:
+    """Return the numbered instants; those in one place share one inscription."""
+    numbered = [(complex(p), [str(k)]) for k, p in enumerate(places) if not np.isnan(p)]
+    spots = shared_spots(numbered, near=0.5)
+    if not spots:
+        return []
+    for n, (place, numbers) in enumerate(spots):
+        before, after = spots[max(n - 1, 0)][0], spots[min(n + 1, len(spots) - 1)][0]
+        text = ", ".join(numbers)
+        side = 1j * (after - before)  # beside the curve
+        labels.append(Label(typeset(text, SMALL), place, prefer=side, gap=1.4,
+                            name=f"{name} {text}", manner=BUSY))  # fmt: skip
+    return [Disc(place, _DOT, Ink.BLACK, tag=name) for place, _ in spots]
+
+
+def _vectors_at(
+    marks: Motion,
+    k: int,
+    scales: Mapping[str, Scale],
+    here: complex,
+    own: str,
+    height: float,
+    *,
+    parts: bool,
+) -> tuple[list[Item], list[Label]]:
+    """Return velocity, acceleration and, as ``parts``, its projections, all from the point."""
+    value = {name: float(column[k]) for name, column in marks.columns.items()}
+    v, a = (complex(value[f"{plan}x"], value[f"{plan}y"]) for plan in "va")
+    along = v / abs(v) * value["a_tangential"] if abs(v) > 0 else complex("nan")
+    wanted = [(f"v{own}", "v", v, True), (f"a{own}", "a", a, True)]
+    if (
+        parts and min(abs(along), abs(a - along)) > _LEAST * scales["a"].per_mm
+    ):  # else it is the whole
+        wanted += [("a_{τ}", "a", along, False), ("a_{n}", "a", a - along, False)]
+    items: list[Item] = []
+    labels: list[Label] = []
+    for symbol, plan, vector, is_whole in wanted:
+        size = vector / scales[plan].per_mm
+        if not abs(size) > _LEAST:
+            continue
+        pen, tag = (Pen.MAIN, "absolute") if is_whole else (Pen.THIN, "normal")
+        items += vector_arrow(here, here + size, pen=pen, length=_ARROW, tag=tag)
+        if not is_whole:
+            items.append(Stroke((here + size, here + a / scales["a"].per_mm), Pen.THIN, tag="aid"))
+        labels.append(_letter(symbol, here, here + size, height, f"at {k}: "))
+    return items, labels
+
+
+def _letter(symbol: str, tail: complex, head: complex, height: float, prefix: str) -> Label:
+    """Return the letter of a vector, at its head."""
+    markup = vector_markup(symbol)
+    return Label(typeset(markup, height), head, prefer=head - tail, gap=1.6, priority=1,
+                 name=f"{prefix}{symbol}", manner=BUSY)  # fmt: skip
+
+
+def _curvature(
+    marks: Motion, k: int, per_mm: float, here: complex, height: float
+) -> tuple[list[Item], list[Label]]:
+    """Return the circle of curvature with its centre, where it is not larger than the picture."""
+    value = {name: float(column[k]) for name, column in marks.columns.items()}
+    radius = value["rho"] / per_mm
+    if not 3.0 < radius <= _CURVED:
+        return [], []
+    v, a = (complex(value[f"{plan}x"], value[f"{plan}y"]) for plan in "va")
+    normal = 1j * v / abs(v)
+    centre = here + normal * np.sign((a * normal.conjugate()).real) * radius
+    items: list[Item] = [
+        Arc(centre, radius, pen=Pen.THIN, tag="circle of curvature"),
+        Stroke((here, centre), Pen.THIN, tag="radius of curvature"),
+        Disc(centre, _DOT, Ink.BLACK, tag="centre of curvature"),
+    ]
+    ends = (here, complex(centre))
+    return items, [
+        Label(typeset("K", height), complex(centre), gap=1.5, name="centre of curvature"),
+        Label(typeset("ρ", height), sum(ends) / 2, ends, gap=1.2, name="radius of curvature"),
+    ]
+
+
+def _wheel(
+    problem: PointProblem, marks: Motion, k: int, per_mm: float, height: float,
+    items: list[Item], labels: list[Label],
+) -> None:  # fmt: skip
+    """Add the wheel, what it rolls on, its centre C, and the centre of velocities P with PM."""
+    wheel = problem.wheel
+    assert wheel is not None
+    centre, touch, here = (
+        complex(places_of(marks, f"x{of}", f"y{of}")[k]) / per_mm for of in ("C", "P", "")
+    )
+    radius = wheel.radius / per_mm
+    items.append(Arc(centre, radius, pen=Pen.THIN, tag="wheel"))
+    own = f"_{{{k}}}" if marks.columns["t"].size and len(problem.times) > 1 else ""
+    if abs(here - touch) > _LEAST:
+        items.append(Stroke((touch, here), Pen.THIN, tag="reach"))
+    if abs(here - centre) > _LEAST:
+        items.append(Stroke((centre, here), Pen.THIN, tag="arm"))
+    spots = [("C", centre), ("P", touch)]
+    if wheel.arm:
+        items.append(Stroke((0j, centre), Pen.THIN, tag="carrier"))
+        spots.append(("O", 0j))
+    for letter, place in spots:
+        if np.isnan(place):
+            continue  # no centre of velocities: the wheel does not turn
+        items.append(Disc(place, _DOT, Ink.BLACK, tag=f"centre {letter}"))
+        named = typeset(letter if letter == "O" else letter + own, height)
+        labels.append(Label(named, place, gap=1.5, priority=1, name=f"{letter} {k}", manner=BUSY))
+
+
+# Hodograph ----------------------------------------------------------------------------------------
+
+
+def hodograph_picture(
+    course: Course,
+    plan: str,
+    built: Construction | None,
+    scales: Mapping[str, Scale],
+    *,
+    letter_height: float,
+    draft: bool = False,
+) -> Picture:
+    """Return the hodograph of ``plan``, v or a, with the construction of the first shown instant.
+
+    Parts of the vector are thin; the chord of its neighbours stands for the tangent, which the
+    acceleration is read from. ``draft`` is that of `trajectory_picture`.
+    """
+    per_mm, names = scales[plan].per_mm, (f"{plan}x", f"{plan}y")
+    marks = course.numbered(*names) / per_mm
+    items = _curve(course.curves(*names), per_mm, f"{HODOGRAPH} {plan}")
+    labels: list[Label] = []
+    pole = POLES[plan]
+    if built is not None:
+        more = _plan(built, plan, letter_height)
+        items += more[0]
+        labels += more[1]
+    if plan == "v" and course.shown:
+        k = course.shown[0]
+        ends = marks[max(k - 1, 0) : k + 2]
+        if len(ends) == 3 and not np.isnan(ends).any() and abs(ends[2] - ends[0]) > _LEAST:
+            chord = (complex(ends[0]), complex(ends[2]))
+            items.append(Stroke(chord, Pen.THIN, tag="chord"))
+    axes = [f"{plan}_{{x}}", f"{plan}_{{y}}"]
+    items = [*_axes([*items, Disc(0j, 1.0)], axes, letter_height, labels), *items]
+    items += _dots(marks, labels, f"{plan} instant")
+    items.append(Disc(0j, 0.9, Ink.BLACK, tag=POLE))
+    labels.append(Label(typeset(pole, letter_height), 0j, gap=1.6, priority=2, name=f"{plan} pole"))
+    return _roughly(items) if draft else lettered(items, labels)
+
+
+def _plan(built: Construction, plan: str, height: float) -> tuple[list[Item], list[Label]]:
+    """Return the vectors of one plan, from its pole: parts thin, the whole one thick."""
+    trace = built.read()
+
+    def at(name: PointName) -> complex:
+        return complex(np.ravel(trace.value[name])[0])
+
+    items: list[Item] = []
+    labels: list[Label] = []
+    own = [vector for vector in built.vectors if vector.plan == plan]
+    wholes = [(at(vector.tail), at(vector.head)) for vector in own if vector.is_whole]
+    for vector in own:
+        tail, head = at(vector.tail), at(vector.head)
+        same = any(abs(tail - one) < 0.5 and abs(head - two) < 0.5 for one, two in wholes)
+        if np.isnan(head) or abs(head - tail) < _LEAST or (same and not vector.is_whole):
+            continue
+        pen, tag = (Pen.MAIN, "absolute") if vector.is_whole else (Pen.THIN, "relative")
+        items += vector_arrow(tail, head, pen=pen, length=_ARROW, tag=tag)
+        size = height if vector.is_whole else SMALL
+        told, ends = typeset(vector_markup(vector.symbol), size), (tail, head)
+        labels.append(Label(told, (tail + head) / 2, ends, gap=1.2, priority=1,
+                            name=f"{plan}: {vector.symbol}"))  # fmt: skip
+    return items, labels
+
+
+# Axes ---------------------------------------------------------------------------------------------
+
+
+def _axes(
+    items: Sequence[Item], names: Sequence[str], height: float, labels: list[Label],
+    *, scale: Scale | None = None, say: Notation | None = None,
+) -> list[Item]:  # fmt: skip
+    """Return both axes around what is drawn, with numbers where a scale is named.
+
+    They cross at the origin; where that is far off, at the edge of the picture.
+    """
+    left, low, right, top = ink_bounds(items)
+    near = 25.0
+    x0 = 0.0 if left - near <= 0.0 <= right + near else left - _BEYOND
+    y0 = 0.0 if low - near <= 0.0 <= top + near else low - _BEYOND
+    left, right = min(left, x0), max(right, x0) + _BEYOND
+    low, top = min(low, y0), max(top, y0) + _BEYOND
+    drawn: list[Item] = []
+    ways = ((1 + 0j, complex(left, y0), complex(right, y0), -1j),
+            (1j, complex(x0, low), complex(x0, top), -1 + 0j))  # fmt: skip
+    for name, (way, start, end, side) in zip(names, ways, strict=True):
+        start -= 3.0 * way
+        drawn.append(Stroke((start, end - way * _HEAD / 2), Pen.THIN, tag=AXIS))
+        drawn += arrowhead(end, way, length=_HEAD, tag=AXIS)
+        labels.append(Label(typeset(name, height), end, prefer=side, gap=2.0, priority=3,
+                            name=f"axis {name}"))  # fmt: skip
+        if scale is None or say is None:
+            continue
+        first, last = (float((p / way).real) for p in (start, end - 6.0 * way))
+        step = series_near(_APART * scale.per_mm, up=True)
+        for k in range(ceil(first * scale.per_mm / step), floor(last * scale.per_mm / step) + 1):
+            place = way * (k * step / scale.per_mm) + (1j * y0 if way.real else x0)
+            if not k and (x0, y0) == (0.0, 0.0) and way.imag:
+                continue  # the zero of both axes
+            drawn.append(Stroke((place - side * _TICK, place + side * _TICK), Pen.THIN, tag=AXIS))
+            number = typeset(say.number(trimmed(k * step, 4)), 2.5)
+            labels.append(Label(number, place, prefer=side, gap=1.6, name=f"axis {name} {k}"))
+    return drawn

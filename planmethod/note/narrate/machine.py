@@ -1,0 +1,256 @@
+"""The text of a machine and its flywheel: what is given, how it is found (расчёт маховика)."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import TypeAlias
+
+import numpy as np
+
+from planmethod.construct.scale import Scale
+from planmethod.note.narrate.forces.statement import mass_lines
+from planmethod.note.narrate.given import given
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.numbers import alike
+from planmethod.note.wording import Language
+from planmethod.note.wording.machine_model import MachineWording
+from planmethod.problem.load_records import Ordinates, Side, Signs
+from planmethod.problem.model import Convention
+from planmethod.solved.machine.drawing import FlywheelDrawing, split
+from planmethod.solved.machine.flywheel import Extreme, Flywheel
+from planmethod.solved.machine.sizes import Sizes, size_of
+from planmethod.solved.reading import Reals
+
+_Column: TypeAlias = tuple[str, str, list[str]]
+
+
+class MachineTeller:
+    """Tells a machine and the choice of its flywheel in a language (рассказ о маховике).
+
+    Parameters
+    ----------
+    drawing : FlywheelDrawing
+    words : Language
+    """
+
+    def __init__(self, drawing: FlywheelDrawing, words: Language) -> None:
+        self.drawing, self.words, self.say = drawing, words, words.say
+        self.flywheel: Flywheel = drawing.flywheel
+        self.said: MachineWording = words.machine
+        resisting = self.flywheel.machine.constant is Side.DRIVING
+        self.changes, self.keeps = ("resisting", "driving")[:: 1 if resisting else -1]
+
+    def letter(self, name: str) -> str:
+        """Return the letters of a quantity."""
+        return self.say.symbol(name)
+
+    @property
+    def moment(self) -> str:
+        """Letters of the moment that changes."""
+        return self.letter(f"{self.changes} moment")
+
+    @property
+    def work(self) -> str:
+        """Letters of its work."""
+        return self.letter(f"{self.changes} work")
+
+    def unit(self, name: str) -> str:
+        """Return the letters of a unit."""
+        return self.say.units[name]
+
+    def scale(self, letter: str, per_mm: float, unit: str) -> str:
+        """Return the inscription of a scale; one that follows from others with four digits."""
+        if letter in ("A", "T", "φ"):
+            return f"μ_{{{letter}}} = {self.say.found(per_mm)} {self.unit(unit)}/{self.unit('mm')}"
+        return scale_inscription(Scale(f"mu_{letter}", per_mm, unit), Convention.UNIT_PER_MM,
+                                 self.say)  # fmt: skip
+
+    # Given and wanted ------------------------------------------------------------------------
+
+    def given(self) -> list[str]:
+        """Return what is given."""
+        machine, problem = self.flywheel.machine, self.flywheel.problem
+        assert problem.dynamics is not None
+        start = self.flywheel.turn.start_deg
+        lines = given(problem, self.words, [start])
+        lines += mass_lines(problem.dynamics, self.say)
+        if machine.crank_inertia:
+            inertia = self.say.given(machine.crank_inertia)
+            lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
+        inverse = 1.0 / machine.delta
+        fraction = abs(inverse - round(inverse)) < 1e-9 * inverse
+        delta = f"1/{round(inverse)}" if fraction else self.say.given(machine.delta)
+        lines.append(f"δ = {delta}")
+        speed = self.say.found(abs(problem.drive.rate))
+        mean = self.said.means[machine.mean.value]
+        lines.append(f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}")
+        lines.append(f"{self.letter(f'{self.keeps} moment')} = const")
+        if machine.signs is Signs.SOURCE:
+            lines.append(self.said.source_signs)
+        return lines
+
+    def wanted(self) -> str:
+        """Return what is to be found."""
+        return self.said.wanted.format(flywheel=self.letter("flywheel"))
+
+    # Construction ----------------------------------------------------------------------------
+
+    def steps(self) -> list[str]:
+        """Return the sentences of the construction, in order."""
+        drawing, machine, mm = self.drawing, self.flywheel.machine, self.unit("mm")
+        scales, tangents = drawing.scales, drawing.points.tangents
+        step = self.flywheel.cycle / drawing.count
+        middle = machine.ordinates is Ordinates.MIDDLE
+        constant = float(drawing.points.work[-1]) / self.flywheel.cycle
+        places = {
+            "M": self.moment,
+            "A": self.work,
+            "J": self.letter("reduced inertia"),
+            "A_const": self.letter(f"{self.keeps} work"),
+            "M_const": self.letter(f"{self.keeps} moment"),
+            "count": drawing.count,
+            "mu_M": self.scale("M", scales.moment, "N·m"),
+            "mu_A": self.scale("A", scales.work, "J"),
+            "mu_J": self.scale("J", scales.inertia, "kg·m²"),
+            "pole": f"{self.say.given(machine.pole_mm)} {mm}",
+            "way": self.said.by_middle if middle else self.said.by_trapezoid,
+            "constant": f"{self.say.found(constant)} {self.unit('N·m')}",
+            "psi_max": self._angle(drawing.psi[0]),
+            "psi_min": self._angle(drawing.psi[1]),
+            "top": round(tangents.at_max / step),
+            "bottom": round(tangents.at_min / step),
+            "KL": f"{self.say.ruled(self.KL)} {mm}",
+        }
+        return [sentence.format(**places) for sentence in self.said.steps]
+
+    @property
+    def KL(self) -> float:  # noqa: N802 - the letters of the textbook
+        """KL as it is measured, mm."""
+        return float(self.drawing.by_hand.number(self.drawing.made.KL)[0])
+
+    def _angle(self, value: float) -> str:
+        return self.say.number(f"{value:.2f}")
+
+    def formulas(self) -> list[str]:
+        """Return scales, angles and the flywheel by the construction, with numbers."""
+        drawing, machine, say = self.drawing, self.flywheel.machine, self.say
+        scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("mean speed")
+        turn = say.found(self.flywheel.cycle)
+        lines = [
+            f"μ_{{φ}} = {turn}/{say.given(machine.turn_mm)} = "
+            + self.scale("φ", scales.phi, "rad").partition(" = ")[2],
+            f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {say.given(scales.moment)}·"
+            f"{say.given(machine.pole_mm)}·{say.found(scales.phi)} = "
+            + self.scale("A", scales.work, "J").partition(" = ")[2],
+        ]
+        slopes = self.flywheel.usual_slopes
+        for name, slope, psi in zip(("max", "min"), slopes, drawing.psi, strict=True):
+            factor = {True: "·(1 + δ)", False: "·(1 − δ)"}[slope > 1.0] if slope != 1.0 else ""
+            tangent = say.found(float(np.tan(np.radians(psi))))
+            lines.append(
+                f"tg ψ_{{{name}}} = μ_{{J}}·{omega}^{{2}}{factor}/(2μ_{{T}}) = {tangent}, "
+                f"ψ_{{{name}}} = {self._angle(psi)}°"
+            )
+        exact = float(drawing.exact.number(drawing.made.KL)[0])
+        told = f"KL = {say.ruled(self.KL)} {mm}"
+        lines.append(self.said.read.format(text=told, exact=say.number(f"{exact:.2f}")))
+        lines.append(
+            self.said.construction.format(
+                symbol=self.letter("flywheel"),
+                omega=omega,
+                value=say.found(drawing.read_inertia),
+                sigma=say.short(drawing.sigma, 2),
+                unit=self.unit("kg·m²"),
+            )
+        )
+        return lines
+
+    def conclusions(self) -> list[str]:
+        """Return the exact flywheel, what the construction is off by, and the check."""
+        flywheel, say, said = self.flywheel, self.say, self.said
+        exact, unit = flywheel.exact.inertia, self.unit("kg·m²")
+        delta = say.number(f"{flywheel.delta_reached:.6f}")
+        if exact <= 0.0:
+            return [said.not_needed.format(delta=delta)]
+        lines = [
+            said.exact.format(symbol=self.letter("flywheel"), value=say.found(exact), unit=unit)
+        ]
+        parts = split(self.drawing)
+
+        def percent(value: float) -> str:
+            return say.number(f"{100.0 * value / exact:+.2f}")
+
+        told = [said.slopes.format(value=percent(parts.slopes))]
+        if parts.method:
+            told.append(said.method.format(value=percent(parts.method)))
+        told.append(said.positions.format(count=self.drawing.count, value=percent(parts.positions)))
+        told.append(said.pencil.format(value=percent(parts.pencil)))
+        whole = self.drawing.read_inertia - exact
+        lines.append(said.parts.format(whole=percent(whole), parts="; ".join(told)))
+        high, low = flywheel.integrated
+        per_second = self.unit("1/s")
+        lines.append(
+            said.reached.format(
+                delta=delta,
+                high=f"{say.found(high.value)} {per_second}",
+                low=f"{say.found(low.value)} {per_second}",
+                at_high=self._at(high),
+                at_low=self._at(low),
+            )
+        )
+        return lines
+
+    def _at(self, extreme: Extreme) -> str:
+        """Return the angle of the crank of an extreme speed."""
+        turn = self.flywheel.machine.cycle_deg
+        phi = self.flywheel.turn.sense * degrees(extreme.turned) + self.flywheel.turn.start_deg
+        return self.said.extreme.format(angle=self.say.number(f"{phi % turn:.1f}"))
+
+    # Table -----------------------------------------------------------------------------------
+
+    def columns(self) -> list[_Column]:
+        """Return the table by positions: heads, units and cells of its columns, rich text."""
+        flywheel, say = self.flywheel, self.say
+        rows, turn = flywheel.rows, flywheel.machine.cycle_deg
+        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg.tolist()]
+
+        def column(head: str, values: Reals, unit: str, digits: int = 4) -> _Column:
+            peak = float(np.max(np.abs(values)))
+            clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
+            told = [say.number(text) for text in alike(clean.tolist(), digits)]
+            return head, self.unit(unit), told
+
+        return [
+            (self.words.note.number, "", [str(k) for k in range(len(angles))]),
+            (f"φ_{{{flywheel.problem.drive.link}}}", "°", [say.number(a) for a in angles]),
+            column(self.letter("resisting moment"), rows.moment, "N·m"),
+            column(self.letter("moment by lever"), flywheel.lever(flywheel.machine.count), "N·m"),
+            column(self.work, rows.work, "J"),
+            column(self.letter("energy gain"), rows.gain, "J"),
+            column(self.letter("reduced inertia"), rows.inertia, "kg·m²"),
+            column("dJ/dφ", rows.slope, "kg·m²"),
+            column("ω", rows.omega, "1/s", 5),
+            column("ε", rows.epsilon, "1/s²"),
+        ]
+
+    # Sizes -----------------------------------------------------------------------------------
+
+    @property
+    def sizes(self) -> Sizes | None:
+        """Sizes of the exact flywheel."""
+        flywheel = self.flywheel
+        return size_of(flywheel.machine.wheel, flywheel.exact.inertia, flywheel.middle_speed)
+
+    def size_lines(self, sizes: Sizes) -> list[str]:
+        """Return the sizes of a flywheel with numbers."""
+        say, metre = self.say, self.unit("m")
+        lines = [f"D = {say.found(sizes.diameter)} {metre}"]
+        if sizes.bore:
+            lines.append(f"D_{{1}} = {say.found(sizes.bore)} {metre}")
+        lines.append(f"b = {say.found(sizes.width)} {metre}")
+        lines.append(f"m = {say.found(sizes.mass)} {self.unit('kg')}")
+        lines.append(f"v = {say.found(sizes.speed)} {self.unit('m/s')}")
+        if sizes.held:
+            limit = f"{say.given(self.flywheel.machine.wheel.speed)} {self.unit('m/s')}"
+            lines.append(self.said.held.format(speed=limit))
+        return lines

@@ -1,0 +1,99 @@
+"""The turn of a crank in words: its facts, and how its diagrams are made (цикл движения)."""
+
+from __future__ import annotations
+
+from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.numbers import with_unit
+from planmethod.note.wording import Language
+from planmethod.problem.model import Differentiation
+from planmethod.solved.turn.diagrams import Diagrams
+from planmethod.solved.turn.output import Output
+from planmethod.solved.turn.turn import TURN, Turn, Why
+
+
+def degrees(value: float, words: Language) -> str:
+    """Return an angle of the crank as it is told, two decimals."""
+    return with_unit(words.say.number(f"{value + 0.0:.2f}"), "°")
+
+
+def output_symbol(output: Output) -> str:
+    """Return the symbol of the output's path: ``s_{B}``, ``φ_{3}``."""
+    if output.slide is None:
+        return f"φ_{{{output.link}}}"
+    return f"s_{{{point_name(output.point).replace('{', '').replace('}', '').replace('_', '')}}}"
+
+
+def output_name(output: Output) -> str:
+    """Return the output as rich text: its point, or its link."""
+    return point_name(output.point) if output.slide is not None else output.link
+
+
+def turn_facts(turn: Turn, words: Language) -> list[str]:
+    """Return what is found of a turn, one fact each, as rich text."""
+    said, say, output = words.cycle, words.say, turn.output
+    unit = say.units[output.unit]
+
+    def size(value: float) -> str:
+        return degrees(value, words) if unit == "°" else with_unit(say.found(value), unit)
+
+    facts = [said.output[output.unit].format(name=output_name(output), link=output.link)]
+    if turn.range is None:
+        facts.append(said.full_turn)
+        if turn.tightest is not None:
+            links, at = turn.tightest
+            phi = degrees(at % TURN, words)
+            facts.append(said.tightest.format(links=", ".join(links), phi=phi))
+    else:
+        low, high = (degrees(limit, words) for limit in turn.range)
+        links = tuple(dict.fromkeys(link for end in turn.range for link in turn.stopping(end)))
+        facts.append(said.range.format(low=low, high=high, links=", ".join(links)))
+    facts.append(said.zero.format(phi=degrees(float(turn.positions[0]), words)))
+    if turn.extremes:
+        ends = (f"{degrees(one.phi, words)} ({size(one.value)})" for one in turn.extremes)
+        facts.append(said.extremes.format(extremes=", ".join(ends)))
+    stroke = said.stroke[output.unit]
+    if turn.stroke is not None:
+        facts.append(stroke.format(stroke=size(turn.stroke)))
+    elif turn.why_no_stroke is not None:
+        facts.append(_none("H" if output.slide is not None else "ψ", turn.why_no_stroke, words))
+    if turn.phases is not None and turn.ratio is not None:
+        working, idle = (degrees(phase, words) for phase in turn.phases)
+        facts.append(said.ratio.format(working=working, idle=idle, ratio=say.found(turn.ratio)))
+    elif turn.why_no_ratio is not None:
+        facts.append(_none("K_{v}", turn.why_no_ratio, words))
+    peak = turn.pressure
+    if peak is not None:
+        values = (peak.most, peak.most_at, peak.least, peak.least_at)
+        most, most_at, least, least_at = (degrees(value, words) for value in values)
+        facts.append(
+            said.pressure.format(most=most, most_at=most_at, least=least, least_at=least_at)
+        )
+    return facts
+
+
+def _none(what: str, why: Why, words: Language) -> str:
+    return words.cycle.none.format(what=what, why=words.cycle.why[why.name])
+
+
+def diagram_scales(diagrams: Diagrams, words: Language) -> list[str]:
+    """Return the scales of the diagrams as they are inscribed."""
+    convention = diagrams.turn.solution.problem.scales.convention
+    return [scale_inscription(scale, convention, words.say) for scale in diagrams.scales]
+
+
+def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
+    """Return how the diagrams are made, a paragraph each."""
+    said, task, say = words.cycle, diagrams.task, words.say
+    way = task.differentiation
+    return [
+        said.scheme_steps.format(length=say.given(task.length), count=diagrams.count),
+        said.ray_steps[way.value].format(pole=say.given(task.pole_v)),
+        said.again.format(pole=say.given(task.pole_a)),
+        said.scales.format(scales="; ".join(diagram_scales(diagrams, words))),
+    ]
+
+
+def drawn_note(way: Differentiation, words: Language) -> str:
+    """Return what the lines of the drawn diagrams are."""
+    return words.cycle.drawn.format(way=words.cycle.chords[way.value])

@@ -1,0 +1,124 @@
+"""Machine-readable record of the cycle: ``cycle`` of ``solve --json``, and the analogues."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from planmethod.note.numbers import finite_or_none, plain
+from planmethod.problem.model import Differentiation
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
+from planmethod.solved.turn.turn import Turn, Why, analogues, turn_of
+
+
+def analogue_records(solution: Solution) -> list[dict[str, Any]]:
+    """Return the transfer functions of every point and link, for every position of a solution.
+
+    Of a point ``x1``, ``y1`` (m per radian of the crank) and ``x2``, ``y2`` (m per radian²); of a
+    link ``1`` and ``2`` (of its angle, radians). Of a driving slider per metre of its way.
+    """
+    points, links = analogues(solution)
+    records: list[dict[str, Any]] = []
+    for i in range(len(solution.positions)):
+        told: dict[str, dict[str, float]] = {
+            name: {
+                "x1": plain(one.velocity[i].real),
+                "y1": plain(one.velocity[i].imag),
+                "x2": plain(one.acceleration[i].real),
+                "y2": plain(one.acceleration[i].imag),
+            }
+            for name, one in points.items()
+        }
+        for name, (first, second) in links.items():  # which may be called as a point is
+            told.setdefault(name, {}).update({"1": plain(first[i]), "2": plain(second[i])})
+        records.append(told)
+    return records
+
+
+def cycle_record(solution: Solution) -> dict[str, Any]:
+    """Return what is told of the turn of a crank as plain data, SI, degrees of the crank.
+
+    ``value`` and ``stroke`` are m, or degrees of a link. What does not exist is None, and
+    ``reasons`` says why. Diagrams are millimetres; of the path, and of what is exact, the first
+    position stands at the end again.
+    """
+    turn, diagrams = turn_of(solution), diagrams_of(solution)
+    reasons: dict[str, Why | None] = {}
+    working, idle = turn.phases or (None, None)
+    if turn.phases is None:
+        reasons |= dict.fromkeys(("working_deg", "idle_deg"), turn.why_no_stroke or Why.PARTIAL)
+    if turn.stroke is None:
+        reasons["stroke"] = turn.why_no_stroke
+    if turn.ratio is None:
+        reasons["K_v"] = turn.why_no_ratio
+    if not turn.zero_is_asked:
+        reasons["zero_deg"] = turn.why_no_stroke
+    peak = turn.pressure
+    if peak is None:
+        reasons["pressure_angle"] = Why.NO_DYAD
+    if diagrams is None:
+        reasons |= dict.fromkeys(("diagrams", "hodograph"), Why.PARTIAL)
+    elif diagrams.mu_t is None:
+        reasons["mu_t"] = Why.NO_RATE
+    return {
+        "output": turn.output.name,
+        "zero_deg": plain(turn.zero),
+        "positions_deg": _listed(turn.positions),
+        "extremes": [
+            {"phi_deg": plain(one.phi), "value": plain(one.value)} for one in turn.extremes
+        ],
+        "stroke": turn.stroke,
+        "K_v": turn.ratio,
+        "working_deg": working,
+        "idle_deg": idle,
+        "range_deg": None if turn.range is None else _listed(turn.range),
+        "pressure_angle": None
+        if peak is None
+        else {
+            "max_deg": plain(peak.most),
+            "phi_deg": plain(peak.most_at),
+            "min_deg": plain(peak.least),
+            "min_phi_deg": plain(peak.least_at),
+        },
+        "diagrams": None if diagrams is None else _diagrams(diagrams),
+        "hodograph": None if diagrams is None else _hodograph(turn),
+        **({"reasons": {key: why.value for key, why in reasons.items() if why}} if reasons else {}),
+    }
+
+
+def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
+    s, v_chord, a_chord = diagrams.drawn(Differentiation.CHORDS)
+    _, v_exact, a_exact = diagrams.exact(diagrams.shares)
+    return {
+        "mu_phi": diagrams.mu_phi,
+        "mu_t": diagrams.mu_t,
+        "mu_s": diagrams.mu_s,
+        "mu_v": diagrams.mu_v,
+        "mu_a": diagrams.mu_a,
+        "s_mm": _listed(s),
+        "v_chord_mm": _listed(v_chord),
+        "v_curve_mm": _listed(diagrams.curve),
+        "a_chord_mm": _listed(a_chord),
+        "v_exact_mm": _listed(v_exact),
+        "a_exact_mm": _listed(a_exact),
+    }
+
+
+def _hodograph(turn: Turn) -> dict[str, list[list[float | None]]]:
+    """Return the velocities of the moving points in the positions of the cycle, m/s."""
+    reading = turn.read(turn.positions)
+    rate = turn.solution.problem.drive.rate
+    found = {}
+    plan = turn.unit.construction.kinematics.velocity
+    for name, at in plan.named.items():
+        velocity = rate * reading.point(plan.point[at])
+        if np.any(velocity != 0) or not rate:
+            found[name] = [_listed((v.real, v.imag)) for v in velocity]
+    return found
+
+
+def _listed(values: Iterable[float]) -> list[float | None]:
+    return [finite_or_none(value) for value in values]

@@ -1,0 +1,133 @@
+"""Machine-readable record of a machine and its flywheel: ``machine`` of ``solve --json``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from planmethod.construct.drafting import Profile
+from planmethod.note.numbers import plain
+from planmethod.problem.load_records import Ordinates
+from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
+from planmethod.solved.machine.flywheel import Extreme, Flywheel
+from planmethod.solved.machine.sizes import size_of
+
+
+def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
+    """Return what is known of a machine as plain data, SI, full precision.
+
+    Moments are positive where they resist; speeds and the derivative of the inertia are along the
+    turning of the crank. A flywheel that is not needed is null, and ``reason`` says so.
+    """
+    machine, rows, middle = flywheel.machine, flywheel.rows, flywheel.middle_speed
+    drawing = drawing_of(flywheel, profile)
+    highest, lowest = flywheel.integrated
+    lever = flywheel.lever(machine.count)
+    exact = flywheel.exact.inertia
+    sizes = size_of(machine.wheel, exact, middle)
+    columns = {
+        "phi_deg": rows.phi_deg,
+        "M": rows.moment,
+        "A": rows.work,
+        "dT": rows.gain,
+        "J": rows.inertia,
+        "dJ": rows.slope,
+        "omega": rows.omega,
+        "epsilon": rows.epsilon,
+        "M_lever": lever,
+    }
+    made = drawing.made
+    corner = drawing.exact.point(made.axes["E"].origin)[0]
+    return {
+        "delta": machine.delta,
+        "mean": machine.mean.value,
+        "constant": machine.constant.value,
+        "signs": machine.signs.value,
+        "cycle_deg": machine.cycle_deg,
+        "phi_0_deg": plain(flywheel.turn.start_deg),
+        "omega_mean": plain(middle),
+        "M_constant": plain(flywheel.constant),
+        "work_per_turn": plain(flywheel.work_per_cycle / flywheel.turns),
+        "work_per_cycle": plain(flywheel.work_per_cycle),
+        "positions": [
+            {"number": k, **{name: plain(column[k]) for name, column in columns.items()}}
+            for k in range(machine.count)
+        ],
+        "J_f": _inertias(flywheel, drawing),
+        "omega_max": _extreme(flywheel, highest),
+        "omega_min": _extreme(flywheel, lowest),
+        "delta_reached": plain(flywheel.delta_reached),
+        "psi_max_deg": plain(drawing.psi[0]),
+        "psi_min_deg": plain(drawing.psi[1]),
+        "KL_mm": plain(drawing.exact.number(made.KL)[0]),
+        "K_mm": plain((drawing.exact.point(made.upper)[0] - corner).imag),
+        "L_mm": plain((drawing.exact.point(made.lower)[0] - corner).imag),
+        "scales": {
+            "mu_phi": plain(drawing.scales.phi),
+            "mu_M": plain(drawing.scales.moment),
+            "mu_A": plain(drawing.scales.work),
+            "mu_T": plain(drawing.scales.work),
+            "mu_J": plain(drawing.scales.inertia),
+            "pole_mm": machine.pole_mm,
+        },
+        "flywheel": None
+        if sizes is None
+        else {
+            "shape": sizes.shape.value,
+            "J": plain(sizes.inertia),
+            "D": plain(sizes.diameter),
+            **({"D_1": plain(sizes.bore)} if sizes.bore else {}),
+            "m": plain(sizes.mass),
+            "b": plain(sizes.width),
+            "rim_speed": plain(sizes.speed),
+            "held_by_speed": sizes.held,
+        },
+    }
+
+
+def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
+    """Return the flywheel by every way, kg·m²; null where none is needed."""
+    machine, middle = flywheel.machine, flywheel.middle_speed
+    delta, exact = machine.delta, flywheel.exact.inertia
+    slopes = {
+        "wittenbauer": (1.0 + delta, 1.0 - delta),
+        "mertsalov": (1.0, 1.0),
+        "J_ignored": (0.0, 0.0),
+    }
+    usual = flywheel.usual_slopes
+
+    def told(value: float) -> float | None:
+        return plain(value) if value > 0.0 else None
+
+    points = {
+        f"{name}_{count}": told(flywheel.by_points(count, way, usual).tangents.inertia)
+        for count in dict.fromkeys((machine.count, 12, 24, 36))
+        for name, way in (("middle", Ordinates.MIDDLE), ("trapezoid", Ordinates.TRAPEZOID))
+    }
+    parts = split(drawing)
+    reason = "" if exact > 0.0 else "the machine is even enough without a flywheel"
+    return {
+        "exact": told(exact),
+        **({"reason": reason} if reason else {}),
+        **{name: told(flywheel.tangents(*pair, middle).inertia) for name, pair in slopes.items()},
+        "construction": told(drawing.inertia),
+        "n": machine.count,
+        "method": machine.method.value,
+        "ordinates": machine.ordinates.value,
+        "read": told(drawing.read_inertia),
+        "sigma": plain(parts.sigma),
+        "by_points": points,
+        "split": {
+            "slopes": plain(parts.slopes),
+            "method": plain(parts.method),
+            "positions": plain(parts.positions),
+            "pencil": plain(parts.pencil),
+        },
+    }
+
+
+def _extreme(flywheel: Flywheel, extreme: Extreme) -> dict[str, float]:
+    position = extreme.turned / flywheel.cycle * flywheel.machine.count
+    phi = flywheel.turn.phi(np.array([extreme.turned]))[0]
+    return {"value": plain(extreme.value), "phi_deg": plain(phi), "position": plain(position)}

@@ -1,0 +1,33 @@
+"""A machine and its flywheel for the terminal and the protocol (таблица маховика)."""
+
+from __future__ import annotations
+
+from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
+from planmethod.note.wording import Wording, language
+from planmethod.solved.machine.drawing import drawing_of
+from planmethod.solved.machine.flywheel import flywheel_of
+from planmethod.solved.solution import Solution
+
+
+def machine_teller(solution: Solution, words: Wording) -> MachineTeller:
+    """Return who tells the machine of a solution."""
+    drawing = drawing_of(flywheel_of(solution), solution.profile)
+    return MachineTeller(drawing, language(words.lang))
+
+
+def machine_tables(solution: Solution, words: Wording) -> list[str]:
+    """Return the table by positions, the formulas, the exact flywheel and its sizes."""
+    tell = machine_teller(solution, words)
+    columns = [
+        [plain_text(f"{head}, {unit}" if unit else head), *map(plain_text, cells)]
+        for head, unit, cells in tell.columns()
+    ]
+    lines = [*heading(plain_text(tell.said.table)), "", *columns_text(columns, lead=2), ""]
+    for line in (*tell.formulas(), *tell.conclusions()):
+        lines += wrap(plain_text(line), rest="  ")
+    sizes = tell.sizes
+    if sizes is not None:
+        told = "; ".join(tell.size_lines(sizes))
+        lines += wrap(plain_text(f"{tell.said.sizes[sizes.shape.value]}: {told}"), rest="  ")
+    return lines

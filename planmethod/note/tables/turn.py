@@ -1,0 +1,131 @@
+"""Tables of the turn of a crank: by positions, and how far the diagrams are off (таблицы цикла)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from planmethod.construct.hand import Hand
+from planmethod.note.narrate.turn import diagram_steps, output_symbol, turn_facts
+from planmethod.note.numbers import alike, significant
+from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
+from planmethod.note.wording import Language
+from planmethod.problem.model import Differentiation
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
+from planmethod.solved.turn.turn import turn_of
+
+Columns = list[tuple[str, str, tuple[str, ...]]]
+"""Columns of a table: head (rich text), unit of SI or none, cells (rich text)."""
+
+
+def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
+    """Return the table of a turn by positions: the path, both transfer functions, v and a."""
+    turn, say = diagrams.turn, words.say
+    turns = turn.output.slide is None
+    symbol = output_symbol(turn.output)
+    shares = diagrams.shares[:-1]
+    one, two = diagrams.rates(shares)
+    rate = abs(turn.solution.problem.drive.rate)
+    index = symbol.partition("_")[2]
+    v, a = ("ω", "ε") if turns else ("v", "a")
+    found: list[tuple[str, str, Reals]] = [
+        (symbol, "rad" if turns else "m", diagrams.path(shares)),
+        (f"{v}_{{q}}", "" if turns else "m", one),
+        (f"{a}_{{q}}", "" if turns else "m", two),
+        (f"{v}_{index}", "1/s" if turns else "m/s", one * rate),
+        (f"{a}_{index}", "1/s²" if turns else "m/s²", two * rate**2),
+    ]
+    columns: Columns = [
+        (words.note.number, "", tuple(str(k) for k in range(diagrams.count))),
+        (
+            "φ",
+            "deg",
+            tuple(say.number(f"{round(p % 360.0, 2) % 360.0:.2f}") for p in turn.at(shares)),
+        ),
+    ]
+    for head, unit, values in found:
+        peak = float(np.nanmax(np.abs(values), initial=0.0))
+        texts = alike([0.0 if abs(x) <= 1e-9 * peak else float(x) for x in values])
+        columns.append((head, unit, tuple(map(say.number, texts))))
+    return columns
+
+
+def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
+    """Return how far v and a are off by every way: drawn exactly, and with the ruler."""
+    said, say = words.cycle, words.say
+    hand = Hand(ruler=diagrams.turn.solution.profile.ruler)
+    ways = list(Differentiation)
+    exactly, ruled = deviations(diagrams, ways), deviations(diagrams, ways, hand)
+    rows: list[tuple[str, str, Deviation | None, Deviation]] = [
+        (said.ways[way.value], letter, exactly[way, letter], ruled[way, letter])
+        for way in ways
+        for letter in "va"
+    ]
+    if diagrams.plans is not None:
+        for letter, off in zip("va", diagrams.plans, strict=True):
+            rows.append((said.from_plans, letter, None, off))
+
+    told = []
+    for way in ways:  # a curve that is drawn by eye has no stroke of a known error
+        spread = () if way is Differentiation.CURVE else sigmas(diagrams, way)
+        told += [say.number(significant(float(np.sqrt(np.nanmean(x**2))), 2)) for x in spread]
+    told += ["—"] * (len(rows) - len(told))
+
+    def column(number: int, name: str) -> tuple[str, ...]:
+        found = [row[number] for row in rows]
+        return tuple(
+            say.number(significant(getattr(one, name), 3)) if isinstance(one, Deviation) else "—"
+            for one in found
+        )
+
+    return [
+        (said.way, "", tuple(row[0] for row in rows)),
+        ("", "", tuple(row[1] for row in rows)),
+        (said.greatest[0].format(), "", column(2, "most")),
+        (said.mean[0].format(), "", column(2, "rms")),
+        (said.greatest[1].format(), "", column(3, "most")),
+        (said.mean[1].format(), "", column(3, "rms")),
+        (said.sigma, "", tuple(told)),
+    ]
+
+
+def deviations_title(solution: Solution, words: Language) -> str:
+    """Return what the table of deviations is called."""
+    return words.cycle.deviations.format(ruler=words.say.given(solution.profile.ruler))
+
+
+def cycle_tables(solution: Solution, words: Language) -> list[str]:
+    """Return the turn as lines of plain text: facts, table by positions, deviations."""
+    turn, diagrams, said = turn_of(solution), diagrams_of(solution), words.cycle
+    lines = [*heading(plain_text(said.title)), ""]
+    lines += wrap("; ".join(plain_text(fact) for fact in turn_facts(turn, words)) + ".")
+    if diagrams is None:
+        return lines
+    for title, columns in (
+        (said.table, cycle_columns(diagrams, words)),
+        (deviations_title(solution, words), deviation_columns(diagrams, words)),
+    ):
+        lines += ["", *wrap(title), "", *columns_text(list(_plain(columns, words)), 2)]
+    return lines
+
+
+def cycle_protocol(solution: Solution, words: Language) -> list[str]:
+    """Return how the diagrams of a turn are made, and what they give, as lines of plain text."""
+    diagrams = diagrams_of(solution)
+    lines = cycle_tables(solution, words)
+    if diagrams is None:
+        return lines
+    steps = [plain_text(step) for step in diagram_steps(diagrams, words)]
+    told = [line for k, step in enumerate(steps, 1) for line in wrap(f"{k}. {step}", rest="   ")]
+    return [*lines, "", *told]
+
+
+def _plain(columns: Columns, words: Language) -> Iterator[Sequence[str]]:
+    for head, unit, cells in columns:
+        name = plain_text(head)
+        if unit:
+            name = f"{name}, {plain_text(words.say.units[unit])}"
+        yield [name, *map(plain_text, cells)]

@@ -1,0 +1,49 @@
+"""The flywheel in English."""
+
+from planmethod.note.wording.machine_model import MachineWording
+
+MACHINE = MachineWording(
+    wanted="{flywheel}, sizes of the flywheel",
+    means={"half-sum": "(ω_{{max}} + ω_{{min}})/2", "time": "the mean in time"},
+    source_signs="weights added with the sign of resistance, as the source adds them",
+    diagrams="Diagrams of moments, work, energy, inertia, and the energy-mass diagram",
+    by_middle="integrated by middle ordinates",
+    by_trapezoid="integrated by trapezoids",
+    speed="Deviation of the crank's angular velocity in the steady motion",
+    load="Force {name} over the stroke of point {point}",
+    over_stroke="H = {stroke}",
+    table="Reduced moments, work, moments of inertia and angular velocity",
+    sizes={"disc": "Flywheel: a disc", "rim": "Flywheel: a rim"},
+    calculation="Moment of inertia of the flywheel",
+    title="Choice of the flywheel",
+    read="{text} (measured; exactly {exact})",
+    construction="{symbol} = μ_{{T}}·KL/({omega}^{{2}}·δ) = {value} {unit}, σ = {sigma} {unit}",
+    exact="Exactly (tangents of slopes (1 ± δ/2)^{{2}} to the whole curve): {symbol} = {value} "
+    "{unit}",
+    parts="The construction is off by {whole} %: {parts}",
+    slopes="slopes 1 ± δ: {value} %",
+    method="one slope (Mertsalov): {value} %",
+    positions="{count} positions: {value} %",
+    pencil="ruler: {value} %",
+    reached="Checked by the equation of motion: δ = {delta}; ω_{{max}} = {high} at {at_high}, "
+    "ω_{{min}} = {low} at {at_low}",
+    extreme="φ = {angle}°",
+    not_needed="No flywheel is needed: without it δ = {delta}",
+    held="the diameter is held by the speed of the rim, {speed}",
+    lever_agrees="{lever} is that of the Zhukovsky lever of each position, without inertia.",
+    steps=(
+        "Compute the reduced moment {M} and the reduced moment of inertia {J} in {count} "
+        "positions.",
+        "Lay the ordinates of {M} off at the scale {mu_M}.",
+        "Integrate graphically with the pole distance H = {pole}: {way}. The scale of the work is "
+        "{mu_A}.",
+        "Join the beginning and the end of the diagram {A} by a straight line: that is {A_const}, "
+        "the moment {M_const} = {constant}.",
+        "Carry the differences of the ordinates of {A_const} and {A} to the diagram ΔT.",
+        "Draw the diagram {J} at the scale {mu_J} and project its ordinates on a line at 45°.",
+        "Where uprights from there meet the levels of ΔT, mark the points of the energy-mass "
+        "diagram.",
+        "Draw tangents at ψ_{{max}} = {psi_max}° (point {top}) and ψ_{{min}} = {psi_min}° "
+        "(point {bottom}); they cut off KL = {KL}.",
+    ),
+)

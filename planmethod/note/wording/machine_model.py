@@ -1,0 +1,58 @@
+"""What a language must be able to say of a machine and its flywheel."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+SYMBOLS = (
+    "resisting moment",
+    "driving moment",
+    "resisting work",
+    "driving work",
+    "energy gain",
+    "reduced inertia",
+    "flywheel",
+    "crank inertia",
+    "mean speed",
+    "moment by lever",
+)
+"""Quantities whose letters a language's `Notation` has."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MachineWording:
+    """Names and sentences of the flywheel's sheet in one language, rich text.
+
+    The letters of its quantities are symbols of the language's `Notation`.
+    """
+
+    wanted: str
+    means: Mapping[str, str]
+    source_signs: str
+
+    diagrams: str
+    by_middle: str
+    by_trapezoid: str
+    speed: str
+    load: str
+    over_stroke: str
+    table: str
+    sizes: Mapping[str, str]
+    calculation: str
+    title: str
+
+    read: str
+    construction: str
+    exact: str
+    parts: str
+    slopes: str
+    method: str
+    positions: str
+    pencil: str
+    reached: str
+    extreme: str
+    not_needed: str
+    held: str
+    lever_agrees: str
+    steps: tuple[str, ...]

@@ -1,0 +1,1 @@
+"""Diagrams as constructions: graphical differentiation and integration (диаграммы)."""

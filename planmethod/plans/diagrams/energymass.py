@@ -1,0 +1,192 @@
+"""The flywheel by diagrams: moment, work, energy, reduced inertia, energy-mass (энергомасса).
+
+The work is integrated graphically from the moments; what lies between it and the straight line of
+the work of the constant moment is carried to the diagram of energies. Ordinates of the inertia are
+projected on a line at 45 degrees and so turned by 90: uprights from there meet the lines of the
+energies in the points of the energy-mass diagram. Two tangents to it, at psi_max and psi_min, cut
+off KL on the axis of energies: J_f = mu_T·KL/(omega²·delta).
+
+Source: курсовое проектирование по ТММ, section 3 of the press coursework; Wittenbauer's method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from planmethod.construct.program import Program
+from planmethod.construct.steps import NumberName, PointName
+from planmethod.plans.diagrams.board import Axes, Board
+from planmethod.plans.diagrams.calculus import Integration, integrate
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """Numbers that the diagrams are drawn of.
+
+    Attributes
+    ----------
+    moments, inertias : sequence of float, N·m and kg·m²
+        In n + 1 even positions, the last of which is the first again. The moments of the side that
+        changes, as it does its work: of resistance, or driving ones.
+    middles : sequence of float, N·m
+        Moments between them.
+    drives : bool
+        The constant moment drives, and the others resist; False: the other way round.
+    way : Integration
+    pole, length : float, mm
+        Pole distance, and the length of the cycle.
+    mu_M, mu_T, mu_J : float
+        N·m, J and kg·m² per mm.
+    psi : (float, float), degrees
+        Angles of the tangents, of the upper and of the lower one.
+    touched : (int, int)
+        Positions in which they touch.
+    speed, delta : float, 1/s
+        Mean speed and irregularity.
+    """
+
+    moments: Sequence[float]
+    middles: Sequence[float]
+    inertias: Sequence[float]
+    drives: bool
+    way: Integration
+    pole: float
+    length: float
+    mu_M: float  # noqa: N815 - the letters of the textbook
+    mu_T: float  # noqa: N815
+    mu_J: float  # noqa: N815
+    psi: tuple[float, float]
+    touched: tuple[int, int]
+    speed: float
+    delta: float
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """Origins of the diagrams on the paper, mm."""
+
+    moment: complex = 0j
+    work: complex = 0j
+    energy: complex = 0j
+    inertia: complex = 0j
+    mass: complex = 0j  # below the origin of the energy-mass diagram, on the level of the inertia
+
+
+@dataclass(frozen=True, slots=True)
+class EnergyMass:
+    """The diagrams as steps (диаграмма энергомасс).
+
+    Attributes
+    ----------
+    program : Program
+    data : mapping
+        Of the program: points in mm, numbers in their units.
+    axes : mapping of str to Axes
+        ``M``, ``A``, ``T``, ``J``; ``E`` of the energy-mass diagram.
+    moments, middles, work, energies, inertias, turned, curve : tuple of PointName
+        Points of the diagrams; ``turned`` those on the line at 45 degrees, ``curve`` the points of
+        the energy-mass diagram.
+    pole, upper, lower : PointName
+        Pole, K and L.
+    KL, J_f : NumberName
+        mm and kg·m².
+    """
+
+    program: Program
+    data: Mapping[str, complex | float]
+    axes: Mapping[str, Axes]
+    moments: tuple[PointName, ...]
+    middles: tuple[PointName, ...]
+    work: tuple[PointName, ...]
+    energies: tuple[PointName, ...]
+    inertias: tuple[PointName, ...]
+    turned: tuple[PointName, ...]
+    curve: tuple[PointName, ...]
+    pole: PointName
+    upper: PointName
+    lower: PointName
+    KL: NumberName
+    J_f: NumberName
+
+
+def build(of: Given, places: Places) -> EnergyMass:
+    """Draw all diagrams of a flywheel as steps (построить диаграммы)."""
+    board = Board()
+    b, count = board.b, len(of.moments) - 1
+    step = of.length / count
+    at = [step * k for k in range(count + 1)]
+    mu_M, mu_J, mu_T = (
+        board.known(name, value)
+        for name, value in (("mu_M", of.mu_M), ("mu_J", of.mu_J), ("mu_T", of.mu_T))
+    )
+
+    def plotted(
+        letter: str, axes: Axes, xs: Sequence[float], values: Sequence[float], mu: NumberName
+    ) -> list[PointName]:
+        points = []
+        for k, (x, value) in enumerate(zip(xs, values, strict=True)):
+            size = b.compute(f"y {letter}{k}", (board.known(f"{letter}{k}", value), 1), (mu, -1))
+            points.append(board.plot(f"{letter} {k}", axes, x, size))
+        return points
+
+    over_M = board.axes("M", places.moment)
+    moments = plotted("M", over_M, at, of.moments, mu_M)
+    middles: list[PointName] = []
+    curve = moments
+    if of.way is Integration.MIDDLE:
+        half = [x + step / 2.0 for x in at[:-1]]
+        curve = middles = plotted("M'", over_M, half, of.middles, mu_M)
+    pole = board.pole(over_M, of.pole)
+    over_A = board.axes("A", places.work)
+    work = integrate(board, curve, over_M, over_A, at, pole=pole, way=of.way)
+    straight = b.join(work[0], work[-1])
+
+    over_T = board.axes("T", places.energy)
+    energies = [over_T.origin]
+    for k in range(1, count + 1):
+        foot = board.abscissa(over_T, at[k])
+        if k == count:
+            energies.append(foot)
+            continue
+        level = b.meet_lines(f"D {k}", straight, board.upright(over_A, at[k]))
+        tail, head = (work[k], level) if of.drives else (level, work[k])
+        energies.append(b.carry(f"T {k}", foot, tail, head))
+
+    over_J = board.axes("J", places.inertia)
+    inertias = plotted("J", over_J, at, of.inertias, mu_J)
+    axes_E = board.axes("E", complex(places.mass.real, places.energy.imag))
+    corner = board.given("45", places.mass)
+    diagonal = b.at_angle(corner, None, board.known("45 deg", 45.0))
+    turned, mass = [], []
+    for k in range(count):
+        spot = b.meet_lines(f"45 {k}", b.parallel(inertias[k], over_J.across), diagonal)
+        turned.append(spot)
+        upright = b.parallel(spot, axes_E.up)
+        level_line = b.parallel(energies[k], over_T.across)
+        mass.append(b.meet_lines(f"E {k}", level_line, upright))
+
+    ends = []
+    for letter, name, psi, k in zip("KL", ("max", "min"), of.psi, of.touched, strict=True):
+        tangent = b.at_angle(mass[k], axes_E.across, board.known(f"psi_{name}", psi))
+        ends.append(b.meet_lines(letter, tangent, axes_E.up))
+    kl = b.measure_along("KL", ends[1], ends[0], axes_E.up)
+    omega, delta = board.known("omega", of.speed), board.known("delta", of.delta)
+    found = b.compute("J_f", (kl, 1), (mu_T, 1), (omega, -2), (delta, -1))
+    return EnergyMass(
+        b.program(),
+        board.data,
+        {"M": over_M, "A": over_A, "T": over_T, "J": over_J, "E": axes_E},
+        tuple(moments),
+        tuple(middles),
+        tuple(work),
+        tuple(energies),
+        tuple(inertias),
+        tuple(turned),
+        tuple(mass),
+        pole,
+        ends[0],
+        ends[1],
+        kl,
+        found,
+    )

@@ -1,0 +1,149 @@
+"""``[machine]`` of a problem file: what the choice of a flywheel needs (маховик)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from enum import Enum
+from typing import Any, TypeVar
+
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    is_number,
+    read_angle,
+    read_keys,
+    read_member,
+    read_number,
+    read_table,
+    read_whole,
+    show,
+)
+from planmethod.problem.load_records import (
+    Machine,
+    Mean,
+    Method,
+    Ordinates,
+    Shape,
+    Side,
+    Signs,
+    Wheel,
+)
+from planmethod.problem.model import Drive
+
+M = TypeVar("M", bound=Enum)
+
+_EXAMPLE = '[machine] delta = "1/18", constant = "driving"'
+_MOST = 72
+"""Positions of a construction: what can be drawn on a sheet."""
+
+
+def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) -> Machine | None:
+    """Read ``[machine]``.
+
+    Parameters
+    ----------
+    given : mapping
+        The whole file.
+    drive : Drive or None
+        None when it could not be read: then nothing is asked of it.
+
+    Returns
+    -------
+    Machine or None
+        None after noting a fault.
+    """
+    before = len(faults)
+    table = read_table(faults, "machine", given["machine"], _EXAMPLE)
+    if table is None:
+        return None
+    body = read_keys(faults, "machine", table, keys.MACHINE)
+    if drive is not None and not drive.is_crank:
+        hint = "The cycle of a machine is that of a driving crank: give it phi and n."
+        faults.add("machine", f"link {drive.link} slides and has no turn", hint)
+    elif drive is not None and not drive.rate:
+        faults.add("machine", "the crank stands", "Give its mean speed: [driver] n or omega.")
+    if not given.get("loads"):
+        faults.add("machine", "there are no [[loads]]", "A flywheel evens out their work.")
+    delta = _read_delta(faults, body, whole=len(faults) == before)
+    cycle = body.get("cycle_deg", 360)
+    if not is_number(cycle) or cycle not in (360, 720):
+        hint = "720 is for a four-stroke engine."
+        faults.add("machine.cycle_deg", f"expected 360 or 720, got {show(cycle)}", hint)
+        cycle = 360
+    count = read_whole(faults, "machine.count", body.get("count", round(cycle / 30)), 4, _MOST)
+    start = read_angle(faults, "machine.phi_0", body["phi_0"]) if "phi_0" in body else None
+
+    def number(key: str, default: float, what: str, low: float, high: float) -> float:
+        value = body.get(key, default)
+        found = read_number(faults, f"machine.{key}", value, what, low=low, high=high)
+        return default if found is None else found
+
+    def word(key: str, default: M) -> M:
+        if key not in body:
+            return default
+        return read_member(faults, f"machine.{key}", body[key], type(default)) or default
+
+    def scale(key: str, unit: str) -> float | None:
+        return number(key, 1.0, f"a scale in {unit}", 1e-12, 1e12) if key in body else None
+
+    made = Machine(
+        delta=delta or 0.5,
+        mean=word("mean", Mean.HALF_SUM),
+        constant=word("constant", Side.DRIVING),
+        cycle_deg=float(cycle),
+        crank_inertia=number("J_crank", 0.0, "a moment of inertia in kg·m²", 0.0, 1e12),
+        count=count or 12,
+        pole_mm=number("pole_mm", 30.0, "a distance in mm", 5.0, 500.0),
+        turn_mm=number("turn_mm", 240.0, "a length in mm", 60.0, 1000.0),
+        mu_M=scale("mu_M", "N·m/mm"),
+        mu_J=scale("mu_J", "kg·m²/mm"),
+        signs=word("signs", Signs.TRUE),
+        ordinates=word("ordinates", Ordinates.MIDDLE),
+        method=word("method", Method.WITTENBAUER),
+        start_deg=start,
+        wheel=_read_wheel(faults, body.get("flywheel", {})),
+    )
+    return None if len(faults) != before else made
+
+
+def _read_delta(faults: Faults, body: Table, *, whole: bool) -> float | None:
+    """Read the irregularity: a number, or a fraction such as ``"1/18"``."""
+    if "delta" not in body:
+        if whole:
+            faults.add("machine.delta", "missing", 'Give the irregularity: delta = "1/18".')
+        return None
+    value, path = body["delta"], "machine.delta"
+    if isinstance(value, str):
+        top, slash, bottom = value.partition("/")
+        try:
+            value = float(top) / float(bottom) if slash else float(top)
+        except (ValueError, ZeroDivisionError):
+            value = math.nan
+    if not is_number(value) or not math.isfinite(value):
+        message = f'expected a number or a fraction such as "1/18", got {show(body["delta"])}'
+        faults.add(path, message, "A decimal fraction has a point: 0.05.")
+        return None
+    if not 0.0 < value < 1.0:
+        hint = "delta = (omega_max - omega_min)/omega_mean: from 1/5 (pumps) to 1/300 (generators)."
+        faults.add(path, f"expected an irregularity between 0 and 1, got {value:g}", hint)
+        return None
+    return float(value)
+
+
+def _read_wheel(faults: Faults, value: object) -> Wheel:
+    path = "machine.flywheel"
+    table = read_table(faults, path, value, 'flywheel = { shape = "rim", speed = 30 }')
+    body = read_keys(faults, path, table or {}, keys.FLYWHEEL)
+    found: dict[str, Any] = {}
+    if "shape" in body:
+        found["shape"] = read_member(faults, f"{path}.shape", body["shape"], Shape) or Shape.DISC
+    for key, what, low, high in (
+        ("density", "a density in kg/m³", 100.0, 3e4),
+        ("speed", "a speed in m/s", 0.1, 1e3),
+        ("ratio", "a ratio of speeds", 1e-3, 1e3),
+    ):
+        if key in body:
+            found[key] = read_number(faults, f"{path}.{key}", body[key], what, low=low, high=high)
+    return Wheel(**{key: item for key, item in found.items() if item is not None})

@@ -1,0 +1,179 @@
+"""Blocks of the turn of a crank: diagrams, hodographs, facts, tables (листы цикла движения)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.given import given, point_name
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.turn import (
+    diagram_scales,
+    drawn_note,
+    output_name,
+    turn_facts,
+)
+from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
+from planmethod.plans.model import FACTS, PlanKind
+from planmethod.problem.model import Convention
+from planmethod.render.layout.block import Block, Spacer, paragraph
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.kinematic import kinematic_picture
+from planmethod.render.pictures.polar import polar_picture
+from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.results import results_block, table_width
+from planmethod.render.sheets.texts import stated
+from planmethod.render.sheets.views import PlanViewed, Viewed, named, plan_grid
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import diagrams_of
+from planmethod.solved.turn.turn import TURN, Turn, Why, turn_of
+
+SIDE = 0.4
+"""Side of a hodograph as a part of the width of a text."""
+
+_NARROW = 0.05  # a hodograph that is narrower than so much of its length is a straight line
+
+
+def turn_statement(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return "Дано", "Определить" and what is found of the turn."""
+    words = manner.words
+    facts = given(solution.problem, words, [float(turn_of(solution).zero)])
+    found = "; ".join(turn_facts(turn_of(solution), words)) + "."
+    return stated(facts[1:], words.cycle.wanted, manner, found)
+
+
+def _whose(turn: Turn, manner: Manner) -> str:
+    output = turn.output
+    return manner.words.cycle.of[output.unit].format(name=output_name(output))
+
+
+def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the diagrams of s, v and a under one another."""
+    diagrams, words = diagrams_of(solution), manner.words
+    if diagrams is None:
+        turn, said = turn_of(solution), words.cycle
+        what = said.diagrams.format(of=_whose(turn, manner))
+        told = said.none.format(what=what, why=said.why[Why.PARTIAL.name])
+        height = manner.text(manner.sizes.text)
+        return paragraph(told + ".", height, width=manner.width(manner.sizes.column))
+    picture = kinematic_picture(diagrams, manner.letter, words.say)
+    title = words.cycle.diagrams.format(of=_whose(diagrams.turn, manner))
+    scales = diagram_scales(diagrams, words)
+    k = [
+        f"K_{{{number}}} = {words.say.given(pole)} {words.say.units['mm']}"
+        for number, pole in enumerate((diagrams.task.pole_v, diagrams.task.pole_a), 1)
+    ]
+    lines = ["; ".join([*scales, *k]), drawn_note(diagrams.task.differentiation, words)]
+    block = named(picture, manner.entry.title or title, lines, manner)
+    return Viewed(block, "diagrams", diagrams.scales[0])
+
+
+def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn."""
+    kind = manner.entry.of
+    assert kind is not None
+    count = len(solution.positions)
+    chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3))))
+    picture = plan_grid(solution, kind, chosen, manner.words.say)
+    title = manner.entry.title or manner.words.sheets.views[kind.value][1]
+    said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
+                              manner.words.say)]  # fmt: skip
+    block = named(picture, title, said, manner)
+    return PlanViewed(block, kind.value, solution.scales[kind], solution, kind, chosen)
+
+
+# Hodographs --------------------------------------------------------------------------------------
+
+
+def hodograph_point(turn: Turn) -> str | None:
+    """Return the point whose hodograph is shown: a centre of mass that does not move straight.
+
+    Else a named point that does not; None where all of them move along lines.
+    """
+    bodies, drive = turn.unit.problem.bodies, turn.unit.problem.drive.link
+    own = [p for link in bodies if link not in (FRAME, drive) for p in bodies[link].points]
+    plan = turn.unit.construction.kinematics.velocity
+    reading = turn.read(turn.positions)
+    wide = []
+    for point in dict.fromkeys(own):
+        if point in bodies[FRAME].points or point in bodies[drive].points:
+            continue
+        v = reading.point(plan.point[plan.named[point]])
+        v = v[np.isfinite(v)]
+        far = v[int(np.argmax(np.abs(v)))] if v.size else 0j
+        if abs(far) and np.ptp((v * np.conj(far)).imag) > _NARROW * abs(far) ** 2:
+            wide.append(point)
+    return next((p for p in wide if p.startswith("S")), wide[0] if wide else None)
+
+
+def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the hodograph of velocities or accelerations of a point about one pole."""
+    kind = manner.entry.of
+    assert kind is not None
+    turn, words = turn_of(solution), manner.words
+    point = hodograph_point(turn)
+    if point is None:
+        point = turn.output.point
+    drive, kin = solution.problem.drive, turn.unit.construction.kinematics
+
+    def vectors(positions: Reals) -> Complexes:
+        reading = turn.read(positions)
+        v, a = (
+            reading.point(motion.point[motion.named[point]])
+            for motion in (kin.velocity, kin.acceleration)
+        )
+        if kind is PlanKind.VELOCITY:
+            return np.asarray(v * drive.rate, dtype=complex)
+        return np.asarray(a * drive.rate**2 + v * drive.acceleration, dtype=complex)
+
+    first, last = float(turn.positions[0]), float(turn.positions[-1])
+    last = last if turn.range is not None else first + turn.sense * TURN
+    ends, curve = vectors(turn.positions), vectors(np.linspace(first, last, 361))
+    there = np.concatenate([[0j], curve[np.isfinite(curve)], ends[np.isfinite(ends)]])
+    side = SIDE * manner.width(manner.sizes.column)
+    size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
+    inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
+    facts = FACTS[kind]
+    scale = Scale(facts.scale, choose_scale(size, (side, side), mm_per_unit=inverse), facts.unit)
+    gaps = np.flatnonzero(~np.isfinite(curve))
+    parts = [part[np.isfinite(part)] / scale.per_mm for part in np.split(curve, gaps)]
+    drawn: Complexes = np.nan_to_num(ends) / scale.per_mm
+    picture = polar_picture(parts, drawn, manner.letter, f"{kind.value} {point}", facts.pole)
+    title = words.cycle.hodograph[kind.value].format(of=point_name(point))
+    said = [scale_inscription(scale, solution.problem.scales.convention, words.say)]
+    block = named(picture, manner.entry.title or title, said, manner)
+    return Viewed(block, "hodograph", scale)
+
+
+# Tables ------------------------------------------------------------------------------------------
+
+
+def _table(columns: Columns, lead: int, title: str, manner: Manner) -> Block:
+    height, say = manner.text(manner.sizes.text), manner.words.say
+    made = [
+        TableColumn(head, cells, unit=say.units[unit] if unit else "")
+        for head, unit, cells in columns
+    ]
+    title = manner.entry.title or title
+    return table_block(made, height, max_width=table_width(manner), leading=lead, title=title)
+
+
+def turn_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the table of the turn by positions; without diagrams the results of all of them."""
+    diagrams = diagrams_of(solution)
+    if diagrams is None:
+        return results_block(solution, indices, manner)
+    return _table(cycle_columns(diagrams, manner.words), 2, manner.words.cycle.table, manner)
+
+
+def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return how far the diagrams are off by every way."""
+    diagrams = diagrams_of(solution)
+    if diagrams is None:
+        return Spacer(1.0, 1.0)
+    columns = deviation_columns(diagrams, manner.words)
+    return _table(columns, 2, deviations_title(solution, manner.words), manner)

@@ -1,0 +1,269 @@
+"""Places, velocities and accelerations over a whole cycle, known at every angle (движение)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import pi
+
+import numpy as np
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.plans.build import Construction
+from planmethod.problem.model import Problem
+from planmethod.solved.course.curve import Curve, resolved
+from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import LinkMotion, PointMotion, Solution
+
+PANELS = 24
+"""Pieces of a turn to begin with."""
+
+STRAIGHT = 1e-7
+"""Share of its stroke that a point on a straight path may be off it."""
+
+_SAME = 1e-9  # share of the largest size by which the ends of a cycle may differ
+
+_COLUMNS = 6  # of a point: x and y of its place, velocity and acceleration
+
+
+@dataclass(frozen=True)
+class Moved:
+    """Motion in some positions, as loads need it: see `planmethod.solved.forces.loads`.
+
+    Attributes
+    ----------
+    positions : ndarray of shape (n,), degrees
+        Angles of the driving crank as in the file.
+    turn : TurnMotion
+        The cycle that they are of.
+    """
+
+    turn: TurnMotion
+    problem: Problem
+    construction: Construction
+    positions: Reals
+    points: Mapping[str, PointMotion]
+    links: Mapping[str, LinkMotion]
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """Course of a point between its dead positions (ход точки по прямой).
+
+    Attributes
+    ----------
+    start, towards : complex, m
+        The end of the path where the stroke of position 0 begins, and the vector to its other end.
+    dead : ndarray of shape (m,), rad
+        Where the point stands, angles turned from position 0; the first not after position 0.
+    """
+
+    start: complex
+    towards: complex
+    dead: Reals
+
+    def share(self, place: Complexes) -> Reals:
+        """Return how far a place is along the path, from 0 at the start to 1, shape (n,)."""
+        along = ((place - self.start) * self.towards.conjugate()).real / abs(self.towards) ** 2
+        return np.asarray(np.clip(along, 0.0, 1.0), dtype=float)
+
+    def progress(self, turned: Reals, place: Complexes, cycle: float) -> Reals:
+        """Return how many strokes of the cycle are done, from 0 at the start, shape (n,)."""
+        since = np.mod(turned - self.dead[0], cycle)
+        slack = 1e-9  # rounding of a dead position, as of one that the file asks
+        count = len(self.dead)
+        marks = np.append(self.dead - self.dead[0], cycle)
+        number = np.searchsorted(marks, since + slack, side="right") - 1
+        share = self.share(place)
+        done = np.where(number % 2 == 0, share, 1.0 - share)
+        return np.asarray(np.mod(number, count) + np.where(number >= count, 0.0, done), dtype=float)
+
+
+class TurnMotion:
+    """Motion of a mechanism over the cycle of its machine (движение за цикл).
+
+    Angles turned, rad, count from position 0 in the sense in which the crank turns. The crank turns
+    evenly, as in analogues of velocities.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a driving crank that turns.
+
+    Raises
+    ------
+    ProblemError
+        The driver slides or stands, or the cycle does not end where it begins.
+    AssemblyError
+        When the mechanism cannot be assembled all round.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        drive = problem.drive
+        if not drive.is_crank:
+            raise _fault(
+                problem,
+                "driver",
+                f"link {drive.link} slides: there is no turn of a crank",
+                "The cycle of a machine is that of a driving crank: give phi and n.",
+            )
+        if not drive.rate:
+            raise _fault(problem, "driver.omega", "the crank stands", "Give its speed, omega or n.")
+        self.problem = replace(problem, drive=replace(drive, acceleration=0.0))
+        self.sense = 1.0 if drive.rate > 0.0 else -1.0
+        machine = problem.machine
+        start = machine.start_deg if machine is not None else None
+        self.start_deg = drive.positions[0] if start is None else start
+        self.cycle = float(np.radians(360.0 if machine is None else machine.cycle_deg))
+        self._solution = Solution(self.problem, positions=[self.start_deg])
+        self.construction = self._solution.construction
+
+    def phi(self, turned: Reals) -> Reals:
+        """Return driver positions of the file, degrees, of angles turned."""
+        return self.start_deg + self.sense * np.degrees(turned)
+
+    def turned(self, phi: Reals) -> Reals:
+        """Return the angles turned from position 0, rad in [0, cycle), of driver positions."""
+        found = np.mod(np.radians(self.sense * (phi - self.start_deg)), self.cycle)
+        return np.where(found > self.cycle - 1e-9, 0.0, found)
+
+    def solved(self, turned: Reals) -> Solution:
+        """Return the mechanism solved at angles turned, rad, ndarray of shape (n,)."""
+        return self._solution.moved(self.phi(turned).tolist())
+
+    # Polynomials -----------------------------------------------------------------------------
+
+    @cached_property
+    def _names(self) -> tuple[list[str], list[str]]:
+        named = self.construction.kinematics.velocity.named
+        return list(named), list(self.problem.mechanism.links)
+
+    def _columns(self, turned: Reals) -> Reals:
+        solution = self.solved(turned)
+        columns: list[Reals] = []
+        for name in self._names[0]:
+            motion = solution.points[name]
+            for vector in (motion.place, motion.velocity, motion.acceleration):
+                columns += [vector.real, vector.imag]
+        for link in self._names[1]:
+            columns += [solution.links[link].omega, solution.links[link].epsilon]
+        return np.stack(columns, axis=1)
+
+    @cached_property
+    def curve(self) -> Curve:
+        """All of it as polynomials: six columns for each point, then two for each link."""
+        turns = round(self.cycle / (2.0 * pi))
+        edges = np.linspace(0.0, self.cycle, turns * PANELS + 1)
+        points, links = self._names
+        rough = self._columns(np.linspace(0.0, self.cycle, 2 * turns * PANELS + 1))
+        largest = np.max(np.abs(rough), axis=0)
+        of_points = largest[: _COLUMNS * len(points)].reshape(-1, 3, 2).max(axis=(0, 2))
+        of_links = largest[_COLUMNS * len(points) :].reshape(-1, 2).max(axis=0)
+        sizes = np.concatenate(
+            (np.tile(np.repeat(of_points, 2), len(points)), np.tile(of_links, len(links)))
+        )
+        sizes = np.where(sizes > 0.0, sizes, 1.0)
+        if np.max(np.abs(rough[-1] - rough[0]) / sizes) > _SAME:
+            raise _fault(
+                self.problem,
+                "machine.cycle_deg",
+                f"after {np.degrees(self.cycle):g} degrees the links are not where they were",
+                "Check [assembly]: the way of closing must come back with the cycle.",
+            )
+        return resolved(self._columns, edges, sizes)
+
+    def at(self, turned: Reals) -> Moved:
+        """Return the motion at angles turned, rad, ndarray of shape (n,)."""
+        rows = self.curve(np.mod(turned, self.cycle)).T
+        points: dict[str, PointMotion] = {}
+        for number, name in enumerate(self._names[0]):
+            x, y, vx, vy, ax, ay = rows[_COLUMNS * number : _COLUMNS * (number + 1)]
+            points[name] = PointMotion(x + 1j * y, vx + 1j * vy, ax + 1j * ay)
+        first = _COLUMNS * len(points)
+        nothing = np.full(len(turned), np.nan)  # nobody asks the directions of links here
+        links = {
+            link: LinkMotion(nothing, rows[first + 2 * k], rows[first + 2 * k + 1])
+            for k, link in enumerate(self._names[1])
+        }
+        return Moved(self, self.problem, self.construction, self.phi(turned), points, links)
+
+    @cached_property
+    def sampled(self) -> Moved:
+        """The motion at angles that come near to everything that happens."""
+        return self.at(self.curve.samples)
+
+    def column(self, point: str, direction: complex, *, velocity: bool = False) -> Curve:
+        """Return the place or the velocity of a point along a direction, m or m/s."""
+        weights = np.zeros(self.curve.terms.shape[2])
+        first = _COLUMNS * self._names[0].index(point) + (2 if velocity else 0)
+        weights[first : first + 2] = direction.real, direction.imag
+        return self.curve.mixed(weights)
+
+    def omega(self, link: str) -> Curve:
+        """Return the angular velocity of a link, 1/s."""
+        weights = np.zeros(self.curve.terms.shape[2])
+        points, links = self._names
+        weights[_COLUMNS * len(points) + 2 * links.index(link)] = 1.0
+        return self.curve.mixed(weights)
+
+    def course(self, point: str) -> complex:
+        """Return the direction in which a point moves where it is quickest; 1 of what stands."""
+        velocity = self.sampled.points[point].velocity
+        fastest = complex(velocity[int(np.argmax(np.abs(velocity)))])
+        return fastest / abs(fastest) if fastest else 1.0 + 0j
+
+    # Strokes ---------------------------------------------------------------------------------
+
+    @cached_property
+    def _strokes(self) -> dict[str, Stroke]:
+        return {}
+
+    def stroke(self, point: str) -> Stroke:
+        """Return the stroke of a point that moves to and fro on a straight line.
+
+        Raises
+        ------
+        ProblemError
+            The point stands, or its path is not straight.
+        """
+        if point not in self._strokes:
+            self._strokes[point] = self._stroke(point)
+        return self._strokes[point]
+
+    def _stroke(self, point: str) -> Stroke:
+        way = self.course(point)
+        dead = self.column(point, way, velocity=True).roots()
+        first = self.at(np.zeros(1)).points[point]
+        speeds = np.abs(self.sampled.points[point].velocity)
+        at_start = abs(first.velocity[0]) <= 1e-9 * float(np.max(speeds))
+        near = 1e-6  # a dead position at the very start is found at either end of the cycle, or not
+        if at_start:
+            dead = np.append(0.0, dead[(dead > near) & (dead < self.cycle - near)])
+        places = self.at(dead).points[point].place
+        if len(dead) < 2 or float(np.ptp((places * way.conjugate()).real)) == 0.0:
+            raise _fault(
+                self.problem, "loads", f"point {point} does not move to and fro", "Check `at`."
+            )
+        if not at_start:  # the stroke of position 0 began before it
+            dead = np.append(dead[-1] - self.cycle, dead[:-1])
+            places = np.roll(places, 1)
+        along = (places * way.conjugate()).real
+        low, high = complex(places[np.argmin(along)]), complex(places[np.argmax(along)])
+        start, end = (low, high) if abs(places[0] - low) <= abs(places[0] - high) else (high, low)
+        everywhere = self.sampled.points[point].place
+        towards = end - start
+        off = float(np.max(np.abs(((everywhere - start) * towards.conjugate()).imag)))
+        if off > STRAIGHT * abs(towards) ** 2:
+            raise _fault(
+                self.problem,
+                "loads",
+                f"point {point} does not move on a straight line: it is "
+                f"{off / abs(towards):.3g} m off, the stroke is {abs(towards):.4g} m",
+                'Give the load over the path of a slider, or over "phi".',
+            )
+        return Stroke(start, towards, dead)
+
+
+def _fault(problem: Problem, path: str, message: str, hint: str) -> ProblemError:
+    return ProblemError(problem.name, [Fault(path, message, hint)])

@@ -1,0 +1,212 @@
+"""The diagrams of a flywheel read: exactly, with a ruler, with their errors (маховик на листе)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import atan, degrees
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.drafting import Profile
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.hand import Hand
+from planmethod.construct.scale import choose_scale, series_near
+from planmethod.plans.diagrams.calculus import Integration
+from planmethod.plans.diagrams.energymass import EnergyMass, Given, Places, build
+from planmethod.problem.load_records import Method, Ordinates
+from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
+from planmethod.solved.errors.spread import Errors
+from planmethod.solved.machine.flywheel import Flywheel, Points
+from planmethod.solved.reading import Reading, remembered
+
+MOST_M, MOST_J = 85.0, 70.0
+"""Longest ordinates of the moment and of the inertia where the program chooses a scale, mm."""
+
+MOST_HIGH = 460.0
+"""Height of all diagrams above one another up to which the program enlarges their scales, mm."""
+
+_GAP = 24.0  # between two diagrams above each other, mm
+_BESIDE = 52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
+
+
+@dataclass(frozen=True, slots=True)
+class MachineScales:
+    """Scales of the diagrams (масштабы диаграмм), units per mm: rad, N·m, J, kg·m²."""
+
+    phi: float
+    moment: float
+    work: float
+    inertia: float
+
+
+class FlywheelDrawing:
+    """The diagrams of a flywheel on the paper.
+
+    Parameters
+    ----------
+    flywheel : Flywheel
+    profile : Profile
+        The hand that draws them.
+    count : int, optional
+        Positions; those of the file when absent.
+    """
+
+    def __init__(self, flywheel: Flywheel, profile: Profile, count: int | None = None) -> None:
+        self.flywheel, self.profile = flywheel, profile
+        machine = flywheel.machine
+        self.count = machine.count if count is None else count
+        slopes = flywheel.usual_slopes
+        self.points: Points = flywheel.by_points(self.count, machine.ordinates, slopes)
+        shown = np.append(self.points.ordinates, self.points.middles)
+        phi = flywheel.cycle / machine.turn_mm
+        inertia = machine.mu_J or _fitting(self.points.inertia, MOST_J)
+        moment = machine.mu_M or _fitting(shown, MOST_M)
+        self.scales = MachineScales(phi, moment, moment * machine.pole_mm * phi, inertia)
+        while machine.mu_M is None and self.height > MOST_HIGH:
+            moment = series_near(1.1 * moment, up=True)
+            self.scales = MachineScales(phi, moment, moment * machine.pole_mm * phi, inertia)
+        half = self.scales.inertia * flywheel.middle_speed**2 / (2.0 * self.scales.work)
+        self.psi = degrees(atan(half * slopes[0])), degrees(atan(half * slopes[1]))
+
+    @cached_property
+    def made(self) -> EnergyMass:
+        """The construction."""
+        machine, points, step = self.flywheel.machine, self.points, self.flywheel.cycle / self.count
+        touched = (round(at / step) for at in (points.tangents.at_max, points.tangents.at_min))
+        top, bottom = touched
+        middle = machine.ordinates is Ordinates.MIDDLE
+        given = Given(
+            (self.flywheel.sign * points.ordinates).tolist(),
+            (self.flywheel.sign * points.middles).tolist(),
+            points.inertia.tolist(),
+            self.flywheel.sign > 0.0,
+            Integration.MIDDLE if middle else Integration.TRAPEZOIDS,
+            machine.pole_mm,
+            machine.turn_mm,
+            self.scales.moment,
+            self.scales.work,
+            self.scales.inertia,
+            self.psi,
+            (top, bottom),
+            self.flywheel.middle_speed,
+            machine.delta,
+        )
+        return build(given, self.places)
+
+    def _reaches(self) -> list[tuple[float, float]]:
+        """Return the lowest and the highest of inertia, energy, work and moment, mm."""
+        points, scales = self.points, self.scales
+        cut = [points.tangents.upper, points.tangents.lower]
+        several = (
+            points.inertia / scales.inertia,
+            np.append(points.gain, cut) / scales.work,
+            points.work / scales.work,
+            self.flywheel.sign * np.append(points.ordinates, points.middles) / scales.moment,
+        )
+        return [(min(float(np.min(y)), 0.0), max(float(np.max(y)), 0.0)) for y in several]
+
+    @property
+    def height(self) -> float:
+        """Height of all diagrams above one another, mm."""
+        return sum(high - low + _GAP for low, high in self._reaches())
+
+    @cached_property
+    def places(self) -> Places:
+        """Origins of the diagrams: one above the other, the energy-mass one to the right."""
+        origins, at = [], 0.0
+        for low, high in self._reaches():
+            origins.append(complex(0.0, at - low))
+            at += high - low + _GAP
+        inertia, energy, work, moment = origins
+        right = self.flywheel.machine.turn_mm + _BESIDE
+        return Places(moment, work, energy, inertia, complex(right, inertia.imag))
+
+    @cached_property
+    def exact(self) -> Reading:
+        """Read without error, mm."""
+        return Reading(evaluate(self.made.program, self.made.data, Float64()), 1)
+
+    @cached_property
+    def by_hand(self) -> Reading:
+        """Read with the ruler."""
+        hand = Hand(ruler=self.profile.ruler)
+        return Reading(evaluate(self.made.program, self.made.data, hand), 1)
+
+    @cached_property
+    def errors(self) -> Errors:
+        """How far KL, mm, and J_f, kg·m², may be off: labels ``KL`` and ``J_f``."""
+        made = self.made
+        items = tuple(
+            DrawnQuantity(name, (name,), number(name), DrawnKind.NUMBER)
+            for name in (made.KL, made.J_f)
+        )
+        free = frozenset(str(axes.origin) for axes in made.axes.values())
+        drawn = Drafted(made.program, lambda _: dict(made.data), 1, self.profile, free, items, ())
+        return Errors(drawn)
+
+    @property
+    def inertia(self) -> float:
+        """J_f as the construction has it without a pencil, kg·m²."""
+        return float(self.exact.number(self.made.J_f)[0])
+
+    @property
+    def read_inertia(self) -> float:
+        """J_f as the hand finds it, kg·m²."""
+        return float(self.by_hand.number(self.made.J_f)[0])
+
+    @property
+    def sigma(self) -> float:
+        """Drafting error of J_f, kg·m²."""
+        return float(self.errors.spreads[self.made.J_f].sigma[0])
+
+
+@remembered
+def drawing_of(flywheel: Flywheel, profile: Profile) -> FlywheelDrawing:
+    """Return the diagrams of a flywheel as a hand draws them, made when first asked for."""
+    return FlywheelDrawing(flywheel, profile)
+
+
+def _fitting(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]], most: float) -> float:
+    return choose_scale((float(np.max(np.abs(values))), 0.0), (most, 1.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Split:
+    """What a construction is off by, kg·m², in parts that add up (разложение расхождения).
+
+    Attributes
+    ----------
+    slopes : float
+        Of slopes 1 ± delta for (1 ± delta/2)².
+    method : float
+        Of one slope for both tangents (Mertsalov); 0 of Wittenbauer's.
+    positions : float
+        Of so many positions for all.
+    pencil : float
+        Of lengths read with the ruler; ``sigma`` is what all strokes together may do.
+    """
+
+    slopes: float
+    method: float
+    positions: float
+    pencil: float
+    sigma: float
+
+
+def split(drawing: FlywheelDrawing) -> Split:
+    """Tell what the construction is off by, and by what (разложить расхождение)."""
+    wheel, delta = drawing.flywheel, drawing.flywheel.machine.delta
+    speed = wheel.middle_speed
+    exact = wheel.exact.inertia
+    usual = wheel.tangents(1.0 + delta, 1.0 - delta, speed).inertia
+    whole = wheel.tangents(*wheel.usual_slopes, speed).inertia
+    mertsalov = wheel.machine.method is Method.MERTSALOV
+    return Split(
+        usual - exact,
+        whole - usual if mertsalov else 0.0,
+        drawing.inertia - whole,
+        drawing.read_inertia - drawing.inertia,
+        drawing.sigma,
+    )

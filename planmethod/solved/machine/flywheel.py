@@ -1,0 +1,417 @@
+"""The flywheel of a machine, exactly and by the textbook's ways (подбор маховика).
+
+With the speeds omega_max and omega_min of the wanted irregularity, k = omega²/2 of each, the whole
+kinetic energy keeps T0 + dT <= k_1·(J_f + J) and T0 + dT >= k_2·(J_f + J), and somewhere they are
+equal. So J_f·(k_1 - k_2) = max(dT - k_1·J) - min(dT - k_2·J): the tangents of Wittenbauer's
+energy-mass diagram with the slopes (1 ± delta/2)², which are exact; the usual 1 ± delta drops
+delta²/4 (Artobolevsky, Theory of mechanisms, ch. 19).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import pi
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import evaluate
+from planmethod.errors import Fault, ProblemError
+from planmethod.plans.forces.board import SCALE
+from planmethod.problem.load_records import (
+    Dynamics,
+    Fixed,
+    Load,
+    Mean,
+    Method,
+    Ordinates,
+    Side,
+    Signs,
+)
+from planmethod.problem.model import Problem
+from planmethod.solved.course.curve import Curve, joined
+from planmethod.solved.course.motion import TurnMotion
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.machine.reduced import Reduced, reduce, reduced_curves
+from planmethod.solved.reading import Reading, Reals, Remembering, remembered
+from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
+
+BALANCE = 1e-9
+"""Work of the cycle, as a share of the largest moment times the cycle, that counts as none."""
+
+_STEPS = 2400  # of the equation of motion, in a turn
+
+
+@dataclass(frozen=True, slots=True)
+class Tangents:
+    """A flywheel between two tangents of the energy-mass curve (касательные).
+
+    Attributes
+    ----------
+    inertia : float, kg·m²
+        J_f beyond what turns with the crank.
+    upper, lower : float, J
+        Where the tangents meet the axis of energies.
+    at_max, at_min : float, rad
+        Where they touch: angles turned.
+    """
+
+    inertia: float
+    upper: float
+    lower: float
+    at_max: float
+    at_min: float
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """A machine in even positions, ndarrays of shape (n,), as its tables have it (таблица).
+
+    ``turned`` is in rad, ``moment`` in N·m, ``work`` and ``gain`` (dT) in J, ``inertia`` and its
+    ``slope`` in kg·m², ``omega`` in 1/s and ``epsilon`` in 1/s² along the turning of the crank.
+    """
+
+    turned: Reals
+    phi_deg: Reals
+    moment: Reals
+    work: Reals
+    gain: Reals
+    inertia: Reals
+    slope: Reals
+    omega: Reals
+    epsilon: Reals
+    parts: Reduced
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """What a construction by so many positions has without a pencil (построение по точкам).
+
+    Attributes
+    ----------
+    ordinates : ndarray of shape (n + 1,) and ``middles`` of shape (n,), N·m
+        M in the positions, and between them.
+    work, gain, inertia : ndarray of shape (n + 1,)
+        J and kg·m²; the last position is the first again.
+    tangents : Tangents
+    """
+
+    ordinates: Reals
+    middles: Reals
+    work: Reals
+    gain: Reals
+    inertia: Reals
+    tangents: Tangents
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """A largest or least speed: 1/s, and the angle turned where it is, rad."""
+
+    value: float
+    turned: float
+
+
+class Flywheel(Remembering):
+    """A machine and the flywheel that evens out its motion (машина с маховиком).
+
+    Parameters
+    ----------
+    problem : Problem
+        With ``[machine]``.
+
+    Raises
+    ------
+    ProblemError
+        The work of the cycle has the wrong sign, a load never works, or the crank does not turn.
+    AssemblyError
+        When the mechanism cannot be assembled all round.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__()
+        assert problem.machine is not None, "there is no [machine]"
+        self.problem, self.machine = problem, problem.machine
+        self.turn = TurnMotion(problem)
+        self.cycle = self.turn.cycle
+        found = reduced_curves(self.turn, self.machine)
+        self.moment, self.inertia, self.slope = (
+            Curve(found.edges, found.terms[:, :, k : k + 1]) for k in range(3)
+        )
+        self.sign = 1.0 if self.machine.constant is Side.DRIVING else -1.0
+        self.work = self.moment.mixed([self.sign]).integral
+        self.work_per_cycle = float(self.work.value([self.cycle])[0])
+        self._check_work()
+        self.constant = self.work_per_cycle / self.cycle
+        gain = self.moment.mixed([-1.0]).plus(self.sign * self.constant)
+        self.surplus, self.gain = gain, gain.integral
+
+    def _check_work(self) -> None:
+        moments = self.moment.value(self.moment.samples)
+        least = BALANCE * float(np.max(np.abs(moments))) * self.cycle
+        if self.work_per_cycle > least:
+            return
+        driving = self.machine.constant is Side.DRIVING
+        does, other = ("resist", "resisting") if driving else ("drive", "driving")
+        done = -self.sign * self.work_per_cycle  # by the loads; positive where they drive
+        nothing = abs(done) <= least
+        message = (
+            f"a constant {self.machine.constant.value} moment cannot balance the work of the "
+            f"loads over the cycle: they do {0.0 if nothing else done:.6g} J and must {does}"
+        )
+        hint = "Check their directions and phases"
+        hint += "." if nothing else f', or say constant = "{other}".'
+        raise ProblemError(self.problem.name, [Fault("machine.constant", message, hint)])
+
+    # Exactly ---------------------------------------------------------------------------------
+
+    @property
+    def turns(self) -> int:
+        """Turns of the crank in a cycle."""
+        return round(self.machine.cycle_deg / 360.0)
+
+    def tangents(self, upper: float, lower: float, speed: float) -> Tangents:
+        """Return the flywheel between tangents of slopes omega²/2 times ``upper`` and ``lower``."""
+        curves = joined([self.gain, self.inertia])
+        at_max, high = curves.mixed([1.0, -upper * speed**2 / 2.0]).peak()
+        at_min, low = curves.mixed([-1.0, lower * speed**2 / 2.0]).peak()
+        inertia = (high + low) / (speed**2 * self.machine.delta)
+        return Tangents(inertia, high, -low, at_max, at_min)
+
+    @property
+    def exact_slopes(self) -> tuple[float, float]:
+        """Slopes of the tangents that are exact, over omega²/2."""
+        half = self.machine.delta / 2.0
+        return (1.0 + half) ** 2, (1.0 - half) ** 2
+
+    @property
+    def usual_slopes(self) -> tuple[float, float]:
+        """Slopes that the method of the file draws, over omega²/2."""
+        if self.machine.method is Method.MERTSALOV:
+            return 1.0, 1.0
+        return 1.0 + self.machine.delta, 1.0 - self.machine.delta
+
+    @cached_property
+    def middle_speed(self) -> float:
+        """Half-sum of the greatest and the least speed of the steady motion, 1/s."""
+        asked = abs(self.problem.drive.rate)
+        if self.machine.mean is Mean.HALF_SUM:
+            return asked
+        found = asked
+        for _ in range(40):
+            ratio = asked / self._mean_in_time(found)
+            found *= ratio
+            if abs(ratio - 1.0) < 1e-14:
+                break
+        return found
+
+    def _mean_in_time(self, middle: float) -> float:
+        energy = self._energy(middle)
+        nodes, weights = np.polynomial.legendre.leggauss(12)
+        low, high = self.gain.edges[:-1, np.newaxis], self.gain.edges[1:, np.newaxis]
+        at = (low + high) / 2.0 + (high - low) / 2.0 * nodes
+        speeds = np.sqrt(
+            2.0
+            * (energy[0] + self.gain.value(at.ravel()))
+            / (energy[1] + self.inertia.value(at.ravel()))
+        )
+        inverse = float(np.sum((weights * (high - low) / 2.0).ravel() / speeds))
+        return float(self.cycle / inverse)
+
+    def _energy(self, middle: float) -> tuple[float, float]:
+        """Return the kinetic energy of position 0, J, and the flywheel, for a middle speed."""
+        upper, lower = self.exact_slopes
+        found = self.tangents(upper, lower, middle)
+        if found.inertia >= 0.0:
+            return upper * middle**2 / 2.0 * found.inertia - found.upper, found.inertia
+        return self._bare_energy(middle), 0.0
+
+    def _bare_energy(self, middle: float) -> float:
+        """Return the energy of position 0 of a machine without flywheel, J."""
+        at = self.gain.samples
+        gain, inertia = self.gain.value(at), self.inertia.value(at)
+        low, high = float(np.max(-gain)), float(np.max(-gain)) + 4.0 * middle**2 * inertia.max()
+        for _ in range(200):
+            energy = (low + high) / 2.0
+            speeds = np.sqrt(np.maximum(2.0 * (energy + gain) / inertia, 0.0))
+            slow = speeds.max() + speeds.min() < 2.0 * middle
+            low, high = (energy, high) if slow else (low, energy)
+        return float(low + high) / 2.0
+
+    @cached_property
+    def exact(self) -> Tangents:
+        """The flywheel for which the irregularity is exactly the wanted one.
+
+        Its inertia is not positive where the machine is even enough without a flywheel.
+        """
+        return self.tangents(*self.exact_slopes, self.middle_speed)
+
+    @property
+    def fitted(self) -> float:
+        """J_f that the steady motion has, kg·m²: none where none is needed."""
+        return max(self.exact.inertia, 0.0)
+
+    def speeds(self, turned: Reals) -> tuple[Reals, Reals]:
+        """Return omega, 1/s, and epsilon, 1/s², of the steady motion, ndarrays of shape (n,)."""
+        energy, flywheel = self._energy(self.middle_speed)
+        mass = flywheel + self.inertia.value(turned)
+        omega = np.sqrt(2.0 * (energy + self.gain.value(turned)) / mass)
+        pushed = self.surplus.value(turned) - omega**2 * self.slope.value(turned) / 2.0
+        return omega, pushed / mass
+
+    @cached_property
+    def integrated(self) -> tuple[Extreme, Extreme]:
+        """Greatest and least speed by integrating the equation of motion (проверка).
+
+        Runge and Kutta's fourth order over each smooth piece, with the moments, the inertia and
+        its slope as they are, without any work or energy; the steps begin at the speed of
+        position 0: J·omega·domega/dphi = M - omega²·J'/2.
+        """
+        edges, fly = self.moment.edges, self.fitted
+        most = 2.0 * pi / _STEPS
+        parts = np.maximum(np.ceil(np.diff(edges) / most).astype(int), 2)
+        omega = float(self.speeds(np.zeros(1))[0][0])
+        highest = lowest = Extreme(omega, 0.0)
+        for low, high, count in zip(edges[:-1], edges[1:], parts.tolist(), strict=True):
+            # nodes and middles; a hair inside the piece, where a moment that jumps is this piece's
+            at = np.linspace(low, high, 2 * count + 1)
+            inside = np.clip(at, low, high - (high - low) * 1e-12)
+            pushed = self.surplus.value(inside).tolist()
+            mass = (fly + self.inertia.value(inside)).tolist()
+            slope = (self.slope.value(inside) / 2.0).tolist()
+            step = (high - low) / count
+
+            def rate(k: int, speed: float) -> float:
+                pull: float = pushed[k] / speed - slope[k] * speed  # noqa: B023 - called at once
+                return pull / mass[k]  # type: ignore[no-any-return] # noqa: B023
+
+            for k in range(0, 2 * count, 2):
+                one = rate(k, omega)
+                two = rate(k + 1, omega + step / 2.0 * one)
+                three = rate(k + 1, omega + step / 2.0 * two)
+                four = rate(k + 2, omega + step * three)
+                after = omega + step / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+                for share in _turning_points(omega, after, step * one, step * rate(k + 2, after)):
+                    value = _hermite(omega, after, step * one, step * rate(k + 2, after), share)
+                    found = Extreme(value, float(at[k]) + share * step)
+                    highest = max(highest, found, key=lambda extreme: extreme.value)
+                    lowest = min(lowest, found, key=lambda extreme: extreme.value)
+                omega = after
+        return highest, lowest
+
+    @property
+    def delta_reached(self) -> float:
+        """Irregularity of the integrated motion."""
+        high, low = self.integrated
+        return 2.0 * (high.value - low.value) / (high.value + low.value)
+
+    # By positions ----------------------------------------------------------------------------
+
+    def turned(self, count: int) -> Reals:
+        """Return the angles turned of so many even positions, rad."""
+        return np.asarray(self.cycle * np.arange(count) / count, dtype=float)
+
+    @remembered
+    def reduced(self, count: int) -> Reduced:
+        """Return what is reduced to the crank in so many even positions, by their own plans."""
+        return reduce(self.turn.solved(self.turned(count)), self.machine)
+
+    @remembered
+    def lever(self, count: int) -> Reals:
+        """Return the reduced moment in so many positions by the Zhukovsky lever, N·m, shape (n,).
+
+        Loads and weights hang on the turned velocity plan of each position; no inertia.
+        """
+        problem, dynamics = self.turn.problem, self.problem.dynamics
+        assert dynamics is not None
+        down = Fixed(-90.0 if self.machine.signs is Signs.TRUE else 90.0)
+        weights = [
+            Load(f"G_{{{link}}}", link, mass.centre, mass.mass * dynamics.gravity, down)
+            for link, mass in dynamics.masses.items()
+            if mass.centre is not None and mass.mass and dynamics.gravity
+        ]
+        hung = Dynamics(0.0, {}, (*dynamics.loads, *weights))
+        positions = self.turn.phi(self.turned(count)).tolist()
+        statics = statics_of(Solution(replace(problem, dynamics=hung), positions=positions))
+        assert statics.lever_plan is not None, "the crank turns"
+        balance = statics.lever_plan.balance
+        program = statics.program.needed_for([balance])
+        data = statics.data({**UNIT_SCALES, SCALE: 1.0}, EVERY)
+        found = Reading(evaluate(program, data, Float64()), count).number(balance)
+        return np.asarray(self.turn.sense * found, dtype=float)
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The positions of the file's count."""
+        turned = self.turned(self.machine.count)
+        parts = self.reduced(self.machine.count)
+        omega, _ = self.speeds(turned)
+        moment, mass = parts.moment, self.fitted + parts.inertia
+        pushed = self.sign * self.constant - moment - omega**2 * parts.slope / 2.0
+        return Rows(
+            turned,
+            self.turn.phi(turned),
+            moment,
+            self.work.value(turned),
+            self.gain.value(turned),
+            parts.inertia,
+            parts.slope,
+            omega,
+            pushed / mass,
+            parts,
+        )
+
+    def by_points(
+        self,
+        count: int,
+        ordinates: Ordinates,
+        slopes: tuple[float, float],
+    ) -> Points:
+        """Return what a construction finds that knows so many positions only.
+
+        Parameters
+        ----------
+        slopes : (float, float)
+            Of the tangents, over omega²/2.
+        """
+        both = self.reduced(2 * count)
+        moments = np.append(both.moment[::2], both.moment[0])
+        middles = both.moment[1::2]
+        step = self.cycle / count
+        taken = middles if ordinates is Ordinates.MIDDLE else (moments[:-1] + moments[1:]) / 2.0
+        work = self.sign * np.append(0.0, np.cumsum(taken)) * step
+        turned = step * np.arange(count + 1)
+        gain = self.sign * (work[-1] / self.cycle * turned - work)
+        inertia = np.append(both.inertia[::2], both.inertia[0])
+        speed = self.middle_speed
+        highs = gain - slopes[0] * speed**2 / 2.0 * inertia
+        lows = gain - slopes[1] * speed**2 / 2.0 * inertia
+        top, bottom = int(np.argmax(highs[:-1])), int(np.argmin(lows[:-1]))
+        high, low = float(highs[top]), float(lows[bottom])
+        found = (high - low) / (speed**2 * self.machine.delta)
+        tangents = Tangents(found, high, low, float(turned[top]), float(turned[bottom]))
+        return Points(moments, middles, work, gain, inertia, tangents)
+
+
+@remembered
+def flywheel_of(solution: Solution) -> Flywheel:
+    """Return the machine of a solution, worked out when it is first asked for."""
+    return Flywheel(solution.problem)
+
+
+def _hermite(one: float, two: float, slope_1: float, slope_2: float, share: float) -> float:
+    """Return a cubic with given ends and slopes, the step being 1."""
+    rest = 1.0 - share
+    ends = one * rest * rest * (1.0 + 2.0 * share) + two * share * share * (3.0 - 2.0 * share)
+    return ends + slope_1 * share * rest * rest - slope_2 * share * share * rest
+
+
+def _turning_points(one: float, two: float, slope_1: float, slope_2: float) -> list[float]:
+    """Return the end of a step, and where a cubic turns within it."""
+    if slope_1 * slope_2 >= 0.0:
+        return [1.0]
+    a = 3.0 * (slope_1 + slope_2) - 6.0 * (two - one)
+    b = 6.0 * (two - one) - 4.0 * slope_1 - 2.0 * slope_2
+    found = np.roots([a, b, slope_1]) if a else np.array([-slope_1 / b])
+    return [1.0, *(float(x.real) for x in found if abs(x.imag) < 1e-12 and 0.0 < x.real < 1.0)]

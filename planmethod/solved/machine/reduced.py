@@ -1,0 +1,206 @@
+"""Reduced moments and inertia of a machine (приведённые моменты сил и момент инерции).
+
+What acts on the links is reduced to the crank by powers, their inertia by kinetic energies, both
+with the velocities of the plans. A moment is positive where it resists the turning of the crank.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.plans.forces.loads import Applied
+from planmethod.problem.load_records import (
+    Against,
+    Couple,
+    Interpolation,
+    Load,
+    Machine,
+    Over,
+    Signs,
+    Table,
+)
+from planmethod.solved.course.curve import Curve, resolved
+from planmethod.solved.course.motion import Moved, TurnMotion
+from planmethod.solved.forces.loads import MotionValues, external
+from planmethod.solved.reading import Reals
+
+NEVER = 1e-12
+"""Share of the largest power below which a load does no work."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reduced:
+    """What is reduced to the crank, in some positions, ndarrays of shape (n,).
+
+    Attributes
+    ----------
+    loads : mapping of str to ndarray, N·m
+        Reduced moment of each external load by its name; positive where it resists.
+    weights : ndarray, N·m
+        That of all weights, with the sign in which they are added.
+    links : mapping of str to ndarray, kg·m²
+        Share of each link that has mass in the reduced moment of inertia.
+    inertia : ndarray, kg·m²
+        The whole of it, that on the crank with it.
+    slope : ndarray, kg·m²
+        Its derivative by the angle turned, rad.
+    """
+
+    loads: dict[str, Reals]
+    weights: Reals
+    links: dict[str, Reals]
+    inertia: Reals
+    slope: Reals
+
+    @property
+    def moment(self) -> Reals:
+        """The whole reduced moment, N·m."""
+        return np.asarray(sum(self.loads.values(), self.weights), dtype=float)
+
+
+def power(motion: MotionValues, one: Applied) -> Reals:
+    """Return the power of what acts on a link, W, ndarray of shape (n,)."""
+    if one.point is None:
+        return one.couple * motion.links[one.link].omega
+    velocity = motion.points[one.point].velocity
+    return np.asarray((one.force * velocity.conjugate()).real, dtype=float)
+
+
+def reduce(motion: MotionValues, machine: Machine) -> Reduced:
+    """Reduce loads, weights and masses to the crank, which turns evenly (привести к кривошипу).
+
+    Parameters
+    ----------
+    motion : MotionValues
+        With a driver that does not speed up.
+    """
+    problem = motion.problem
+    drive, dynamics = problem.drive, problem.dynamics
+    assert dynamics is not None, "a machine has loads"
+    speed = abs(drive.rate)
+    nothing = np.zeros(motion.positions.shape)
+    loads = {
+        one.name: -power(motion, one) / speed
+        for link in problem.mechanism.links
+        for one in external(motion, dynamics, link)
+    }
+    weights, growth, links = nothing, nothing, {}
+    for link, mass in dynamics.masses.items():
+        turning = motion.links[link]
+        links[link] = mass.inertia * turning.omega**2 / speed**2
+        growth = growth + mass.inertia * turning.omega * turning.epsilon
+        if mass.centre is None or not mass.mass:
+            continue
+        centre = motion.points[mass.centre]
+        weights = weights + mass.mass * dynamics.gravity * centre.velocity.imag / speed
+        links[link] = links[link] + mass.mass * np.abs(centre.velocity) ** 2 / speed**2
+        growth = growth + mass.mass * (centre.velocity.conjugate() * centre.acceleration).real
+    if machine.signs is Signs.SOURCE:
+        weights = -weights
+    inertia = np.asarray(sum(links.values(), nothing), dtype=float) + machine.crank_inertia
+    return Reduced(loads, weights, links, inertia, 2.0 * growth / speed**3)
+
+
+def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
+    """Return moment, inertia and its slope over the cycle as polynomials of the angle turned.
+
+    Raises
+    ------
+    ProblemError
+        A load is known in the positions of the file only, or never works.
+    """
+    problem = turn.problem
+    dynamics = problem.dynamics
+    assert dynamics is not None
+    for index, load in enumerate(dynamics.loads):
+        if isinstance(load.size, Table) and load.size.over is Over.POSITION:
+            raise _load_fault(turn, index, "is given for the positions of the file only", _OVER)
+    cuts = [turn.curve.edges, *(_breaks(turn, load) for load in dynamics.loads)]
+    edges = np.unique(np.concatenate(cuts))
+    edges = edges[np.append(True, np.diff(edges) > 1e-12)]
+    edges[0], edges[-1] = 0.0, turn.cycle
+    names = [load.name for load in dynamics.loads]
+
+    def stacked(motion: Moved) -> Reals:
+        found = reduce(motion, machine)
+        nothing = np.zeros(motion.positions.shape)
+        moments = [found.loads.get(name, nothing) for name in names]
+        return np.stack([*moments, found.weights, found.inertia, found.slope], axis=1)
+
+    def read(turned: Reals) -> Reals:
+        return stacked(turn.at(turned))
+
+    largest = np.max(np.abs(stacked(turn.sampled)), axis=0)
+    largest[:-2] = float(np.max(largest[:-2]))
+    made = resolved(read, edges, np.where(largest > 0.0, largest, 1.0))
+    peaks = np.max(np.abs(made(made.samples)), axis=0)
+    for index, peak in enumerate(peaks[:-3]):
+        if peak <= NEVER * peaks[:-2].max():
+            raise _load_fault(turn, index, "never works: its power is 0 all over the cycle", _WORK)
+    sums = np.zeros((len(peaks), 3))
+    sums[:-2, 0] = sums[-2, 1] = sums[-1, 2] = 1.0
+    return Curve(made.edges, made.terms @ sums)
+
+
+_OVER = "A cycle needs it at every angle: give the table over phi, x, y or path."
+_WORK = "Check its point, its direction and its phases."
+
+
+def _load_fault(turn: TurnMotion, index: int, message: str, hint: str) -> ProblemError:
+    dynamics = turn.problem.dynamics
+    assert dynamics is not None
+    fault = Fault(f"loads[{index}]", f"{dynamics.loads[index].name} {message}", hint)
+    return ProblemError(turn.problem.name, [fault])
+
+
+def _breaks(turn: TurnMotion, load: Load | Couple) -> Reals:
+    """Return where a load may jump or have a kink, angles turned, rad, in no order."""
+    return np.concatenate([np.zeros(0), *_found_breaks(turn, load)])
+
+
+def _found_breaks(turn: TurnMotion, load: Load | Couple) -> Iterator[Reals]:
+    phase, size = load.phase, load.size
+    if phase is not None and phase.phi:
+        yield _all_turns(turn, np.array(phase.phi).ravel(), 360.0)
+    if isinstance(load, Couple):
+        if isinstance(load.sense, Against) or (phase is not None and phase.turning is not None):
+            yield turn.omega(load.link).roots()
+    elif isinstance(load.sense, Against) or phase is not None:
+        ways = [turn.course(load.at)]
+        if phase is not None and phase.moving is not None:
+            ways += [1.0 + 0j, 1j]
+        for way in ways:
+            yield turn.column(load.at, way, velocity=True).roots()
+        if phase is not None and phase.turning is not None:
+            yield turn.omega(load.link).roots()
+    if not isinstance(size, Table):
+        return
+    nodes = np.unique(size.at)
+    if size.over is Over.PHI:
+        yield _all_turns(turn, nodes, size.turn)
+    elif size.over in (Over.X, Over.Y):
+        assert isinstance(load, Load)
+        way = 1.0 + 0j if size.over is Over.X else 1j
+        place = turn.column(load.at, way)
+        slack = 1e-9 * float(np.ptp(nodes)) if size.interpolation is Interpolation.STEP else 0.0
+        yield from (place.roots(node - slack) for node in nodes)
+    else:
+        assert isinstance(load, Load)
+        stroke = turn.stroke(load.at)
+        yield np.mod(stroke.dead, turn.cycle)
+        unit = stroke.towards / abs(stroke.towards) ** 2
+        place = turn.column(load.at, unit).plus(-(stroke.start * unit.conjugate()).real)
+        shares = np.unique(np.append(np.mod(nodes, 1.0), np.mod(-nodes, 1.0)))
+        yield from (place.roots(share) for share in shares if 1e-9 < share < 1.0 - 1e-9)
+
+
+def _all_turns(turn: TurnMotion, phi: Reals, period: float) -> Reals:
+    """Return where the driver is at some angles, degrees, in every turn of the cycle."""
+    first = turn.turned(phi)
+    turns = max(round(turn.cycle / np.radians(period)), 1)
+    every = np.concatenate([first + np.radians(period) * k for k in range(turns)])
+    return np.asarray(np.mod(every, turn.cycle), dtype=float)

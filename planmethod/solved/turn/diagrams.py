@@ -1,0 +1,392 @@
+"""Kinematic diagrams of the output over a turn (кинематические диаграммы): s, v and a.
+
+The path is taken off the scheme, differentiated with a pole, and once more; all of it is a program
+of steps that any hand can read. Beside it stand the exact curves, and what the plans give.
+
+Every ordinate is in millimetres of its diagram. The path grows the way in which the output leaves
+position zero; diagrams are over the angle of a crank that turns evenly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from math import tau
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Arithmetic, Float64, Number
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.program import Program
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.steps import PointName
+from planmethod.errors import AssemblyError
+from planmethod.plans.diagrams.board import Axes, Board
+from planmethod.plans.diagrams.calculus import differentiate, integrate, repeated
+from planmethod.problem.model import Convention, Differentiation
+from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
+from planmethod.solved.errors.spread import Errors
+from planmethod.solved.reading import Reals, Remembering, remembered
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import Turn, turn_of
+
+HEIGHT = 80.0
+"""Height that the diagram of the path shall have where the file gives no scale of lengths, mm."""
+
+HIGHEST = 140.0
+"""Height that those of velocity and acceleration then keep to, mm."""
+
+LOW, HIGH = 20.0, 120.0
+"""Heights between which it is drawn in the scale of lengths, mm: as it is taken off the scheme."""
+
+_BETWEEN = 16.0  # mm of paper between two diagrams
+
+
+def smooth(values: Reals, at: Reals) -> Reals:
+    """Return the smooth closed curve through evenly spaced values: the periodic cubic spline.
+
+    Parameters
+    ----------
+    values : ndarray of shape (n,)
+    at : ndarray of shape (m,)
+        Places, the values standing at 0, 1, ... n - 1.
+    """
+    n = len(values)
+    ring = np.eye(n)
+    bends = np.linalg.solve(
+        4 * ring + np.roll(ring, 1, 0) + np.roll(ring, -1, 0),
+        6 * (np.roll(ring, 1, 0) - 2 * ring + np.roll(ring, -1, 0)) @ values,
+    )
+    k = np.floor(at).astype(int)
+    t = at - k
+    (y, m), (y1, m1) = ((values[i % n], bends[i % n]) for i in (k, k + 1))
+    bend = ((1 - t) ** 3 - (1 - t)) * m / 6 + (t**3 - t) * m1 / 6
+    return np.asarray((1 - t) * y + t * y1 + bend, dtype=float)
+
+
+@dataclass(frozen=True)
+class Graph:
+    """The construction of the diagrams of one way (построение диаграмм).
+
+    Attributes
+    ----------
+    program : Program
+    data : dict
+    axes : tuple of Axes
+        Of s, v and a.
+    poles : tuple of PointName
+        Of the diagrams of v and a.
+    points : tuple of list of PointName
+        n + 1 points of the path, n of v, n of a.
+    at : tuple of Reals
+        Their abscissae, mm.
+    """
+
+    program: Program
+    data: dict[str, complex | float]
+    axes: tuple[Axes, Axes, Axes]
+    poles: tuple[PointName, PointName]
+    points: tuple[list[PointName], list[PointName], list[PointName]]
+    at: tuple[Reals, Reals, Reals]
+
+    def ordinates(self, trace: Trace, number: int) -> Reals:
+        """Return the ordinates of s, v or a (0, 1, 2), mm, as they are drawn."""
+        origin = trace.value[self.axes[number].origin]
+        drawn = [(trace.value[point] - origin).imag for point in self.points[number]]
+        return np.array([float(np.reshape(y, -1)[0]) for y in drawn])
+
+
+@dataclass(frozen=True, slots=True)
+class Deviation:
+    """How far a way is off the exact diagram, mm: the greatest and the mean square (отклонение)."""
+
+    most: float
+    rms: float
+
+    @classmethod
+    def of(cls, found: Reals, exact: Reals) -> Deviation:
+        """Compare ordinates with exact ones; what does not exist is left out."""
+        off = (found - exact)[np.isfinite(found - exact)]
+        if not off.size:
+            return cls(np.nan, np.nan)
+        return cls(float(np.max(np.abs(off))), float(np.sqrt(np.mean(off**2))))
+
+
+class Diagrams(Remembering):
+    """Diagrams of a turn.
+
+    Parameters
+    ----------
+    turn : Turn
+        Of a crank that turns fully.
+    count : int, optional
+        Positions, if not those of the problem.
+    """
+
+    def __init__(self, turn: Turn, count: int | None = None) -> None:
+        super().__init__()
+        self.turn, self.task = turn, turn.task
+        self.count = count or self.task.count
+
+    # Exact ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def _start(self) -> tuple[float, int]:
+        """Value in position zero, and the sign of the way in which it changes from there."""
+        turn = self.turn
+        zero = np.array([turn.zero])
+        first, second = (float(rate[0]) for rate in turn.transfers(zero))
+        way = second if abs(first) < 1e-9 * turn.fastest else turn.sense * first
+        return float(turn.values(zero)[0]), -1 if way < 0 else 1
+
+    def path(self, shares: Reals) -> Reals:
+        """Return the path after shares of a turn, m or radians."""
+        start, sign = self._start
+        return sign * (self.turn.values(self.turn.at(shares)) - start) / self.turn.output.per_radian
+
+    def rates(self, shares: Reals) -> tuple[Reals, Reals]:
+        """Return both transfer functions of the path, m or 1 per radian of the crank's way."""
+        one, two = self.turn.transfers(self.turn.at(shares))
+        _, sign = self._start
+        return sign * self.turn.sense * one, sign * two
+
+    def exact(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
+        """Return the exact ordinates of s, v and a after shares of a turn, mm."""
+        one, two = self.rates(shares)
+        by = self.mu_phi * self.task.pole_v / self.mu_s
+        return self.path(shares) / self.mu_s, one * by, two * by * self.mu_phi * self.task.pole_a
+
+    @cached_property
+    def shares(self) -> Reals:
+        """Shares of a turn of the positions, the first one again at the end."""
+        return np.arange(self.count + 1) / self.count
+
+    @cached_property
+    def middles(self) -> Reals:
+        """Shares of a turn of the middles of the intervals."""
+        return (np.arange(self.count) + 0.5) / self.count
+
+    # Scales --------------------------------------------------------------------------------------
+
+    @property
+    def mu_phi(self) -> float:
+        """Radians of the crank per mm."""
+        return tau / self.task.length
+
+    @cached_property
+    def mu_s(self) -> float:
+        """Of the path, m or radians per mm: the file's ``mu_l`` where the diagram is then fit."""
+        problem, output = self.turn.solution.problem, self.turn.output
+        fine = np.linspace(0.0, 1.0, 181)
+        one, two = self.rates(fine)
+        by = self.mu_phi * self.task.pole_v
+        drawn = self.path(fine), one * by, two * by * self.mu_phi * self.task.pole_a
+        s, v, a = (float(np.ptp(np.append(y[np.isfinite(y)], 0.0))) for y in drawn)
+        given = problem.scales.mu_l
+        if given is not None and output.slide is not None and LOW <= s / given <= HIGH:
+            return given
+        inverse = problem.scales.convention is Convention.MM_PER_UNIT
+        return choose_scale((s, max(v, a)), (HEIGHT, HIGHEST), mm_per_unit=inverse)
+
+    @property
+    def mu_t(self) -> float | None:
+        """Seconds per mm; None where the crank stands still."""
+        rate = abs(self.turn.solution.problem.drive.rate)
+        return self.mu_phi / rate if rate else None
+
+    @property
+    def mu_v(self) -> float | None:
+        """Of the velocity, m/s or 1/s per mm: mu_s / (mu_t K)."""
+        return None if self.mu_t is None else self.mu_s / (self.mu_t * self.task.pole_v)
+
+    @property
+    def mu_a(self) -> float | None:
+        """Of the acceleration, m/s² or 1/s² per mm: mu_v / (mu_t K)."""
+        if self.mu_v is None or self.mu_t is None:
+            return None
+        return self.mu_v / (self.mu_t * self.task.pole_a)
+
+    @property
+    def scales(self) -> list[Scale]:
+        """Scales of s, v, a, phi and t, those that there are."""
+        turns = self.turn.output.slide is None
+        units = ("rad", "1/s", "1/s²") if turns else ("m", "m/s", "m/s²")
+        found = [
+            ("mu_s", self.mu_s, units[0]),
+            ("mu_v", self.mu_v, units[1]),
+            ("mu_a", self.mu_a, units[2]),
+            ("mu_φ", self.mu_phi, "rad"),
+            ("mu_t", self.mu_t, "s"),
+        ]
+        return [Scale(name, mu, unit) for name, mu, unit in found if mu is not None]
+
+    # Construction --------------------------------------------------------------------------------
+
+    def graph(self, way: Differentiation) -> Graph:
+        """Return the construction by chords, by tangents, or by chords of the drawn curve."""
+        return self.once(_graph, way)
+
+    def drawn(self, way: Differentiation, arithmetic: Arithmetic | None = None) -> list[Reals]:
+        """Return the ordinates of s, v and a as a hand draws them, mm; an exact one if none."""
+        graph, arithmetic = self.graph(way), arithmetic or Float64()
+        curve = {}
+        if way is Differentiation.CURVE:  # through what this hand has found of chords
+            _, v, _ = self.drawn(Differentiation.CHORDS, arithmetic)
+            read = smooth(v, self.shares[:-1] * self.count - 0.5)
+            curve = {f"v{k}": float(y) for k, y in enumerate(read)}
+        trace = evaluate(graph.program, {**graph.data, **curve}, arithmetic)
+        return [graph.ordinates(trace, number) for number in range(3)]
+
+    @cached_property
+    def curve(self) -> Reals:
+        """The smooth curve through the velocities of the chords, read in the positions, mm."""
+        _, v, _ = self.drawn(Differentiation.CHORDS)
+        return smooth(v, self.shares[:-1] * self.count - 0.5)
+
+    def integrated(self) -> Reals:
+        """Return the path found from exact velocities by middle ordinates, mm; n + 1 ordinates."""
+        board = Board()
+        over, axes = board.axes("v"), board.axes("s", -200j)
+        at = (self.shares * self.task.length).tolist()
+        _, v, _ = self.exact(self.middles)
+        points = [
+            board.plot(f"v {k}", over, x, board.known(f"v{k}", float(y)))
+            for k, (x, y) in enumerate(zip(self.middles * self.task.length, v, strict=True))
+        ]
+        pole = board.pole(over, self.task.pole_v)
+        made = integrate(board, points, over, axes, at, pole=pole)
+        trace = evaluate(board.b.program(), dict(board.data), Float64())
+        return np.array([float(trace.value[point].imag) + 200.0 for point in made])
+
+    # Plans ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def plans(self) -> tuple[Deviation, Deviation] | None:
+        """How far velocities and accelerations read off the plans are off, mm of the diagrams.
+
+        None where there are no plans in some position, or the crank stands still.
+        """
+        turn = self.turn
+        solution = Solution(
+            turn.solution.problem,
+            positions=turn.at(self.shares[:-1]).tolist(),
+            profile=turn.solution.profile,
+        )
+        if self.mu_v is None or self.mu_a is None:
+            return None
+        exact = turn.output.rates(solution, solution.read(Float64()))
+        letters = ("v", "a") if turn.output.slide is not None else ("omega", "epsilon")
+        of = turn.output.point if turn.output.slide is not None else turn.output.link
+        try:
+            read = [np.abs(solution.read_off(f"{letter}_{of}")) for letter in letters]
+        except AssemblyError:
+            return None
+        v, a = (np.abs(one) for one in exact)
+        return Deviation.of(read[0] / self.mu_v, v / self.mu_v), Deviation.of(
+            read[1] / self.mu_a, a / self.mu_a
+        )
+
+
+def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
+    board, task = Board(), diagrams.task
+    exact = diagrams.exact(np.linspace(0.0, 1.0, 361))
+    lows, highs = ([float(f(one)) for one in exact] for f in (np.nanmin, np.nanmax))
+    down = [0.0]
+    for low, high in zip(lows, highs[1:], strict=False):
+        down.append(down[-1] + min(low, 0.0) - max(high, 0.0) - _BETWEEN)
+    s, v, a = (board.axes(name, 1j * y) for name, y in zip("sva", down, strict=True))
+    ends, middles = task.length * diagrams.shares, task.length * diagrams.middles
+    path = _taken_off(board, s, ends, diagrams.exact(diagrams.shares)[0])
+    poles = board.pole(v, task.pole_v), board.pole(a, task.pole_a)
+    end = board.abscissa(v, float(ends[-1]))
+    if way is Differentiation.TANGENTS:
+        back = repeated(board, "s -1", path[-2], path[-1], path[0])
+        pairs = list(zip([back, *path[:-2]], path[1:], strict=True))
+        speed = differentiate(board, pairs, v, ends[:-1].tolist(), pole=poles[0])
+        last = repeated(board, "v -1", speed[-1], end, v.origin)
+        ahead = repeated(board, "v +1", speed[0], v.origin, end)
+        pairs = list(zip([last, *speed[:-1]], [*speed[1:], ahead], strict=True))
+        at = ends[:-1], ends[:-1]
+    else:
+        speed = differentiate(board, list(pairwise(path)), v, middles.tolist(), pole=poles[0])
+        at = middles, ends[:-1]
+        if way is Differentiation.CURVE:
+            at = ends[:-1], middles
+            speed = [
+                board.plot(f"v curve {k}", v, float(x), board.known(f"v{k}", float(y)))
+                for k, (x, y) in enumerate(zip(ends, diagrams.curve, strict=False))
+            ]
+            ahead = repeated(board, "v +1", speed[0], v.origin, end)
+            pairs = list(zip(speed, [*speed[1:], ahead], strict=True))
+        else:
+            last = repeated(board, "v -1", speed[-1], end, v.origin)
+            pairs = list(zip([last, *speed[:-1]], speed, strict=True))
+    bend = differentiate(board, pairs, a, at[1].tolist(), pole=poles[1])
+    return Graph(board.b.program(), board.data, (s, v, a), poles, (path, speed, bend), (ends, *at))
+
+
+def _taken_off(board: Board, axes: Axes, at: Reals, path: Reals) -> list[PointName]:
+    """Plot a path that is read on the scheme: how far the output is from position zero."""
+    up = board.known("90", 90.0)
+    places = [board.given(f"scheme {k}", complex(-100.0, y)) for k, y in enumerate(path)]
+    along = board.b.at_angle(places[0], None, up)
+    return [
+        board.plot(
+            f"s {k}", axes, float(x), board.b.measure_along(f"|s {k}|", places[0], place, along)
+        )
+        for k, (x, place) in enumerate(zip(at, places, strict=True))
+    ]
+
+
+def deviations(
+    diagrams: Diagrams, ways: Sequence[Differentiation], arithmetic: Arithmetic | None = None
+) -> dict[tuple[Differentiation, str], Deviation]:
+    """Return how far v and a of some ways are off, drawn by a hand, or exactly."""
+    found = {}
+    for way in ways:
+        graph, drawn = diagrams.graph(way), diagrams.drawn(way, arithmetic)
+        for number, letter in ((1, "v"), (2, "a")):
+            exact = diagrams.exact(graph.at[number] / diagrams.task.length)[number]
+            found[way, letter] = Deviation.of(drawn[number], exact)
+    return found
+
+
+def sigmas(diagrams: Diagrams, way: Differentiation) -> tuple[Reals, Reals]:
+    """Return one sigma of the drafting error of every ordinate of v and a, mm, ndarrays (n,).
+
+    The path is read on the scheme and laid off; rays, step lines and uprights are drawn. The smooth
+    curve of `Differentiation.CURVE` is taken as it stands.
+    """
+    graph = diagrams.graph(way)
+    items = [
+        DrawnQuantity(f"{axes.name} {k}", (point, axes.origin), _ordinate(point, axes.origin))
+        for axes, points in zip(graph.axes[1:], graph.points[1:], strict=True)
+        for k, point in enumerate(points)
+    ]
+    drawing = Drafted(
+        graph.program,
+        lambda chosen: dict(graph.data),
+        1,
+        diagrams.turn.solution.profile,
+        frozenset(str(axes.origin) for axes in graph.axes),
+        tuple(items),
+    )
+    spreads = Errors(drawing).spreads
+    v, a = (
+        np.array([float(spreads[f"{axes.name} {k}"].sigma[0]) for k in range(len(points))])
+        for axes, points in zip(graph.axes[1:], graph.points[1:], strict=True)
+    )
+    return v, a
+
+
+def _ordinate(point: PointName, origin: PointName) -> Callable[[Trace], Number]:
+    return lambda trace: (trace.value[point] - trace.value[origin]).imag
+
+
+@remembered
+def diagrams_of(solution: Solution) -> Diagrams | None:
+    """Return the diagrams of a mechanism; None where its crank does not turn fully."""
+    turn = turn_of(solution)
+    return None if turn.range is not None else Diagrams(turn)

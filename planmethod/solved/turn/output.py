@@ -1,0 +1,165 @@
+"""What a mechanism puts out (выходное звено): its path or angle, and the pressure angle on it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.errors import Fault, ProblemError
+from planmethod.mechanism.groups import AssurGroup, Lead
+from planmethod.mechanism.model import FRAME, Revolute
+from planmethod.plans.draft import cis
+from planmethod.problem.model import Slide
+from planmethod.solved.reading import Complexes, Reading, Reals
+from planmethod.solved.solution import Solution
+
+Pressure = Callable[[Reading], Reals]
+"""From a reading to the pressure angle, degrees from 0 to 90, ndarray of shape (n,)."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """Output of a mechanism (выход механизма).
+
+    Attributes
+    ----------
+    name : str
+        The point, or the link.
+    link : str
+    point : str
+        Point that is looked at: of a slider the one that moves along the guide; of a link that
+        turns one that is off its pivot.
+    slide : Slide or None
+        The guide; None of a link whose angle is meant.
+    """
+
+    name: str
+    link: str
+    point: str
+    slide: Slide | None
+
+    @property
+    def unit(self) -> str:
+        """Unit of the value: m along the guide from its base point, or degrees from +x."""
+        return "m" if self.slide is not None else "deg"
+
+    @property
+    def per_radian(self) -> float:
+        """How much of the value's unit a unit of its rates is: a turning link is told in degrees.
+
+        The rates are m and m, or radians, per radian of the crank.
+        """
+        return 1.0 if self.slide is not None else float(np.degrees(1.0))
+
+    def value(self, solution: Solution, reading: Reading) -> Reals:
+        """Return the value in every position; an angle within a turn."""
+        if self.slide is None:
+            return np.degrees(np.angle(reading.course(solution.construction.draft.axes[self.link])))
+        along = cis(self.slide.angle)
+        place = reading.point(PointName(self.point)) + solution.construction.draft.origin
+        return np.asarray(((place - self.slide.base) * np.conj(along)).real)
+
+    def rates(self, solution: Solution, reading: Reading) -> tuple[Reals, Reals]:
+        """Return the first and second rate: m/s and m/s², or 1/s and 1/s²."""
+        kin = solution.construction.kinematics
+        if self.slide is None:
+            names = (kin.omega.get(self.link), kin.epsilon.get(self.link))
+            zero = np.zeros(reading.count)
+            one, two = (zero if name is None else reading.number(name) for name in names)
+            return one, two
+        back = np.conj(cis(self.slide.angle))
+        plans = (kin.velocity, kin.acceleration)
+        ends = [reading.point(motion.point[motion.named[self.point]]) for motion in plans]
+        return np.asarray((ends[0] * back).real), np.asarray((ends[1] * back).real)
+
+
+def find_output(solution: Solution) -> Output:
+    """Return the output that ``[cycle]`` names, else the last link that is joined with the frame.
+
+    Raises
+    ------
+    ProblemError
+        No link but the driver is joined with the frame, and the file names no output.
+    """
+    problem = solution.problem
+    asked = problem.cycle.output if problem.cycle is not None else None
+    guided = {slide.slider: slide for slide in problem.slides.values() if slide.host == FRAME}
+    fixed = problem.bodies[FRAME].points
+    if asked is not None and asked in problem.mechanism.links:
+        return _of_link(solution, asked, guided.get(asked))
+    if asked is not None:
+        link = next(link for link in guided if asked in problem.bodies[link].points)
+        return Output(asked, link, asked, guided[link])
+    for group in reversed(solution.structure.groups):
+        for link in reversed(group.links):
+            points = problem.bodies[link].points
+            if link in guided or (any(p in fixed for p in points) and len(points) > 1):
+                return _of_link(solution, link, guided.get(link))
+    raise ProblemError(
+        problem.name,
+        [Fault("cycle.output", "no driven link is joined with the frame", "Name a link.")],
+    )
+
+
+def _of_link(solution: Solution, link: str, slide: Slide | None) -> Output:
+    fixed, points = solution.problem.bodies[FRAME].points, solution.problem.bodies[link].points
+    if slide is not None:
+        return Output(link, link, slide.pin, slide)
+    free = [point for point in points if point not in fixed]
+    return Output(link, link, (free or list(points))[0], None)
+
+
+# Pressure angle ----------------------------------------------------------------------------------
+
+
+def pressure_on(solution: Solution, output: Output) -> Pressure | None:
+    """Return what tells the pressure angle (угол давления) on the output link.
+
+    It is the angle between the force that the other link of its group, weightless, acts with and
+    the velocity of the point of the output link that it acts on. None where the output link does
+    not close a dyad on the frame.
+    """
+    group = next(group for group in solution.structure.groups if output.link in group.links)
+    if group.class_number != 2:
+        return None
+    own = next(lead for lead in group.leads if lead.link == output.link)
+    other = next(lead for lead in group.leads if lead.link != output.link)
+    force = _force(solution, group, other)
+    if own.to != FRAME or force is None:
+        return None
+    acting, line = force
+    axes = solution.construction.draft.axes
+
+    def pressure(reading: Reading) -> Reals:
+        if isinstance(own.joint, Revolute):
+            arm = reading.vector(PointName(own.joint.point), acting)
+            moving = arm * 1j
+        else:
+            moving = reading.course(axes[own.joint.slider])
+        turn = np.conj(line(reading)) * moving
+        with np.errstate(invalid="ignore"):
+            angle = np.degrees(np.arctan2(np.abs(turn.imag), np.abs(turn.real)))
+        return np.asarray(np.where(turn == 0, np.nan, angle))
+
+    return pressure
+
+
+def _force(
+    solution: Solution, group: AssurGroup, other: Lead
+) -> tuple[PointName, Callable[[Reading], Complexes]] | None:
+    """Return the point that a weightless link acts at, and what tells the line of its force."""
+    axes, inner, outer = solution.construction.draft.axes, group.inner[0], other.joint
+    if isinstance(inner, Revolute):
+        acting = PointName(inner.point)
+        if isinstance(outer, Revolute):
+            tail = PointName(outer.point)
+            return acting, lambda reading: reading.vector(tail, acting)
+        across = axes[outer.slider]
+    elif isinstance(outer, Revolute):
+        acting, across = PointName(outer.point), axes[inner.slider]
+    else:
+        return None
+    return acting, lambda reading: reading.course(across) * 1j

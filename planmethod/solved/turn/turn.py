@@ -1,0 +1,470 @@
+"""The turn of a crank (цикл): how far the mechanism assembles, extremes, phases, pressure angle.
+
+Everything is read off the program itself, driven at one radian a second, so that velocities are
+first and accelerations second transfer functions (аналоги); places where the output stands still,
+or a group just closes, are roots of what the program says there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import cached_property, partial
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import TANGENT, evaluate
+from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointName, Touch
+from planmethod.errors import Fault, ProblemError
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import CycleTask, Problem, Zero
+from planmethod.solved.closings import drive_data
+from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
+from planmethod.solved.solution import PointMotion, Solution
+from planmethod.solved.turn.output import Output, find_output, pressure_on
+from planmethod.solved.turn.roots import crossings, root, top
+
+TURN = 360.0
+
+LOOKS = 1440
+"""How often a turn is looked at: every quarter of a degree."""
+
+_ASIDE = 0.0931  # degrees that the looks stand off round numbers, where singular places like to be
+_SAME = 1e-9  # share of a stroke, or degrees, within which two extremes are alike
+_STILL = 1e-10  # share of the greatest rate below which nothing moves
+_NARROW = 0.05  # margin of a closing that may be none between two looks
+_STEP = TURN / LOOKS
+_LEVEL, _MOST_TOPS = 0.01, 8  # degrees of pressure angle within which peaks are compared
+
+
+class Why(Enum):
+    """Why a number of the cycle does not exist; the sentence of records."""
+
+    PARTIAL = "the crank does not turn fully"
+    STILL = "the output does not move"
+    ROUND = "the output turns all round"
+    NO_EXTREME = "the output does not turn back"
+    SEVERAL = "the output reaches an end of its stroke more than once in a turn"
+    NO_DYAD = "the output link does not close a dyad on the frame"
+    NO_RATE = "the crank stands still"
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """Extreme position (крайнее положение): crank, degrees, and value of the output, m or deg."""
+
+    phi: float
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """Greatest and least pressure angle, degrees, and where the crank then is, degrees."""
+
+    most: float
+    most_at: float
+    least: float
+    least_at: float
+
+
+class Turn(Remembering):
+    """The cycle of a mechanism with a crank.
+
+    Parameters
+    ----------
+    solution : Solution
+
+    Raises
+    ------
+    ProblemError
+        The driver slides, or nothing can be the output.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        super().__init__()
+        problem = solution.problem
+        if not problem.drive.is_crank:
+            raise ProblemError(
+                problem.name,
+                [
+                    Fault(
+                        "cycle",
+                        f"the driver, link {problem.drive.link}, slides: it has no turn",
+                        "A cycle is a turn of a crank",
+                    )
+                ],
+            )
+        self.solution = solution
+        self.task = problem.cycle or CycleTask()
+        self.sense = -1 if problem.drive.rate < 0 else 1
+        self.unit = Solution(
+            replace(
+                problem, drive=replace(problem.drive, rate=1.0, acceleration=0.0), dynamics=None
+            )
+        )
+        self.output: Output = find_output(self.unit)
+
+    # Readings ------------------------------------------------------------------------------------
+
+    def read(self, positions: Reals | Sequence[float]) -> Reading:
+        """Return the exact reading at unit scales and one radian a second; gaps are NaN."""
+        at = np.asarray(positions, dtype=float)
+        draft = self.unit.construction.draft
+        data = drive_data(self.unit.problem, draft, at)
+        return Reading(evaluate(self.unit.construction.program, data, Float64()), len(at))
+
+    def rate(self, positions: Reals) -> Reals:
+        """Return the first transfer function of the output, in its own unit per radian."""
+        return self.output.rates(self.unit, self.read(positions))[0]
+
+    # Range ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def _closing(self) -> list[tuple[tuple[str, ...], Name]]:
+        """Steps of the position plan that may find no meeting, after the links of their group."""
+        return [
+            (section.group.links if section.group else (), step.out)
+            for section in self.unit.construction.sections
+            if section.kind is PlanKind.POSITION
+            for step in section.steps
+            if isinstance(step, MeetCircles | MeetLineCircle | Touch)
+        ]
+
+    def _closed(self, reading: Reading) -> Flags:
+        """Tell in which positions every point of the position plan has its place."""
+        able = np.ones(reading.count, dtype=bool)
+        for name in self.unit.construction.draft.points():
+            able &= np.isfinite(reading.point(PointName(name)))
+        return able
+
+    def _margin(self, name: Name, positions: Reals) -> Reals:
+        """Return the margin of a step; where an earlier one fails already it is below nothing."""
+        margin = np.asarray(self.read(positions).trace.margin[name], dtype=float)
+        margin = np.broadcast_to(margin, positions.shape)
+        return np.where(np.isnan(margin), -1.0, margin)
+
+    def _short(self, name: Name, positions: Reals) -> Reals:
+        """Return by how much the margin of a step is short of nothing."""
+        return -self._margin(name, positions)
+
+    @cached_property
+    def _looks(self) -> tuple[Reals, Reading, Flags]:
+        """Positions that are looked at, a turn from the first asked one that exists."""
+        asked = np.asarray(self.unit.problem.drive.positions)
+        there = np.flatnonzero(self._closed(self.read(asked)))
+        start = float(asked[there[0]]) if there.size else float(asked[0])
+        looks = start + _ASIDE + TURN * np.arange(LOOKS) / LOOKS
+        # A closing that fails between two looks only: where its margin is least.
+        reading, narrow = self.read(looks), []
+        for _, name in self._closing:
+            margin = np.broadcast_to(
+                np.asarray(reading.trace.margin[name], dtype=float), looks.shape
+            )
+            before, after = np.roll(margin, 1), np.roll(margin, -1)
+            least = (margin > 0) & (margin < _NARROW) & (margin <= before) & (margin < after)
+            for k in np.flatnonzero(least):
+                at, size = top(partial(self._short, name), looks[k] - _STEP, looks[k] + _STEP)
+                if size > -TANGENT:
+                    narrow.append(at)
+        if narrow:
+            looks = np.sort([*looks, *((np.array(narrow) - looks[0]) % TURN + looks[0])])
+            reading = self.read(looks)
+        return looks, reading, self._closed(reading)
+
+    @cached_property
+    def range(self) -> tuple[float, float] | None:
+        """Driver positions between which the mechanism assembles, degrees; None: a full turn.
+
+        The range that has the first asked position that exists.
+        """
+        looks, _, able = self._looks
+        if able.all():
+            return None
+        back = int(np.flatnonzero(~able[::-1])[0])  # going back from the start, over the end
+        ahead = int(np.flatnonzero(~able)[0])
+        high = self._limit(looks[ahead - 1] if ahead else looks[0] - _ASIDE, looks[ahead])
+        inside = looks[len(looks) - back] - TURN if back else looks[0] - _ASIDE
+        low = self._limit(inside, looks[len(looks) - 1 - back] - TURN)
+        return low, high
+
+    def _limit(self, inside: float, outside: float) -> float:
+        """Return the position between two where the mechanism just closes."""
+        failing = [n for _, n in self._closing if self._margin(n, np.array([outside]))[0] < 0]
+        if failing:
+            return root(lambda p: self._margin(failing[0], p), inside, outside)
+
+        def able(positions: Reals) -> Reals:
+            return np.where(self._closed(self.read(positions)), 1.0, -1.0)
+
+        return root(able, inside, outside)
+
+    def stopping(self, limit: float) -> tuple[str, ...]:
+        """Return the links of the group that does not close beyond a limit of the range."""
+        assert self.range is not None
+        outside = np.array([limit + (1e-3 if limit == self.range[1] else -1e-3)])
+        return next((own for own, name in self._closing if self._margin(name, outside)[0] < 0), ())
+
+    @cached_property
+    def tightest(self) -> tuple[tuple[str, ...], float] | None:
+        """Links of the group that comes nearest to not closing in a turn, and where, degrees."""
+        looks, reading, _ = self._looks
+        found = []
+        for own, name in self._closing:
+            margin = np.broadcast_to(np.asarray(reading.trace.margin[name], float), looks.shape)
+            k = int(np.argmin(margin))
+            found.append((float(margin[k]), own, float(looks[k])))
+        return min(found)[1:] if found else None
+
+    # Output --------------------------------------------------------------------------------------
+
+    @cached_property
+    def _course(self) -> tuple[Reals, Reals, Reals]:
+        """Positions that exist in one row, values (an angle goes on), first transfer functions."""
+        looks, _, able = self._looks
+        if self.range is not None:
+            low, high = self.range
+            looks = looks[able]
+            looks = np.where(looks > high, looks - TURN, looks)
+            looks = np.sort([low, *looks[(looks > low) & (looks < high)], high])
+        else:
+            looks = np.append(looks, looks[0] + TURN)
+        reading = self.read(looks)
+        value = self.output.value(self.unit, reading)
+        if self.output.slide is None:
+            good = np.isfinite(value)
+            value[good] = np.degrees(np.unwrap(np.radians(value[good])))
+        return looks, value, self.output.rates(self.unit, reading)[0]
+
+    @cached_property
+    def gain(self) -> float:
+        """How much the value grows in a turn: degrees of an output that turns all round, else 0."""
+        if self.output.slide is not None or self.range is not None:
+            return 0.0
+        _, value, _ = self._course
+        return float(np.round((value[-1] - value[0]) / TURN) * TURN)
+
+    def values(self, positions: Reals) -> Reals:
+        """Return the value of the output, m or degrees; an angle as it goes on from the course."""
+        value = self.output.value(self.unit, self.read(positions))
+        if self.output.slide is not None:
+            return value
+        looks, course, _ = self._course
+        turns = np.floor((positions - looks[0]) / TURN) if self.range is None else 0.0 * positions
+        good = np.isfinite(course)
+        near = np.interp(positions - TURN * turns, looks[good], course[good])
+        return value + TURN * np.round((near - value) / TURN) + turns * self.gain
+
+    def transfers(self, positions: Reals) -> tuple[Reals, Reals]:
+        """Return both transfer functions of the output: m, or 1, per radian of the crank."""
+        return self.output.rates(self.unit, self.read(positions))
+
+    @cached_property
+    def fastest(self) -> float:
+        """Greatest first transfer function of the output."""
+        rates = np.abs(self._course[2])
+        return float(np.max(rates[np.isfinite(rates)], initial=0.0))
+
+    @cached_property
+    def is_still(self) -> bool:
+        """Whether the output does not move at all."""
+        size = max((abs(length) for *_, length in self.unit.problem.lengths), default=1.0)
+        return self.fastest <= _STILL * (size if self.output.slide is not None else 1.0)
+
+    @cached_property
+    def _turnings(self) -> list[Extreme]:
+        """Extreme positions in the order of the angle, within the course."""
+        if self.is_still:
+            return []
+        looks, _, rates = self._course
+        found = []
+        for k in crossings(rates):
+            at = root(self.rate, float(looks[k]), float(looks[k + 1]))
+            if abs(self.rate(np.array([at]))[0]) < 1e-6 * self.fastest:
+                found.append(at)
+        if not found:
+            return []
+        places = np.array(found)
+        return [
+            Extreme(float(p), float(v)) for p, v in zip(places, self.values(places), strict=True)
+        ]
+
+    def _ahead(self, start: float, phi: float) -> float:
+        """Return how far the crank goes from one position to another in its sense, degrees."""
+        way = self.sense * (phi - start)
+        if self.range is not None:
+            return way
+        way %= TURN
+        return 0.0 if TURN - way < _SAME else way
+
+    @cached_property
+    def ends(self) -> tuple[Extreme, Extreme] | None:
+        """The extreme from which the quicker stroke starts, and the other one."""
+        found = self._turnings
+        if len(found) < 2 or self.gain:
+            return None
+        values = np.array([one.value for one in found])
+        near = _SAME * float(np.ptp(values))
+        highs = [e for e in found if e.value >= values.max() - near]
+        lows = [e for e in found if e.value <= values.min() + near]
+        pairs = [(a, b) for high in highs for low in lows for a, b in ((high, low), (low, high))]
+        if self.range is not None:
+            pairs = [(a, b) for a, b in pairs if self._ahead(a.phi, b.phi) > 0]
+        # Strokes as long as each other: the one from the greater value.
+        return min(
+            pairs, key=lambda p: (round(self._ahead(p[0].phi, p[1].phi), 7), -p[0].value, p[0].phi)
+        )
+
+    @cached_property
+    def why_no_stroke(self) -> Why | None:
+        """Why the output has no stroke between two extremes."""
+        if self.is_still:
+            return Why.STILL
+        if self.gain:
+            return Why.ROUND
+        if self.ends is not None:
+            return None
+        return Why.NO_EXTREME if self.range is None else Why.PARTIAL
+
+    @cached_property
+    def stroke(self) -> float | None:
+        """Stroke H, m, or swing psi, degrees (ход, угол размаха)."""
+        if self.ends is None:
+            return 0.0 if self.is_still else None
+        return abs(self.ends[0].value - self.ends[1].value)
+
+    @cached_property
+    def phases(self) -> tuple[float, float] | None:
+        """Degrees of the crank of the quicker stroke, from ``extreme``, and of the way back."""
+        if self.ends is None or self.range is not None:
+            return None
+        working = self._ahead(self.ends[0].phi, self.ends[1].phi)
+        return working, TURN - working
+
+    @cached_property
+    def why_no_ratio(self) -> Why | None:
+        """Why there is no K_v."""
+        if self.phases is None:
+            return self.why_no_stroke or Why.PARTIAL
+        ends = [value for end in self.ends or () for value in (end.value,)]
+        near = _SAME * abs(ends[0] - ends[1])
+        at_ends = [e for e in self._turnings if min(abs(e.value - v) for v in ends) <= near]
+        return Why.SEVERAL if len(at_ends) > 2 else None
+
+    @cached_property
+    def ratio(self) -> float | None:
+        """Ratio of the mean speeds of both strokes K_v, 1 or more (коэффициент изменения)."""
+        if self.phases is None or self.why_no_ratio is not None:
+            return None
+        return max(self.phases) / min(self.phases)
+
+    # Position zero -------------------------------------------------------------------------------
+
+    @cached_property
+    def zero(self) -> float:
+        """Position zero, degrees: an extreme within half a turn of 0, or the given angle."""
+        asked = self.task.zero
+        if not isinstance(asked, Zero):
+            return asked
+        if self.ends is None:
+            single = self._turnings
+            found = single[0].phi if single else float(self.unit.problem.drive.positions[0])
+        else:
+            found = self.ends[0 if asked is Zero.EXTREME else 1].phi
+        if self.range is not None:
+            return found
+        return TURN / 2 - (TURN / 2 - found) % TURN
+
+    @cached_property
+    def zero_is_asked(self) -> bool:
+        """Whether position zero is what was asked: the output has the extreme."""
+        return self.ends is not None or not isinstance(self.task.zero, Zero)
+
+    @cached_property
+    def positions(self) -> Reals:
+        """Positions of the cycle, numbered as the driver goes, ndarray of shape (count,).
+
+        Of a crank that does not turn fully so many within its range, the limits left out.
+        """
+        if self.range is not None:
+            shares = (np.arange(self.task.count) + 0.5) / self.task.count
+            low, high = self.range[:: self.sense]
+            return low + (high - low) * shares
+        return self.at(np.arange(self.task.count) / self.task.count)
+
+    def at(self, shares: Reals) -> Reals:
+        """Return the driver positions after shares of a turn."""
+        return self.zero + self.sense * TURN * shares
+
+    @cached_property
+    def extremes(self) -> list[Extreme]:
+        """All extreme positions, from position zero on in the sense of the driver."""
+        ahead = [(self._ahead(self.zero, one.phi), one.value) for one in self._turnings]
+        return [Extreme(self.zero + self.sense * way, value) for way, value in sorted(ahead)]
+
+    # Pressure angle ------------------------------------------------------------------------------
+
+    @cached_property
+    def pressure(self) -> Peak | None:
+        """Greatest and least pressure angle on the output link, and where; None: has no meaning."""
+        told = pressure_on(self.unit, self.output)
+        if told is None:
+            return None
+
+        def angle(positions: Reals) -> Reals:
+            return told(self.read(positions))
+
+        looks = self._course[0][: -1 if self.range is None else None]
+        values = angle(looks)
+        if not np.isfinite(values).any():
+            return None
+        found = []
+        for sign in (1.0, -1.0):
+            signed = np.where(np.isnan(values), -np.inf, sign * values)
+            padded = np.pad(signed, 1, mode="wrap" if self.range is None else "edge")
+            peaks = (signed >= padded[:-2]) & (signed >= padded[2:])
+            near = np.flatnonzero(peaks & (signed >= signed.max() - _LEVEL))[:_MOST_TOPS]
+
+            def size(positions: Reals, sign: float = sign) -> Reals:
+                return sign * angle(positions)
+
+            low, high = self.range or (-np.inf, np.inf)
+            around = [(max(at - _STEP, low), min(at + _STEP, high)) for at in looks[near]]
+            tops = [top(size, *ends) for ends in around]
+            extreme = np.array([one.phi for one in self._turnings])
+            tops += zip(extreme.tolist(), size(extreme).tolist(), strict=True)
+            most = max(value for _, value in tops)
+            alike = np.array([at for at, value in tops if value >= most - _SAME])
+            # Of several places with one value that which lasts longest, the first one from zero.
+            flat = np.round(np.nan_to_num(size(alike - 1.0) + size(alike + 1.0), nan=-TURN), 6)
+            ways = [self._ahead(self.zero, float(at)) for at in alike[flat == flat.max()]]
+            found += [sign * most, self.zero + self.sense * min(ways)]
+        return Peak(*found)
+
+
+def at_unit_rate(problem: Problem) -> Problem:
+    """Return a problem driven at one radian, or metre, a second: rates are analogues."""
+    drive = replace(problem.drive, rate=1.0, acceleration=0.0)
+    return replace(problem, drive=drive, dynamics=None)
+
+
+@remembered
+def turn_of(solution: Solution) -> Turn:
+    """Return the cycle of a solution's mechanism; kept, since several views show it."""
+    return Turn(solution)
+
+
+@remembered
+def analogues(solution: Solution) -> tuple[dict[str, PointMotion], dict[str, tuple[Reals, Reals]]]:
+    """Return first and second transfer functions in the positions of a solution (аналоги).
+
+    Returns
+    -------
+    points : dict
+        Motions at one radian (or metre) a second: velocity dx/dφ, acceleration d²x/dφ².
+    links : dict
+        dφ_i/dφ and d²φ_i/dφ², ndarrays of shape (n,).
+    """
+    unit = Solution(at_unit_rate(solution.problem), positions=solution.positions.tolist())
+    return unit.points, {name: (one.omega, one.epsilon) for name, one in unit.links.items()}

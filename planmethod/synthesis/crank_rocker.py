@@ -1,0 +1,239 @@
+"""Crank-rocker (кривошипно-коромысловый механизм) from the swing, K_v and where the crank stands.
+
+The rocker's ends B' and B'' are seen from the crank's pivot O at the angle θ of K_v: O is on a
+circle over the chord. Both positions close on one side of OC where O is outside of the angle
+B'CB'' and of the one across; the crank then turns fully. One parameter is free: the angle β between
+the chord and B''O, or a line that O is on, or OC; without any the best transmission angle decides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import product
+from math import acos, degrees, nan, radians, sin
+from typing import Any
+
+import numpy as np
+
+from planmethod.construct.steps import Side, Way
+from planmethod.errors import AssemblyError
+from planmethod.synthesis.board import Board
+from planmethod.synthesis.model import (
+    AskedError,
+    Pose,
+    Synthesis,
+    Table,
+    angle_of_ratio,
+    chosen,
+    lengths_of,
+    place,
+    read,
+)
+from planmethod.synthesis.search import best
+
+TAKES = ("K_v", "swing", "rocker", "centres", "line", "beta")
+
+LENGTHS = ("OA", "AB", "CB", "OC")
+
+
+def synthesize(asked: Mapping[str, Any]) -> Synthesis:
+    """Find crank, coupler and frame.
+
+    Parameters
+    ----------
+    asked : mapping
+        ``K_v``, ``swing`` (degrees), ``rocker`` CB (m; 1 when absent), and at most one of ``beta``
+        (degrees, negative for a pivot beyond the chord), ``line`` (x and y of a point and the
+        direction, m and degrees from C, the rocker's middle position along +y), ``centres`` OC (m).
+
+    Raises
+    ------
+    AskedError, AssemblyError
+    """
+    free = ("", " beta", " line", " centres")
+    chosen({**asked, "rocker": None}, "crank-rocker", *("K_v swing" + one for one in free))
+    asked = {**asked, "rocker": asked["rocker"] or 1.0}
+    theta, swing = angle_of_ratio(asked["K_v"]), asked["swing"]
+    if not 0.0 < swing < 180.0:
+        raise AssemblyError(f"swing = {swing:.10g} deg: a rocker swings by more than 0, less than "
+                            "180 deg.")  # fmt: skip
+    if theta >= 90.0 + swing / 2:
+        most = (270.0 + swing / 2) / (90.0 - swing / 2)
+        raise AssemblyError(
+            f"K_v = {asked['K_v']:.10g} with the swing {swing:.10g} deg: theta = {theta:.10g} deg, "
+            f"less than 90 + swing/2 = {90.0 + swing / 2:.10g} deg is possible, K_v < {most:.10g}."
+        )
+    if theta == 0.0 and asked["line"] is None and asked["centres"] is None:
+        raise AskedError(
+            "K_v = 1: O is anywhere on the line B'B''. Give --centres, more than the rocker's "
+            f"{asked['rocker']:.10g} m, or --line."
+        )
+    made = list(_candidates(asked, theta))
+    if not made:
+        raise AssemblyError(_limit(asked, theta))
+    return min(made, key=lambda pair: pair[0])[1]
+
+
+def _limits(theta: float, swing: float) -> tuple[float, float, float]:
+    """Return between which β the crank turns on C's side of the chord, and the least beyond it."""
+    return max(90.0 - swing / 2, 90.0 + swing / 2 - theta), 180.0 - theta, 90.0 + swing / 2
+
+
+def _limit(asked: Mapping[str, Any], theta: float) -> str:
+    """Return why there is no crank."""
+    if theta == 0.0:
+        return (
+            "K_v = 1: O is on the line B'B'' outside of the chord, so OC must be more than the "
+            f"rocker's {asked['rocker']:.10g} m, and a line must meet it there."
+        )
+    low, high, beyond = _limits(theta, asked["swing"])
+    told = f"{low:.6g} < beta < {high:.6g} deg"
+    if beyond < high:
+        told += f" or {-high:.6g} < beta < {-beyond:.6g} deg"
+    given = {"beta": "--beta", "line": "--line", "centres": "--centres"}
+    name = next((text for key, text in given.items() if asked[key] is not None), "this")
+    radius = asked["rocker"] * sin(radians(asked["swing"] / 2)) / (sin(radians(theta)))
+    return (
+        f"{name}: no place for O from which B'B'' is seen at theta = {theta:.6g} deg with both "
+        f"dead positions on one side of OC. Possible are {told} on the circle of the radius "
+        f"{radius:.6g} m over B'B''."
+    )
+
+
+def _candidates(asked: Mapping[str, Any], theta: float) -> Iterator[tuple[float, Synthesis]]:
+    """Yield mechanisms whose crank turns, with the transmission angle, negative, degrees."""
+    if asked["line"] is None and asked["centres"] is None:
+        betas = [asked["beta"]] if asked["beta"] is not None else _best_angles(asked, theta)
+        tries = [(False, 1 if beta >= 0 else -1, Way.FORWARD, abs(beta)) for beta in betas]
+    else:
+        sides = (1, -1) if theta > 0.0 else (1,)
+        tries = [(*one, 0.0) for one in product((False, True), sides, Way)]
+    for mirrored, inner, way, beta in tries:
+        made = _built(asked, theta, mirrored, inner, way, beta)
+        if made is not None:
+            yield made
+
+
+def _best_angles(asked: Mapping[str, Any], theta: float) -> list[float]:
+    """Return the β of the best transmission angle, on C's side of the chord and beyond it."""
+    low, high, beyond = _limits(theta, asked["swing"])
+    rocker, half = asked["rocker"], radians(asked["swing"] / 2)
+
+    def worst(beta: float, sense: int) -> float:
+        turn = radians(theta)
+        near, far = (
+            2.0 * rocker * sin(half) * sin(angle) / sin(turn)
+            for angle in (radians(180.0 - theta - beta), radians(beta))
+        )
+        frame = abs(
+            rocker * np.exp(1j * (np.pi / 2 + half)) + near * np.exp(-1j * sense * radians(beta))
+        )
+        return -transmission((far - near) / 2, (far + near) / 2, rocker, float(frame))
+
+    found = [best(lambda beta: worst(beta, 1), low, high)]
+    if beyond < high:
+        found.append(-best(lambda beta: worst(beta, -1), beyond, high))
+    return found
+
+
+def transmission(crank: float, coupler: float, rocker: float, frame: float) -> float:
+    """Return the least angle between coupler and rocker over the turn, degrees; NaN for none."""
+    angles = []
+    for span in (abs(frame - crank), frame + crank):
+        cosine = (coupler**2 + rocker**2 - span**2) / (2.0 * coupler * rocker)
+        if not -1.0 <= cosine <= 1.0:
+            return nan
+        angles.append(degrees(acos(cosine)))
+    return min(min(angle, 180.0 - angle) for angle in angles)
+
+
+def _built(
+    asked: Mapping[str, Any], theta: float, mirrored: bool, inner: int, way: Way, beta: float
+) -> tuple[float, Synthesis] | None:
+    """Draw one mechanism, or None where its crank does not turn.
+
+    Parameters
+    ----------
+    mirrored : bool
+        O is nearer to the right end of the rocker.
+    inner : int
+        +1: O on C's side of the chord; -1: beyond it.
+    way : Way
+        Which of two meetings.
+    """
+    b, half = Board(), (-1.0 if mirrored else 1.0) * asked["swing"] / 2
+    c = b.fixed("C", 0j)
+    arm = b.length("CB", asked["rocker"])
+    near, far = (
+        b.lay_off(name, c, b.ray(c, None, 90.0 + turn), arm)
+        for name, turn in (("B''", half), ("B'", -half))
+    )
+    chord = b.join(near, far)
+    side = Side.RIGHT if (inner > 0) is not mirrored else Side.LEFT
+    circle = b.inscribed("Z", (near, far), theta, side) if theta > 0.0 else None
+    if asked["line"] is not None:
+        x, y, angle = asked["line"]
+        line = b.ray(b.fixed("N", complex(x, y)), None, angle)
+        if circle is None:
+            pivot = b.meet_lines("O", line, chord)
+        else:
+            pivot = b.meet_line_circle("O", line, *circle, way)
+    elif asked["centres"] is not None:
+        frame = b.length("OC", asked["centres"])
+        if circle is None:
+            pivot = b.meet_line_circle("O", chord, c, frame, Way.BACKWARD)
+        else:
+            pivot = b.meet_circles(
+                "O", c, frame, *circle, Side.LEFT if way is Way.FORWARD else Side.RIGHT
+            )
+    else:
+        assert circle is not None
+        pivot = b.second_meeting("O", near, b.ray(near, chord, side.value * beta), circle[0])
+        b.said[pivot] = ("again", {"tail": near, "head": far, "angle": beta, "point": pivot})
+    long, short = b.measure("O B'", pivot, far), b.measure("O B''", pivot, near)
+    crank = b.half_sum(long, short, ("AB", "OA"))
+    if asked["centres"] is None:
+        b.found("OC", b.measure("O C", pivot, c))
+    out = b.opposite("A'", pivot, far, crank, Way.FORWARD)
+    back = b.opposite("A''", pivot, near, crank, Way.BACKWARD)
+    b.circles.append((pivot, out, back))
+    try:
+        trace = read(b)
+    except AssemblyError:
+        return None
+    o, one, two = (place(trace, name) for name in ("O", "B'", "B''"))
+    sides = [(np.conj(-o) * (end - o)).imag for end in (one, two)]
+    seen = (np.conj(one - two) * (o - two)).imag * side.value
+    lengths = lengths_of(trace, LENGTHS)
+    worst = transmission(*lengths.values())
+    short_way, long_way = abs(two - o), abs(one - o)
+    tiny = 1e-9 * asked["rocker"]
+    on_arc = circle is None or seen > 0.0
+    turns = sides[0] * sides[1] > 0.0 and worst > 1e-6
+    if not (on_arc and turns and short_way > tiny and long_way - short_way > tiny):
+        return None
+    left = (np.conj(-place(trace, "A'") + 0j) * (one - place(trace, "A'"))).imag > 0.0
+    tables = (
+        Table("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
+        Table("links.2", "coupler", ('points = ["A", "B"]', "AB = {AB!r}")),
+        Table("links.3", "rocker", ('points = ["C", "B"]', "CB = {CB!r}")),
+        Table("assembly", "assembly", (f'B = "{"left" if left else "right"} of AC"',)),
+    )
+    poses = tuple(
+        Pose((("O", pin, end), ("C", end)), (pin, end)) for pin, end in ((out, far), (back, near))
+    )
+    facts = {} if asked["line"] or asked["centres"] else {"beta_deg": inner * beta}
+    return -worst, Synthesis(
+        "crank-rocker",
+        b,
+        LENGTHS,
+        ("O", "C"),
+        poses,
+        {"K_v": asked["K_v"], "swing": asked["swing"]},
+        "3",
+        ("A", "B", "C"),
+        LENGTHS,
+        tables,
+        driver=("O", out),
+        facts=facts,
+    )

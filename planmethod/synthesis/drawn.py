@@ -1,0 +1,167 @@
+"""The construction as it is drawn (чертёж): its scale, the ruler's readings, their errors."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from math import tau
+from typing import Any
+
+import numpy as np
+
+from planmethod.construct.drafting import Profile
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.hand import Hand
+from planmethod.construct.scale import choose_scale, series_near
+from planmethod.construct.steps import (
+    Given,
+    Join,
+    LayOff,
+    LineName,
+    MeetCircles,
+    MeetLineCircle,
+    MeetLines,
+    NumberName,
+    PointName,
+    makes,
+)
+from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
+from planmethod.solved.errors.spread import Errors
+from planmethod.synthesis.model import Synthesis, place, scaled
+
+BOXES = ((170.0, 222.0), (330.0, 130.0))
+"""Boxes that the points of a construction shall fill on A3: standing and lying, mm."""
+
+FAR = 1.2
+"""A centre further from the rest than so many of its sizes is left off the sheet."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A construction on paper.
+
+    Attributes
+    ----------
+    synthesis : Synthesis
+    profile : Profile
+        Who draws it.
+    scale : float, optional, m per mm
+        Its scale, if it is not to be chosen.
+    """
+
+    synthesis: Synthesis
+    profile: Profile
+    scale: float | None = None
+
+    @cached_property
+    def shown(self) -> tuple[str, ...]:
+        """Points that are on the sheet: those of the mechanism, and others not too far off."""
+        made, exact = self.synthesis, self.synthesis.exact()
+        own = {p for pose in made.poses for link in pose.links for p in link} | {*made.pivots}
+        own |= {*made.guide}
+        places = np.array([place(exact, p) for p in own])
+        middle = complex(places.real.max() + places.real.min(),
+                         places.imag.max() + places.imag.min()) / 2  # fmt: skip
+        size = float(np.max(np.abs(places - middle)))
+        others = [
+            str(step.out)
+            for step in made.board.steps
+            if makes(step) is PointName and not str(step.out).startswith("mark ")
+        ]
+        near = [p for p in others if p in own or abs(place(exact, p) - middle) <= FAR * size]
+        return tuple(near)
+
+    @cached_property
+    def mu(self) -> float:
+        """Scale, m per mm: of the two boxes the one that gives the larger drawing."""
+        if self.scale is not None:
+            return self.scale
+        left, low, right, high = self.extent(self.synthesis.exact())
+        return min(choose_scale((right - left, high - low), box) for box in BOXES)
+
+    def extent(self, exact: Trace) -> tuple[float, float, float, float]:
+        """Return the box around what is shown, arcs with it, in the unit of a reading."""
+        places = np.array([place(exact, p) for p in self.shown])
+        for centre, *points in self.synthesis.board.circles:
+            if {centre, *points} <= {*self.shown}:
+                middle, radius, start, sweep = arc_over(exact, centre, points)
+                turns = start + sweep * np.linspace(0.0, 1.0, 37)
+                places = np.append(places, middle + radius * np.exp(1j * turns))
+        xs, ys = places.real, places.imag
+        return float(xs.min()), float(ys.min()), float(xs.max()), float(ys.max())
+
+    @cached_property
+    def paper(self) -> Trace:
+        """Exact reading, mm."""
+        return self.synthesis.exact(self.mu)
+
+    @cached_property
+    def by_hand(self) -> Trace:
+        """Reading with the ruler."""
+        data = scaled(self.synthesis.board, self.mu)
+        return evaluate(self.synthesis.program, data, Hand(ruler=self.profile.ruler))
+
+    @cached_property
+    def sigma(self) -> dict[str, float]:
+        """Standard deviations of the lengths, m."""
+        made = self.synthesis
+        names = [NumberName(f"l {name}") for name in made.lengths]
+        items = tuple(DrawnQuantity(n, (n,), number(n), DrawnKind.LENGTH) for n in names)
+        data: Any = scaled(made.board, self.mu)
+        drawing = Drafted(made.program, lambda _: data, 1, self.profile, frozenset(), items)
+        spreads = Errors(drawing).spreads
+        return {
+            name: float(spreads[str(full)].sigma[0])
+            for name, full in zip(made.lengths, names, strict=True)
+        }
+
+    def read(self, name: str) -> float:
+        """Return a length of the mechanism as the ruler has it, m."""
+        return float(self.by_hand.value[NumberName(f"l {name}")])
+
+    def coarser(self) -> Drawn:
+        """Return the same at the next scale of the series."""
+        return replace(self, scale=series_near(1.01 * self.mu, up=True))
+
+    def way(self, line: LineName, point: PointName) -> float:
+        """Return how far along a line a point is, mm from the line's own point."""
+        start, course = (complex(value) for value in self.paper.value[line])
+        return float(((place(self.paper, point) - start) / course).real * abs(course))
+
+    def on_line(self) -> dict[LineName, list[PointName]]:
+        """Return the points that lie on every line that is drawn, and at which it is drawn."""
+        found: dict[LineName, list[PointName]] = {}
+        for step in self.synthesis.board.steps:
+            match step:
+                case Join(out, tail, head):
+                    found[out] = [tail, head]
+                case MeetLines(out, first, second):
+                    found[first].append(out)
+                    found[second].append(out)
+                case MeetLineCircle(out, line) | LayOff(out, _, line):
+                    found[line].append(out)
+                case Given() | MeetCircles():
+                    pass
+                case _ if makes(step) is LineName:
+                    found[LineName(step.out)] = [step.through]  # type: ignore[union-attr]
+                case _:
+                    pass
+        return found
+
+
+def arc_over(
+    trace: Trace, centre: str, points: Sequence[str]
+) -> tuple[complex, float, float, float]:
+    """Return the shortest arc over points of a circle: centre, radius, start and sweep, radians.
+
+    Of one point: the whole circle.
+    """
+    middle = place(trace, centre)
+    turns = sorted(cmath.phase(place(trace, p) - middle) for p in points)
+    gaps = [(after - turn) % tau for turn, after in pairwise([*turns, turns[0]])] or [0.0]
+    k = max(range(len(gaps)), key=gaps.__getitem__)
+    radius = abs(place(trace, points[0]) - middle)
+    return middle, radius, turns[(k + 1) % len(turns)], tau - gaps[k]

@@ -1,0 +1,312 @@
+"""Sheet of a synthesis (лист синтеза): the construction, its steps, sizes and what was measured."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import radians, tau
+from typing import Any
+
+from planmethod.construct.scale import Scale
+from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
+from planmethod.errors import LayoutError
+from planmethod.languages import LANGUAGES
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.wording import Language, language
+from planmethod.problem.model import Convention, Problem
+from planmethod.render.control.unused import largest_empty
+from planmethod.render.frame.frame import paper_format, sheet_frame
+from planmethod.render.frame.furniture import Furniture, Room
+from planmethod.render.frame.titleblock import merged, rectangle
+from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
+from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.layout.block import (
+    Block,
+    Column,
+    Line,
+    Picture,
+    heading,
+    paragraph,
+)
+from planmethod.render.layout.cuttings import Group, Part
+from planmethod.render.layout.pack import pack
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.sheets.texts import NBSP
+from planmethod.render.sheets.views import Viewed
+from planmethod.render.symbols import (
+    before_links,
+    fixed_pivot,
+    guide_line,
+    link,
+    revolute,
+    slider,
+    stone,
+)
+from planmethod.synthesis.drawn import Drawn, arc_over
+from planmethod.synthesis.model import place
+from planmethod.synthesis.text import Teller, check_rows, given_facts, point_name, size_rows
+
+PAPER = "A3"
+
+COLUMN = 175.0
+"""Width of the texts over the title block, mm."""
+
+LETTER, TEXT = 5.0, 3.5
+"""Heights of the letters of points, and of texts, mm."""
+
+_BEYOND = 9.0  # mm: construction lines go on beyond their points
+_TICK = 5.0  # mm: half of an arc that marks a point
+_SAME = 0.8  # mm: points so near have one label
+
+
+def synthesis_sheet(
+    drawn: Drawn,
+    problem: Problem,
+    asked: Mapping[str, Any],
+    checks: Mapping[str, Any],
+    *,
+    fields: Mapping[str, str] | None = None,
+) -> Drawing:
+    """Draw a synthesis on a sheet (лист синтеза).
+
+    Parameters
+    ----------
+    problem : Problem
+        Its settings of the sheet and its title block.
+    asked, checks : mapping
+        What is given, and what was measured on the mechanism.
+    fields : mapping, optional
+        Texts of the title block that outrank the problem's.
+
+    Raises
+    ------
+    LayoutError
+        When everything does not fit the paper.
+    """
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    title = words.synthesis.titles[drawn.synthesis.kind]
+    texts = merged({"sheets": "1"}, problem.stamp, {"title": title}, fields or {})
+    furniture, fmt = Furniture.of(problem.sheet), paper_format(problem.sheet.paper or PAPER)
+    room = furniture.room(fmt)
+    with using(lettering(problem.sheet.lettering or "B")):
+        for last in (False, False, True):
+            view = _view(drawn, words)
+            for height in (TEXT, 2.5, 0.0) if last else (TEXT, 2.5):
+                placed = _placed(view, _texts(drawn, asked, checks, words, height), room)
+                if not placed:
+                    continue
+                sheet = Drawing(fmt.width, fmt.height, texts["title"], is_cut_down=not height)
+                sheet.extend(sheet_frame(fmt, texts, furniture).items)
+                for block, corner in placed:
+                    items = block.place(corner)
+                    sheet.extend(items)
+                    if block is view:
+                        sheet.views.append(view.view(items, corner))
+                return sheet
+            drawn = drawn.coarser()
+    raise LayoutError(
+        f"{drawn.synthesis.kind}: the construction does not fit {fmt.name}. Take --paper A2."
+    )
+
+
+def _placed(view: Viewed, texts: Sequence[Block], room: Room) -> list[tuple[Block, complex]] | None:
+    """Return blocks with their corners: what was measured after the steps, or beside the view.
+
+    Of the two the one that leaves the smaller empty rectangle; None where the paper has no room.
+    """
+    told, measured, sizes = texts
+    made: list[tuple[float, int, list[tuple[Block, complex]]]] = []
+    for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
+        whole = Group(tuple(Part(block, block is not view) for block in blocks))
+        corners = pack(whole, room.inner, room.stamp, room.taken)
+        if corners is not None:
+            placed = list(zip(blocks, corners, strict=True))
+            items: list[Item] = [rectangle(room.stamp, Pen.FRAME, "")]
+            items += [item for block, corner in placed for item in block.place(corner)]
+            left, low, right, high = largest_empty(items, room.inner)
+            made.append(((right - left) * (high - low), len(made), placed))
+    return min(made)[2] if made else None
+
+
+def _view(drawn: Drawn, words: Language) -> Viewed:
+    """Return the construction with its name and scale."""
+    scale = Scale("mu_l", drawn.mu, "m")
+    said = scale_inscription(scale, Convention.UNIT_PER_MM, words.say)
+    name = Line(typeset(words.synthesis.construction, LETTER), underline=True)
+    under = Column([name, Line(typeset(said, TEXT))], gap=2.5, align="centre")
+    return Viewed(Column([_picture(drawn), under], gap=5.0, align="centre"), "position", scale)
+
+
+def _texts(
+    drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language, told: float
+) -> list[Block]:
+    """Return what is given and the steps ``told`` mm high (none at 0), measured values, sizes."""
+    said = words.synthesis
+    facts = words.note.given.format(given="; ".join(given_facts(asked, words)))
+    first: list[Block] = [paragraph(facts, TEXT, COLUMN)]
+    if told:
+        steps = [
+            paragraph(f"{k}) {_kept(sentence)}", told, COLUMN)
+            for k, sentence in enumerate(Teller(drawn, words).sentences(), 1)
+        ]
+        first.append(Column([heading(said.steps_title, TEXT), *steps], gap=0.6 * told))
+    blocks: list[Block] = [Column(first, gap=6.0)]
+    rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
+    measured = paragraph(";\n".join(rows) + ".", TEXT, COLUMN)
+    blocks.append(Column([heading(said.measured, TEXT), measured], gap=3.0))
+    columns = zip(said.columns, zip(*size_rows(drawn, words), strict=True), strict=True)
+    sizes = table_block(
+        [TableColumn(head, tuple(values)) for head, values in columns],
+        TEXT, width=COLUMN, units="none", row_height=6.5,
+    )  # fmt: skip
+    blocks.append(Column([heading(said.lengths, TEXT), sizes], gap=3.0))
+    return blocks
+
+
+def _kept(sentence: str) -> str:
+    """Return a sentence whose last word does not stand on a line alone."""
+    return NBSP.join(sentence.rsplit(" ", 1))
+
+
+# The construction --------------------------------------------------------------------------------
+
+
+def _picture(drawn: Drawn) -> Picture:
+    """Return the construction with the mechanism in its positions."""
+    ink = _Ink(drawn)
+    items = before_links([*ink.construction(), *ink.mechanism()])
+    return lettered(list(items), ink.labels())
+
+
+@dataclass
+class _Ink:
+    """Lines and letters of a construction, mm."""
+
+    drawn: Drawn
+    box: Bounds = field(init=False)
+
+    def __post_init__(self) -> None:
+        left, low, right, high = self.drawn.extent(self.drawn.paper)
+        room = 1.5 * _BEYOND
+        self.box = (left - room, low - room, right + room, high + room)
+
+    def at(self, name: str) -> complex:
+        return place(self.drawn.paper, name)
+
+    def construction(self) -> Iterator[Item]:
+        """Yield thin lines: those that are drawn, circles, and the arcs that mark points."""
+        for line, points in self.drawn.on_line().items():
+            yield from self._line(line, points)
+        circles = self.drawn.synthesis.board.circles
+        for centre, *points in circles:
+            middle, radius, start, sweep = arc_over(self.drawn.paper, centre, points)
+            beyond = _BEYOND / radius
+            sweep = min(tau, sweep + 2 * beyond)
+            yield from self._arc(middle, radius, start - beyond, start - beyond + sweep)
+        whole = {centre for centre, *_ in circles}
+        for step in self.drawn.synthesis.board.steps:
+            if isinstance(step, MeetCircles):
+                centres: tuple[PointName, ...] = (step.centre1, step.centre2)
+            elif isinstance(step, MeetLineCircle):
+                centres = (step.centre,)
+            else:
+                continue
+            for centre in centres:
+                if centre not in whole:
+                    yield from self._mark(centre, step.out)
+
+    def _mark(self, centre: PointName, point: PointName) -> Iterator[Item]:
+        way = self.at(point) - self.at(centre)
+        radius = abs(way)
+        if radius > _TICK:
+            half = _TICK / radius
+            yield from self._arc(
+                self.at(centre), radius, cmath.phase(way) - half, cmath.phase(way) + half
+            )
+
+    def _line(self, line: LineName, points: Iterable[PointName]) -> Iterator[Item]:
+        start, course = (complex(value) for value in self.drawn.paper.value[line])
+        along = course / abs(course)
+        ways = [self.drawn.way(line, p) for p in points]
+        if max(ways) - min(ways) > 1.0:
+            ends = (start + along * (min(ways) - _BEYOND), start + along * (max(ways) + _BEYOND))
+            yield from self._clipped(ends)
+
+    def _arc(self, centre: complex, radius: float, start: float, end: float) -> Iterator[Item]:
+        count = max(8, min(2000, int(radius * (end - start) / 1.5)))
+        turns = (start + (end - start) * k / count for k in range(count + 1))
+        yield from self._clipped([centre + cmath.rect(radius, turn) for turn in turns])
+
+    def _clipped(self, path: Iterable[complex]) -> Iterator[Item]:
+        """Yield the parts of a thin line that are within the box."""
+        import shapely
+
+        whole = shapely.LineString([(p.real, p.imag) for p in path])
+        within = shapely.line_merge(shapely.clip_by_rect(whole, *self.box))
+        for part in shapely.get_parts(within):
+            places = tuple(complex(x, y) for x, y in part.coords)
+            if len(places) > 1:
+                yield Stroke(places, Pen.THIN)
+
+    def mechanism(self) -> Iterator[Item]:
+        """Yield the mechanism in all its positions."""
+        made = self.drawn.synthesis
+        sliders = sorted((self.at(p) for pose in made.poses for p in pose.sliders),
+                         key=lambda at: at.real)  # fmt: skip
+        if sliders:
+            low, high = sliders[0], sliders[-1]
+            yield from guide_line(low, before=14.0, after=abs(high - low) + 14.0)
+        for at in sliders:
+            yield from slider(at)
+        for pose in made.poses:
+            for pin, foot in pose.stones:
+                way = cmath.phase(self.at(pin) - self.at(foot))
+                yield from stone(self.at(pin), angle=way * 180.0 / cmath.pi, pin=False)
+        for pose in made.poses:
+            for points in pose.links:
+                yield from link(*map(self.at, points))
+        for pivot in made.pivots:
+            yield from fixed_pivot(self.at(pivot), direction=self._down(pivot))
+        for pose in made.poses:
+            for pin in (*pose.pins, *pose.sliders, *(pin for pin, _ in pose.stones)):
+                yield from revolute(self.at(pin))
+
+    def _down(self, pivot: str) -> complex:
+        """Return where the support of a pivot stands: away from its links, up or down."""
+        others = [
+            self.at(q) - self.at(pivot)
+            for pose in self.drawn.synthesis.poses
+            for points in pose.links
+            for pair in pairwise(points)
+            for p, q in (pair, pair[::-1])
+            if p == pivot
+        ]
+        rise = sum((way / (abs(way) or 1.0)).imag for way in others)
+        return -1j if rise >= -1e-6 else 1j
+
+    def labels(self) -> list[Label]:
+        """Return the letters of the points; points in one place have one label."""
+        groups: list[tuple[complex, list[str]]] = []
+        for name in self.drawn.shown:
+            at = self.at(name)
+            near = next((names for other, names in groups if abs(other - at) < _SAME), None)
+            if near is None:
+                groups.append((at, [name]))
+            else:
+                near.append(name)
+        middle = complex(self.box[0] + self.box[2], self.box[1] + self.box[3]) / 2
+        return [
+            Label(
+                typeset(", ".join(map(point_name, names)), LETTER),
+                at,
+                prefer=(at - middle) * cmath.exp(1j * radians(10.0)),
+                gap=2.6,
+                manner=BUSY,
+            )
+            for at, names in groups
+        ]

@@ -1,0 +1,209 @@
+"""Slider-crank (кривошипно-ползунный механизм) from the stroke and loci of the crank's pivot.
+
+In the dead positions OB' = l + r and OB'' = l - r. Three loci give O: the circle from which the
+stroke is seen at the angle θ of K_v, the circle of Apollonius of the ratio (l - r)/(l + r) that
+λ = r/l makes, and the line at the offset e from the guide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, radians, sin, sqrt, tan
+from typing import Any
+
+from planmethod.construct.steps import Side, Way
+from planmethod.errors import AssemblyError
+from planmethod.synthesis.board import Board
+from planmethod.synthesis.model import (
+    AskedError,
+    Pose,
+    Synthesis,
+    Table,
+    angle_of_ratio,
+    chosen,
+    place,
+    read,
+)
+from planmethod.synthesis.search import best, root
+
+TAKES = ("K_v", "stroke", "lambda", "offset", "pressure")
+
+
+def synthesize(asked: Mapping[str, Any]) -> Synthesis:
+    """Find crank and rod.
+
+    Parameters
+    ----------
+    asked : mapping
+        ``stroke`` (m) with two of ``K_v``, ``lambda`` (r/l) and ``offset`` (m; 0 when ``lambda``
+        stands alone); with ``K_v`` alone, of whose mechanisms that of the least pressure angle is
+        taken; or with the largest ``pressure`` angle (degrees) and ``offset``.
+
+    Raises
+    ------
+    AskedError, AssemblyError
+    """
+    way = chosen(
+        asked,
+        "slider-crank",
+        "stroke K_v offset",
+        "stroke K_v",
+        "stroke K_v lambda",
+        "stroke lambda",
+        "stroke lambda offset",
+        "stroke pressure",
+        "stroke pressure offset",
+    )
+    stroke, ratio, offset = asked["stroke"], asked["lambda"], asked["offset"]
+    if asked["pressure"] is not None:
+        ratio = _ratio_of_pressure(stroke, abs(offset or 0.0), asked["pressure"])
+    if ratio is not None and not 0.0 < ratio < 1.0:
+        raise AssemblyError(
+            f"lambda = r/l = {ratio:.10g}: the crank turns fully only where it is shorter than the "
+            "rod, 0 < lambda < 1."
+        )
+    theta = 0.0
+    if asked["K_v"] is not None:
+        theta = angle_of_ratio(asked["K_v"])
+        if ratio is not None and theta == 0.0:
+            way = "stroke lambda"  # a central mechanism
+    if way.startswith("stroke K_v"):
+        _check_ratio(stroke, asked["K_v"], theta, ratio, offset)
+    if way == "stroke K_v":
+        offset = best(lambda e: _pressure(stroke, theta, e), 0.0, stroke / tan(radians(theta)))
+    given = None if way == "stroke K_v lambda" else offset or 0.0
+    return _built(asked, stroke, theta, ratio, given)
+
+
+def _check_ratio(
+    stroke: float, times: float, theta: float, ratio: float | None, offset: float | None
+) -> None:
+    """Refuse what the angle θ does not allow, and tell the limit."""
+    if theta == 0.0:
+        raise AssemblyError(
+            "K_v = 1: the dead positions are opposite, so the mechanism is central (offset 0) and "
+            "lambda is free. Give --stroke and --lambda."
+        )
+    if theta >= 90.0:
+        raise AssemblyError(
+            f"K_v = {times:.10g}: theta = {theta:.6g} deg, and the crank turns fully below 90 deg "
+            "only, K_v < 3. Take a slotted link."
+        )
+    if offset is not None and not 0.0 < abs(offset) < stroke / tan(radians(theta)):
+        raise AssemblyError(
+            f"offset = {offset:.10g} m with K_v = {times:.10g}: 0 < |e| < H/tan(theta) = "
+            f"{stroke / tan(radians(theta)):.10g} m is possible; at 0 K_v is 1, at the limit the "
+            "crank stops below the dead position (l - r = e)."
+        )
+    if ratio is not None and not tan(radians(theta / 2)) ** 2 < ratio:
+        raise AssemblyError(
+            f"lambda = {ratio:.10g} with K_v = {times:.10g}: more than tan^2(theta/2) = "
+            f"{tan(radians(theta / 2)) ** 2:.10g} is possible, where l - r = e."
+        )
+
+
+def _built(
+    asked: Mapping[str, Any],
+    stroke: float,
+    theta: float,
+    ratio: float | None,
+    offset: float | None,
+) -> Synthesis:
+    """Draw the loci that are given, and what follows from their meeting."""
+    b = Board()
+    near = b.fixed("B''", 0j)
+    guide = b.ray(near, None, 0.0)
+    far = b.lay_off("B'", near, guide, b.length("H", stroke))
+    side = Side.RIGHT if offset is None or offset >= 0.0 else Side.LEFT
+    circles = []
+    if theta > 0.0:
+        circles.append(b.inscribed("Z", (near, far), theta, side))
+    if ratio is not None:
+        limit = stroke * (1.0 - ratio**2) / (4.0 * ratio)
+        if abs(offset or 0.0) > limit * (1.0 + 1e-12):
+            raise AssemblyError(
+                f"offset = {offset:.10g} m with lambda = {ratio:.10g} and the stroke "
+                f"{stroke:.10g} m: |e| <= H(1 - lambda^2)/(4 lambda) = {limit:.10g} m is possible."
+            )
+        ends = [
+            b.lay_off(name, near, guide, b.length(f"B''{name}", length * stroke * (1.0 - ratio)))
+            for name, length in (("P", 0.5), ("Q", -0.5 / ratio))
+        ]
+        middle = b.meet_lines("G", guide, b.bisector(*ends))
+        b.circles.append((middle, ends[0]))
+        b.said[middle] = ("apollonius", {"tail": "P", "head": "Q", "ratio": ratio, "centre": "G"})
+        circles.append((middle, b.measure("G P", middle, ends[0])))
+    if offset is None:
+        (z, big), (g, small) = circles
+        pivot = b.meet_circles("O", z, big, g, small, Side.LEFT)
+    else:
+        foot = b.lay_off("N", near, b.ray(near, guide, -90.0), b.length("e", offset))
+        line = b.parallel(foot, guide) if offset else guide
+        pivot = b.meet_line_circle("O", line, *circles[0], Way.BACKWARD)
+    short, long = b.measure("O B''", pivot, near), b.measure("O B'", pivot, far)
+    crank = b.half_sum(long, short, ("AB", "OA"))
+    if offset is None:
+        foot = b.meet_lines("N", b.perpendicular(pivot, guide), guide)
+        b.found("e", b.measure("O N", pivot, foot))
+    out = b.opposite("A'", pivot, far, crank, Way.FORWARD)
+    back = b.opposite("A''", pivot, near, crank, Way.BACKWARD)
+    b.circles.append((pivot, out, back))
+    trace = read(b)
+    if place(trace, "O").real >= 0.0:
+        raise AssemblyError(
+            "The crank's pivot falls below the stroke: l - r < e, the crank does not turn fully. "
+            "Take another ratio or offset."
+        )
+    asked_back = {"stroke": stroke}
+    asked_back |= {k: asked[k] for k in ("K_v",) if asked[k] is not None}
+    return Synthesis(
+        "slider-crank",
+        b,
+        ("OA", "AB", "e"),
+        ("O",),
+        (
+            Pose((("O", out, far),), (out,), (far,)),
+            Pose((("O", back, near),), (back,), (near,)),
+        ),
+        asked_back,
+        "B",
+        ("A", "B", ""),
+        ("OA", "AB", "e"),
+        (
+            Table("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
+            Table("links.2", "rod", ('points = ["A", "B"]', "AB = {AB!r}")),
+            Table("links.3", "slider", ('points = ["B"]', 'slides = {{ on = "x-x" }}')),
+            Table("assembly", "assembly", ('B = "right of A"',)),
+        ),
+        guide=(near,),
+        driver=("O", out),
+    )
+
+
+def _pressure(stroke: float, theta: float, offset: float) -> float:
+    """Return the sine of the largest pressure angle where K_v and the offset are given."""
+    turn = radians(theta)
+    x = stroke / 2 - sqrt(
+        max(0.0, (stroke / 2 / sin(turn)) ** 2 - (offset - stroke / 2 / tan(turn)) ** 2)
+    )
+    near, far = abs(complex(x, offset)), abs(complex(stroke - x, offset))
+    rod = (near + far) / 2
+    return ((far - near) / 2 + offset) / rod if rod > 0.0 else inf
+
+
+def _ratio_of_pressure(stroke: float, offset: float, angle: float) -> float:
+    """Return λ with which the largest pressure angle is given: sin α = (r + e)/l."""
+    if not 0.0 < angle < 90.0:
+        raise AskedError(f"--pressure {angle:.10g}: between 0 and 90 degrees is expected.")
+    sine = sin(radians(angle))
+    if offset == 0.0:
+        return sine
+
+    def less(rod: float) -> float:
+        crank = sine * rod - offset
+        far, near = rod + crank, rod - crank
+        return sqrt(far**2 - offset**2) - sqrt(max(0.0, near**2 - offset**2)) - stroke
+
+    least = offset / sine
+    rod = root(less, least, least + 2.0 * stroke / sine)
+    return (sine * rod - offset) / rod

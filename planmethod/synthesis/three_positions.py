@@ -1,0 +1,195 @@
+"""Four-bar by three positions of its coupler (по трём положениям шатуна): Burmester's first case.
+
+The pivots of the frame are the centres of the circles through B1, B2, B3 and C1, C2, C3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.errors import AssemblyError
+from planmethod.note.numbers import finite_or_none
+from planmethod.synthesis.board import Board
+from planmethod.synthesis.model import (
+    AskedError,
+    Pose,
+    Synthesis,
+    Table,
+    chosen,
+    lengths_of,
+    place,
+    read,
+)
+from planmethod.synthesis.passage import Passage, passage
+
+TAKES = ("positions", "coupler")
+
+LENGTHS = ("AB", "BC", "DC", "AD")
+
+_RATIOS = tuple(0.1 * 1.1**k for k in range(48))
+"""Lengths of a coupler that is not given, in spans of the positions, that are tried."""
+
+
+def synthesize(asked: Mapping[str, Any]) -> Synthesis:
+    """Find the pivots of the frame, and the links.
+
+    Parameters
+    ----------
+    asked : mapping
+        ``positions``: three of (xB, yB, angle of BC), m and degrees, or of (xB, yB, xC, yC), m;
+        ``coupler`` BC with the former (m): without it the one with the best transmission angle on
+        the way is taken.
+
+    Raises
+    ------
+    AskedError, AssemblyError
+    """
+    chosen(asked, "three-positions", "positions", "positions coupler")
+    rows = asked["positions"]
+    if len(rows) != 3 or len({len(row) for row in rows}) != 1 or len(rows[0]) not in (3, 4):
+        raise AskedError(
+            "--positions takes three of x,y,angle or of xB,yB,xC,yC, for instance "
+            '"0,0,0; 0.1,0.05,20; 0.25,0.05,50".'
+        )
+    b_points = [complex(row[0], row[1]) for row in rows]
+    if len(rows[0]) == 4:
+        if asked["coupler"] is not None:
+            raise AskedError("--coupler follows from B and C: leave it out, or give x,y,angle.")
+        c_points = [complex(row[2], row[3]) for row in rows]
+        spans = [abs(c - b) for b, c in zip(b_points, c_points, strict=True)]
+        if max(spans) - min(spans) > 1e-9 * max(spans) or min(spans) == 0.0:
+            told = ", ".join(f"{span:.10g}" for span in spans)
+            raise AskedError(f"The coupler is rigid, but B1C1, B2C2, B3C3 are {told} m.")
+        return _built(b_points, c_points)[0]
+    turns = [np.exp(1j * np.radians(row[2])) for row in rows]
+    if asked["coupler"] is not None:
+        return _built(b_points, _ends(b_points, turns, asked["coupler"]))[0]
+    made = list(_tried(b_points, turns))
+    if not made:
+        return _built(b_points, _ends(b_points, turns, 1.0))[0]
+    return max(made, key=lambda one: one[1])[0]
+
+
+def _ends(b_points: list[complex], turns: list[complex], coupler: float) -> list[complex]:
+    return [b + coupler * turn for b, turn in zip(b_points, turns, strict=True)]
+
+
+def _tried(b_points: list[complex], turns: list[complex]) -> Iterator[tuple[Synthesis, float]]:
+    span = max(abs(one - other) for one in b_points for other in b_points) or 1.0
+    for ratio in _RATIOS:
+        try:
+            yield _built(b_points, _ends(b_points, turns, ratio * span))
+        except AssemblyError:
+            continue
+
+
+def _centre(b: Board, name: str, points: list[complex], letter: str) -> PointName:
+    """Draw the centre of the circle through three positions of a point."""
+    one, two, three = points
+    spread = max(abs(two - one), abs(three - two), abs(three - one))
+    least = min(abs(two - one), abs(three - two), abs(three - one))
+    if least <= 1e-9 * max(spread, abs(one)):
+        raise AssemblyError(
+            f"Two of the positions {letter}1, {letter}2, {letter}3 are the same ({least:.3g} m "
+            "apart): give three different ones, or another point of the coupler."
+        )
+    sine = abs((np.conj(two - one) * (three - two)).imag) / (abs(two - one) * abs(three - two))
+    if sine < 1e-9:
+        raise AssemblyError(
+            f"{letter}1, {letter}2, {letter}3 are on one line (sine {sine:.3g}): the bisectors are "
+            f"parallel, {letter} would need a straight guide instead of a pivot. Choose another "
+            "point of the coupler: another length --coupler, or other B and C."
+        )
+    made = [b.fixed(f"{letter}{k}", complex(at)) for k, at in enumerate(points, 1)]
+    return b.circle_through(name, (made[0], made[1], made[2]))
+
+
+def _built(b_points: list[complex], c_points: list[complex]) -> tuple[Synthesis, float]:
+    """Draw the pivots of both points; return the mechanism and its worth."""
+    b = Board()
+    a = _centre(b, "A", b_points, "B")
+    d = _centre(b, "D", c_points, "C")
+    b.found("AB", b.measure("A B1", a, PointName("B1")))
+    b.found("BC", b.measure("B1 C1", PointName("B1"), PointName("C1")))
+    b.found("DC", b.measure("D C1", d, PointName("C1")))
+    b.found("AD", b.measure("A D", a, d))
+    trace = read(b)
+    lengths = lengths_of(trace, LENGTHS)
+    if lengths["AD"] <= 1e-9 * max(lengths.values()):
+        raise AssemblyError(
+            f"A and D are the same point ({lengths['AD']:.3g} m apart): the coupler turns about it "
+            "through all three positions, one pivot is enough. Choose other points B and C."
+        )
+    places = (place(trace, "A"), place(trace, "D"))
+    way = passage(places[0], places[1], b_points, c_points)
+    made = synthesis_of("three-positions", b, LENGTHS, way, (("A", "B"), ("D", "C")), places)
+    if not isfinite(way.transmission):
+        return made, -90.0
+    return made, way.transmission - (0.0 if way.branch and way.order else 90.0)
+
+
+def synthesis_of(
+    kind: str,
+    b: Board,
+    names: tuple[str, ...],
+    way: Passage,
+    letters: tuple[tuple[str, str], tuple[str, str]],
+    places: tuple[complex, complex],
+) -> Synthesis:
+    """Return the mechanism of a four-bar that goes through three positions.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Input, coupler, output, frame, as the problem file has them.
+    way : Passage
+    letters : pairs of str
+        Pivot and end of the input, and of the output.
+    places : (complex, complex), m
+        The two pivots.
+    """
+    (a, end), (d, other) = letters
+    first, second = (a, end), (d, other)
+    if way.swapped:
+        first, second = second, first
+    input_, output = (f"{p}{q}" for p, q in (first, second))
+    coupler = names[1]
+    side = "left" if way.side > 0 else "right"
+    tables = (
+        Table("links.1", "input", (f'points = ["{first[0]}", "{first[1]}"]',
+                                   f"{input_} = {{{input_}!r}}")),
+        Table("links.2", "coupler", (f'points = ["{coupler[0]}", "{coupler[1]}"]',
+                                     f"{coupler} = {{{coupler}!r}}")),
+        Table("links.3", "output", (f'points = ["{second[0]}", "{second[1]}"]',
+                                    f"{output} = {{{output}!r}}")),
+        Table("assembly", "assembly", (f'{second[1]} = "{side} of {first[1]}{second[0]}"',)),
+    )  # fmt: skip
+    poses = tuple(
+        Pose(((a, f"{end}{k}", f"{other}{k}", d),), (f"{end}{k}", f"{other}{k}")) for k in (1, 2, 3)
+    )
+    return Synthesis(
+        kind,
+        b,
+        names,
+        (a, d),
+        poses,
+        {},
+        "3",
+        (first[1], second[1], second[0]),
+        (input_, coupler, output, names[3]),
+        tables,
+        moved=False,
+        driver=first,
+        positions=way.positions,
+        facts={
+            "driver": input_,
+            "branch": way.branch,
+            "order": way.order,
+            "transmission_on_the_way_deg": finite_or_none(way.transmission),
+        },
+    )

@@ -1,0 +1,209 @@
+"""Sheets of gear trains: norm control, segments in the files, what stands where on the scheme."""
+
+from __future__ import annotations
+
+import io
+import random
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+from cases import each, some, thinned
+from click.testing import CliRunner
+from trains import MAKERS, bevel, mesh, solved, told
+from worked import PROBLEMS
+
+from planmethod.cli import cli
+from planmethod.construct.drafting import PROFILES
+from planmethod.errors import ExitCode, LayoutError
+from planmethod.gears import drawings
+from planmethod.gears.arrangement import Arrangement, Part, Scheme, arrange
+from planmethod.gears.motion import solve_motion
+from planmethod.gears.reader import load
+from planmethod.render.backends import render
+from planmethod.render.control.remarks import Severity
+from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
+from planmethod.render.sheets.controlled import looked_over, paper_of
+
+FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
+TASKS = sorted((PROBLEMS / "gears").glob("*/*.toml"))
+PLANAR = [maker for maker in MAKERS if maker is not bevel]
+
+OTHERS = {
+    "bevel differential": told(
+        {"1": 30, "2": 20, "3": 30},
+        [mesh("1", "2", "bevel", "H"), mesh("2", "3", "bevel", "H")],
+        "n = { 1 = 100, H = 40 }",
+    ),
+    "bevel pair behind wheels": told(
+        {"1": 20, "2": 36, "2'": 17, "3": 39},
+        [mesh("1", "2"), mesh("2'", "3", "bevel")],
+        "n = { 1 = 2400 }",
+    ),
+    "belt, chain, rack": told(
+        {"1": 20, "2": 36, "2'": 17, "3": 39, "3'": 20},
+        [mesh("1", "2", "crossed belt"), mesh("2'", "3", "chain"), mesh("3'", "4", "rack")],
+        'module = 2\nask = ["v_4", "U_1_4"]\nn = { 1 = 100 }',
+    ),
+    "worm drives": told(
+        {"1": 1, "2": 36, "2'": 20, "3": 40},
+        [mesh("1", "2", "worm"), mesh("2'", "3")],
+        "n = { 1 = 100 }",
+    ),
+    "worm is driven": told(
+        {"1": 20, "2": 36, "2'": 2, "3": 40},
+        [mesh("1", "2"), mesh("2'", "3", "worm")],
+        "n = { 1 = 100 }",
+    ),
+    "worm between": told(
+        {"1": 20, "2": 36, "2'": 2, "3": 40, "3'": 20, "4": 40},
+        [mesh("1", "2"), mesh("2'", "3", "worm"), mesh("3'", "4")],
+        "n = { 1 = 100 }",
+    ),
+}
+
+
+def sheet(path: Path) -> Drawing:
+    (drawing,) = drawings(load(path), fields={}, profile=PROFILES["board"])
+    return drawing
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "train.toml"
+    path.write_text(f'title = "Передача"\n[gears]\n{text}', encoding="utf-8")
+    return path
+
+
+def faults(drawing: Drawing) -> list[str]:
+    (looked,) = looked_over([drawing])
+    return [f"{f.code} {f.message}" for f in looked.findings if f.severity is Severity.ERROR]
+
+
+def texts(drawing: Drawing) -> str:
+    return " ".join(item.text for item in drawing.items if isinstance(item, Text))
+
+
+@pytest.mark.parametrize("path", [*FILES, *thinned(TASKS, 23)], ids=lambda p: p.stem)
+def test_the_norm_control_has_nothing_against_the_sheets(path: Path) -> None:
+    drawing = sheet(path)
+    assert not faults(drawing)
+    assert paper_of(drawing) in ("A3", "A2")
+
+
+def test_nor_against_those_of_random_trains(tmp_path: Path) -> None:
+    for seed in range(some(30, 1)):
+        for maker in PLANAR:
+            text = maker(random.Random(100 + seed)).text
+            assert not faults(sheet(written(tmp_path, text))), text
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_trains_without_pictures_have_a_scheme_and_say_why(name: str, tmp_path: Path) -> None:
+    drawing = sheet(written(tmp_path, OTHERS[name]))
+    assert not faults(drawing)
+    said = texts(drawing)
+    assert "Картины нет" in said
+    assert ("Схема не начерчена" in said) == (name == "worm between")
+    assert any(isinstance(i, Stroke) and i.tag == "link 1" for i in drawing.items) != (
+        name in ("worm between", "worm drives")
+    )
+    if name == "worm drives":
+        assert any(isinstance(i, Arc) and i.tag == "link 1" for i in drawing.items)
+
+
+@pytest.mark.parametrize("name", ["gears-ex6", "planetary-k10"])
+def test_segments_are_as_long_as_the_table_says_in_the_file(name: str) -> None:
+    """Each segment is one line of the layer of vectors; its length is a number of the table."""
+    drawing = sheet(PROBLEMS / f"gears/{name}.toml")
+    spans = sorted(span.length for view in drawing.views for span in view.spans)
+    library: Any = ezdxf
+    document = library.read(io.StringIO(render(drawing, "dxf").decode("utf-8")))
+    lines = document.modelspace().query('LINE[layer=="PLAN_VECTORS"]')
+    ends = [(complex(*e.dxf.start.xyz[:2]), complex(*e.dxf.end.xyz[:2])) for e in lines]
+    assert sorted(abs(b - a) for a, b in ends) == pytest.approx(spans, abs=1e-6)
+    shown = {item.text.lstrip("−") for item in drawing.items if isinstance(item, Text)}
+    assert {f"{length:.2f}".replace(".", ",") for length in spans} <= shown
+
+
+def test_the_picture_stands_beside_the_scheme_at_its_heights() -> None:
+    drawing = sheet(PROBLEMS / "gears/gears-ex1.toml")
+    strokes = [item for item in drawing.items if isinstance(item, Stroke)]
+    levels = {round(s.points[0].imag, 6) for s in strokes if s.tag == "projection"}
+    scheme, picture = drawing.views[:2]
+    assert scheme.box[2] == pytest.approx(picture.box[0])
+    assert {round(span.start.imag, 6) for span in picture.spans} <= levels
+
+
+def test_paper_language_and_stamp_are_as_asked(tmp_path: Path) -> None:
+    def lint(*args: str) -> Any:
+        return CliRunner().invoke(cli, ["lint", str(FILES[0]), *args])
+
+    done = lint("--paper", "A3", "--lang", "en")
+    assert done.exit_code == ExitCode.DONE, done.output
+    assert "A3" in done.output
+    problem = load(FILES[0])
+    (drawing,) = drawings(
+        problem, fields={"author": "Иванов"}, profile=PROFILES["board"], before=1, total=3
+    )
+    assert "Иванов" in texts(drawing)
+    many = told(
+        {f"{k}": 40 for k in range(1, 6)},
+        [mesh(f"{k}", f"{k + 1}") for k in range(1, 5)],
+        "n = { 1 = 1 }",
+    )
+    path = written(tmp_path, many)
+    path.write_text(
+        '[sheet]\npaper = "A4"\n' + path.read_text(encoding="utf-8").replace("title", "#")
+    )
+    with pytest.raises(LayoutError, match="does not fit A4"):
+        sheet(path)
+
+
+# The order along the axes -------------------------------------------------------------------------
+
+
+def order(found: Arrangement) -> str:
+    return " ".join(
+        ",".join(rim.label for rim in station.rims)
+        if station.part is Part.RIMS
+        else f"{station.part.value}-{station.body}"
+        for station in found.stations
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "due"),
+    [
+        ("gears-ex2", "1,2 arm-H 5,4,3"),
+        ("gears-ex4", "1,2,3 arm-H 3',4"),
+        ("gears-ex6", "web-H 3',4,5 web-3 arm-H 1,2,3"),
+    ],
+)
+def test_the_order_of_the_worked_examples(name: str, due: str) -> None:
+    assert order(arrange(Scheme(solve_motion(load(PROBLEMS / f"gears/{name}.toml")), 1.0))) == due
+
+
+@each("seed", range(some(40, 5)))
+def test_no_body_stands_in_another_ones_way(seed: int, tmp_path: Path) -> None:
+    for maker in PLANAR:
+        text = maker(random.Random(200 + seed)).text
+        found = arrange(Scheme(solved(tmp_path, text), 1.0))
+        assert not [c for v in found.verticals() for c in found.crosses(*v)], text
+        for one, (a, b) in found.reach.items():
+            for other, (c, d) in found.reach.items():
+                level = found.scheme.heights[one] == found.scheme.heights[other]
+                if one < other and level and max(a, c) <= min(b, d):
+                    assert one in found.inner(other) or other in found.inner(one), text
+
+
+def test_a_wheel_that_would_lie_on_another_is_drawn_wide(tmp_path: Path) -> None:
+    """Wheel 1 drives 2 and 3 on the same side, of other radii: two columns."""
+    text = told({"1": 20, "2": 30, "3": 40}, [mesh("1", "2"), mesh("1", "3")], "n = { 1 = 100 }")
+    motion = solved(tmp_path, text)
+    assert [[rim.label for rim in column] for column in Scheme(motion, 1.0).columns] == [
+        ["1", "2"],
+        ["1", "3"],
+    ]
+    drawing = sheet(written(tmp_path, text))
+    assert not faults(drawing)

@@ -1,0 +1,103 @@
+"""Sheet 1 of a coursework: diagrams where the construction has them, and the whole sheet."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from cases import some
+from worked import SIX, problem_of
+
+from planmethod.construct.drafting import PROFILES, Sampled
+from planmethod.construct.evaluate import evaluate
+from planmethod.note.records.cycle import cycle_record
+from planmethod.note.tables.turn import cycle_protocol
+from planmethod.note.wording import language
+from planmethod.paper import FORMATS
+from planmethod.problem.model import CycleTask, Differentiation
+from planmethod.render.control.texts import lint
+from planmethod.render.ink.drawing import Disc, Stroke
+from planmethod.render.pictures.diagram import AXIS
+from planmethod.render.pictures.kinematic import FOUND, kinematic_picture
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, sigmas
+
+RU = language("ru")
+
+
+@cache
+def press(**asked: object) -> Solution:
+    task = CycleTask("B", **asked)  # type: ignore[arg-type]
+    return Solution(replace(problem_of("press/press"), cycle=task))
+
+
+def diagrams(solution: Solution) -> Diagrams:
+    found = diagrams_of(solution)
+    assert found is not None
+    return found
+
+
+def test_the_points_of_the_diagrams_stand_where_the_numbers_say() -> None:
+    solution = press()
+    told = cycle_record(solution)["diagrams"]
+    items = kinematic_picture(diagrams(solution), 3.5, RU.say).items
+    levels = [
+        item.points[0].imag
+        for item in items
+        if isinstance(item, Stroke) and item.tag == AXIS and item.points[0].real == 0
+        and item.points[0].imag == item.points[1].imag
+    ]  # fmt: skip
+    for letter, key, start in (("v", "v_chord_mm", 12.0), ("a", "a_chord_mm", 0.0)):
+        found = [i.centre for i in items if isinstance(i, Disc) and i.tag == f"{FOUND} {letter}"]
+        level = min(levels, key=lambda y: abs(found[0].imag - told[key][0] - y))
+        assert [p.imag - level for p in found] == pytest.approx(told[key], abs=1e-9)
+        assert [p.real for p in found] == pytest.approx([start + 24.0 * k for k in range(12)])
+
+
+@pytest.mark.parametrize("way", Differentiation)
+def test_every_ray_is_parallel_to_its_chord(way: Differentiation) -> None:
+    """The slope of what a ray cuts off over the pole distance is that of the path."""
+    made = diagrams(press(differentiation=way, pole_v=30.0))
+    s, v, _ = made.drawn(way)
+    chords = np.diff(s) / 24.0
+    tangents = (s[(np.arange(12) + 1) % 12] - s[(np.arange(12) - 1) % 12]) / 48.0
+    expected = {
+        Differentiation.CHORDS: 30.0 * chords,
+        Differentiation.TANGENTS: 30.0 * tangents,
+        Differentiation.CURVE: made.curve,
+    }
+    assert v == pytest.approx(expected[way], abs=1e-9)
+
+
+def test_sigmas_of_the_ordinates_are_those_of_random_sheets() -> None:
+    made = diagrams(press())
+    graph = made.graph(Differentiation.CHORDS)
+    pencil = Sampled(PROFILES["board"], frozenset(str(axes.origin) for axes in graph.axes), 4000, 3)
+    trace = evaluate(graph.program, dict(graph.data), pencil)
+    for number, sigma in enumerate(sigmas(made, Differentiation.CHORDS), 1):
+        origin = trace.value[graph.axes[number].origin]
+        drawn = [np.std((trace.value[p] - origin).imag) for p in graph.points[number]]
+        assert sigma == pytest.approx(drawn, rel=0.06)
+
+
+def test_the_protocol_tells_poles_and_scales_in_both_languages() -> None:
+    solution = press()
+    for lang, words in (
+        ("ru", ("Из полюса P_v (K₁ = 36 мм)", "хорды")),
+        ("en", ("From the pole",)),
+    ):
+        text = "\n".join(cycle_protocol(solution, language(lang)))
+        assert all(word in text for word in words), text
+        assert "0.631" in text or "0,631" in text  # the greatest deviation of v by chords
+
+
+@pytest.mark.parametrize("name", ["press/press", *SIX[: some(len(SIX), 0)]])
+def test_the_sheet_is_one_a1_without_a_fault(name: str) -> None:
+    (sheet,) = kinematics_sheets(problem_of(name), layout="coursework")
+    fmt = FORMATS["A1"]
+    assert (sheet.width, sheet.height) == (fmt.width, fmt.height)
+    assert [f"{finding.code} {finding.message}" for finding in lint(sheet.items, fmt.inner)] == []
+    assert {"position", "velocity", "acceleration", "diagrams"} <= {v.kind for v in sheet.views}

@@ -1,0 +1,186 @@
+"""The turn of a crank: extremes, range, phases and diagrams against closed forms."""
+
+from __future__ import annotations
+
+from math import acos, asin, cos, degrees, hypot, pi, radians, tan
+from typing import Any
+
+import numpy as np
+import pytest
+from worked import ROOT
+
+from planmethod.note.records.cycle import analogue_records, cycle_record
+from planmethod.problem import load, loads
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import smooth
+
+PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
+FOUR_BAR = """title = "Шарнирный четырёхзвенник"
+[frame]
+A = [0, 0]
+D = [{d}, 0]
+[links.1]
+points = ["A", "B"]
+AB = {a}
+[links.2]
+points = ["B", "C"]
+BC = {b}
+[links.3]
+points = ["C", "D"]
+CD = {c}
+[driver]
+link = "1"
+phi = 40
+omega = {omega}
+[assembly]
+C = "{rule}"
+[cycle]
+{asked}
+"""
+
+
+def four_bar(
+    *sides: float, omega: float = 10, rule: str = "above D", asked: str = ""
+) -> dict[str, Any]:
+    a, b, c, d = sides
+    text = FOUR_BAR.format(a=a, b=b, c=c, d=d, omega=omega, rule=rule, asked=asked)
+    return cycle_record(Solution(loads(text, name="four-bar")))
+
+
+def test_the_press_has_the_extremes_of_its_slotted_link() -> None:
+    told = cycle_record(Solution(loads(PRESS + "\n[cycle]\noutput = 'B'\n", name="press")))
+    theta = 180.0 * 0.22 / 2.22
+    assert told["zero_deg"] == pytest.approx(90 + theta / 2, abs=1e-11)
+    assert told["K_v"] == pytest.approx(1.22, abs=1e-12)
+    assert told["working_deg"] == pytest.approx(180 - theta, abs=1e-11)
+    assert told["stroke"] == pytest.approx(0.96 * tan(radians(theta / 2)), abs=1e-14)
+    assert told["pressure_angle"]["max_deg"] == pytest.approx(theta / 2, abs=1e-11)
+    assert told["range_deg"] is None and "reasons" not in told
+
+
+def test_the_diagrams_of_the_press_are_those_of_their_definitions() -> None:
+    told = cycle_record(Solution(loads(PRESS + "\n[cycle]\nzero = 'extreme'\n", name="press")))
+    diagrams = told["diagrams"]
+    r, base = 0.1674395276373337, 1.08
+
+    def height(phi: Any) -> Any:
+        place = base + r * np.exp(1j * phi)
+        return 0.48 * place.imag / place.real
+
+    phi = np.radians(told["zero_deg"]) + np.arange(13) * pi / 6
+    mu = diagrams["mu_s"]
+    s = (height(phi[0]) - height(phi)) / mu
+    assert diagrams["s_mm"] == pytest.approx(s.tolist(), abs=1e-9)
+    chords = 1.5 * np.diff(s)
+    assert diagrams["v_chord_mm"] == pytest.approx(chords.tolist(), abs=1e-9)
+    second = 1.5 * (chords - np.roll(chords, 1))
+    assert diagrams["a_chord_mm"] == pytest.approx(second.tolist(), abs=1e-9)
+    h, fine = 1e-4, (height(phi + 1e-4) - height(phi - 1e-4)) / 2e-4
+    v = -fine * (2 * pi / 288) * 36 / mu
+    assert diagrams["v_exact_mm"] == pytest.approx(v.tolist(), abs=1e-5)
+    bend = -(height(phi + h) - 2 * height(phi) + height(phi - h)) / h**2
+    assert diagrams["a_exact_mm"] == pytest.approx(
+        (bend * (2 * pi / 288 * 36) ** 2 / mu).tolist(), abs=1e-4
+    )
+    assert diagrams["v_curve_mm"] == pytest.approx(
+        smooth(chords, np.arange(-0.5, 11.0)).tolist(), abs=1e-9
+    )
+    assert diagrams["mu_v"] == pytest.approx(mu * 13.6135681655558 / (2 * pi / 288 * 36))
+
+
+def test_a_smooth_curve_goes_through_its_values_and_has_no_corner() -> None:
+    values = np.array([3.0, -1.0, 4.0, 1.0, -5.0, 9.0, 2.0])
+    at = np.arange(7.0)
+    assert smooth(values, at) == pytest.approx(values)
+    h = 1e-4
+    before, after = smooth(values, at - h), smooth(values, at + h)
+    further = smooth(values, at - 2 * h) - smooth(values, at + 2 * h) - 2 * (before - after)
+    assert after - values == pytest.approx(values - before, abs=1e-5)
+    assert np.abs(further).max() < 1e-9  # neither does its second derivative jump
+    assert smooth(values, at - 14.3) == pytest.approx(smooth(values, at - 0.3))
+
+
+@pytest.mark.parametrize("omega", [10, -10])
+def test_a_crank_rocker_turns_back_where_crank_and_coupler_are_in_line(omega: float) -> None:
+    a, b, c, d = 0.1, 0.3, 0.25, 0.35
+    told = four_bar(a, b, c, d, omega=omega)
+    far = degrees(acos(((b + a) ** 2 + d**2 - c**2) / (2 * (b + a) * d)))
+    near = degrees(acos(((b - a) ** 2 + d**2 - c**2) / (2 * (b - a) * d))) + 180
+    found = sorted(one["phi_deg"] % 360 for one in told["extremes"])
+    assert found == pytest.approx([far, near], abs=1e-10)
+    swing = acos((c**2 + d**2 - (b + a) ** 2) / (2 * c * d)) - acos(
+        (c**2 + d**2 - (b - a) ** 2) / (2 * c * d)
+    )
+    assert told["stroke"] == pytest.approx(degrees(swing), abs=1e-10)
+    working = (near - far) % 360
+    assert told["K_v"] == pytest.approx(max(working, 360 - working) / min(working, 360 - working))
+    assert told["working_deg"] < 180 and told["diagrams"]["s_mm"][1] > 0
+    sense = 1 if omega > 0 else -1
+    assert told["extremes"][1]["phi_deg"] == pytest.approx(
+        told["zero_deg"] + sense * told["working_deg"], abs=1e-9
+    )
+    transmission = degrees(acos((b**2 + c**2 - (d - a) ** 2) / (2 * b * c)))
+    assert told["pressure_angle"]["max_deg"] == pytest.approx(90 - transmission, abs=1e-9)
+    assert told["pressure_angle"]["phi_deg"] % 360 == pytest.approx(0, abs=1e-6)
+
+
+def test_the_range_of_a_crank_that_does_not_turn_fully_ends_where_the_dyad_is_straight() -> None:
+    a, b, c, d = 0.1, 0.2, 0.15, 0.31
+    told = four_bar(a, b, c, d)
+    end = degrees(acos((a**2 + d**2 - (b + c) ** 2) / (2 * a * d)))
+    assert told["range_deg"] == pytest.approx([-end, end], abs=1e-10)
+    assert told["K_v"] is None and told["diagrams"] is None and told["hodograph"] is None
+    assert told["reasons"]["K_v"] == told["reasons"]["diagrams"] == "the crank does not turn fully"
+
+
+def test_a_link_that_turns_all_round_goes_on_beyond_a_turn() -> None:
+    told = four_bar(0.3, 0.25, 0.28, 0.1, rule="left of BD", asked='output = "3"\nzero = 40')
+    assert told["extremes"] == [] and told["stroke"] is None and told["zero_deg"] == 40
+    diagrams = told["diagrams"]
+    assert diagrams["s_mm"][-1] * diagrams["mu_s"] == pytest.approx(2 * pi)
+    assert np.diff(diagrams["s_mm"]).min() > 0
+    assert sum(diagrams["a_chord_mm"]) == pytest.approx(0, abs=1e-9)
+
+
+def test_a_slider_above_its_crank_reaches_an_end_twice() -> None:
+    text = PRESS.split("[dynamics]")[0].replace(
+        "guides.y-y = { through = [0.48, 0.0], angle = 90 }",
+        'guides.y-y = { through = "O3", angle = 0 }',
+    )
+    text = text.replace(
+        'points = ["O3", "S3"]', 'points = ["O3", "S3", "N"]\nN = { on = "O3S3", at = 0.5 }'
+    )
+    head, tail = text.split("[links.4]")[0], text[text.index("[driver]") :]
+    text = (
+        head + '[links.4]\npoints = ["N", "B"]\nNB = 0.2\n[links.5]\npoints = ["B"]\n'
+        'slides = { on = "y-y" }\n'
+        + tail.split("[assembly]")[0]
+        + '[assembly]\nB = "right of N"\n[cycle]\nzero = 0\n'
+    )
+    told = cycle_record(Solution(loads(text, name="press")))
+    assert len(told["extremes"]) == 4 and told["K_v"] is None
+    half = asin(0.1674395276373337 / 1.08)
+    least = 0.5 * cos(half) + np.sqrt(0.04 - (0.5 * np.sin(half)) ** 2)
+    assert told["stroke"] == pytest.approx(0.7 - least, abs=1e-12)
+
+
+def test_the_transfer_functions_of_the_analytic_example_are_those_printed() -> None:
+    path = ROOT / "problems/levers/task12.toml"
+    problem = load(path)
+    (found,) = analogue_records(Solution(problem))
+    d, s3, third = found["D"], found["S3"], found["3"]
+    published = {one.name: one.value for one in problem.published}
+    numbers = {"ω_q3": third["1"], "ε_q3": third["2"]}
+    for letter, key in (("v", "1"), ("a", "2")):
+        for name, point in (("D", d), ("S3", s3)):
+            for axis in "xy":
+                numbers[f"{letter}_q{name}{axis}"] = point[axis + key]
+    assert len(numbers) == 10
+    for name, value in numbers.items():
+        assert value == pytest.approx(published[f"ЭВМ: {name}"], abs=5.1e-6)
+    told = cycle_record(Solution(loads(path.read_text("utf-8") + "\n[cycle]\n", name="task12")))
+    assert told["zero_deg"] == pytest.approx(-90, abs=1e-11)
+    assert told["extremes"][1]["phi_deg"] == pytest.approx(
+        degrees(2 * asin(1 / hypot(5, 1))), abs=1e-10
+    )
+    assert told["K_v"] == pytest.approx((180 + 67.3801350519596) / (180 - 67.3801350519596))
