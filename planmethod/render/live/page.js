@@ -4,7 +4,7 @@
 const D = JSON.parse(document.getElementById("scene").textContent);
 const SVG = "http://www.w3.org/2000/svg", byId = id => document.getElementById(id);
 const TURN = 360, SLACK = 1e-9, STILL = 1e-10, SAMPLES = 720;
-const ZOOMS = [64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1.5, ...Array.from({ length: 30 }, (_, k) => 2 ** -k)];
+const ZOOMS = [64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1.5, 1, 0.75, ...Array.from({ length: 30 }, (_, k) => 2 ** (-k - 1))];
 
 // Numbers -----------------------------------------------------------------------------------------
 
