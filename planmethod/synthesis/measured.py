@@ -104,7 +104,7 @@ class _Way:
 
     def extremes(self) -> dict[str, Any]:
         """Return stroke, swing, phases and K_v; None where there are no two extreme positions."""
-        found: dict[str, Any] = dict.fromkeys(("K_v", "stroke", "swing", "working_deg", "idle_deg"))
+        found: dict[str, Any] = dict.fromkeys(("K_v", "stroke", "swing", "slow_deg", "quick_deg"))
         found["stroke_unit"] = "deg" if self.is_link else "m"
         found["extremes"] = []
         if not self.full:
@@ -126,8 +126,8 @@ class _Way:
             "K_v": phases[1] / phases[0],
             "stroke": size,
             "swing": size if self.is_link else None,
-            "working_deg": phases[1],
-            "idle_deg": phases[0],
+            "slow_deg": phases[1],
+            "quick_deg": phases[0],
         }
         if self._coupler == "4":  # a shaper
             found["swing"] = float(abs(np.ptp(self._table(np.array(roots))["3.phi_deg"])))

@@ -266,8 +266,8 @@ def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, st
     if checks["stroke_unit"] == "m":
         row("stroke", checks["stroke"], "m")
     row("swing", checks["swing"], "deg")
-    row("working_deg", checks["working_deg"], "deg")
-    row("idle_deg", checks["idle_deg"], "deg")
+    row("slow_deg", checks["slow_deg"], "deg")
+    row("quick_deg", checks["quick_deg"], "deg")
     row("pressure", checks["pressure_angle"]["max_deg"], "deg")
     row("transmission", checks["transmission_angle"]["min_deg"], "deg")
     grashof = checks["grashof"]

@@ -22,7 +22,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.model import AskedAnswer, AskedSense
 from planmethod.solved.solution import Solution
 
-RANDOM = tuple(f"random-{seed}" for seed in range(some(60, 4)))
+RANDOM = tuple(f"random-{seed}" for seed in range(some(60, 2)))
 
 
 @pytest.mark.parametrize("name", [*SIX, *RANDOM])

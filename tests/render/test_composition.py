@@ -456,7 +456,7 @@ KEYS = st.sampled_from(
 )
 
 
-@settings(deadline=None, max_examples=some(400, few=200))
+@settings(deadline=None, max_examples=some(400, few=60))
 @given(
     st.dictionaries(KEYS, VALUES, max_size=4),
     st.lists(st.tuples(st.sampled_from(list(BLOCKS)), st.dictionaries(KEYS, VALUES, max_size=4))),

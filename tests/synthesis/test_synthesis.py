@@ -109,7 +109,7 @@ def test_the_press_has_the_crank_of_its_ratio() -> None:
     assert found.metres()["O1A"] == pytest.approx(
         tomllib.loads(text)["links"]["1"]["O1A"], rel=1e-14
     )
-    assert checks(found, problem)["idle_deg"] == pytest.approx(162.162162162162, rel=1e-14)
+    assert checks(found, problem)["quick_deg"] == pytest.approx(162.162162162162, rel=1e-14)
 
 
 def test_the_stroke_and_the_ratio_of_a_slider_crank_follow_from_its_lengths() -> None:
