@@ -23,6 +23,7 @@ COMMANDS = (
     "solve",
     "structure",
     "protocol",
+    "live",
     "audit",
     "lint",
     "specimen",

@@ -86,6 +86,11 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES},
         ),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
+        (
+            (("live", EX3),),
+            {"numpy", "svgwrite"},
+            {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL"},
+        ),
         ((("lint", EX3),), {"numpy", "shapely"}, {*ALL, *FONTS} - {"numpy", "shapely"}),
         (
             (

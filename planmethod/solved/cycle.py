@@ -86,7 +86,7 @@ class Cycle(Remembering):
         self.course = Travel(solution, step=STEP, least=LEAST)
         self.joints: list[JointForce] = statics_of(solution).reactions
         assert solution.problem.dynamics is not None
-        self.smooth = not _only_in_positions(solution.problem.dynamics)
+        self.smooth = not only_in_positions(solution.problem.dynamics)
         if self.smooth:
             found = self._with_jumps(self.course.positions)
         else:
@@ -209,7 +209,8 @@ def _around(steps: Reals) -> Reals:
     return np.asarray(np.median(windows, axis=1), dtype=float)
 
 
-def _only_in_positions(dynamics: Dynamics) -> bool:
+def only_in_positions(dynamics: Dynamics) -> bool:
+    """Tell whether a load is known in the positions of the file only."""
     tables = (load.size for load in dynamics.loads if isinstance(load.size, Table))
     return any(table.over is Over.POSITION for table in tables)
 

@@ -14,6 +14,7 @@ from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.form_model import FormWording
 from planmethod.note.wording.frame_model import FrameWording
 from planmethod.note.wording.gear_model import GearWording
+from planmethod.note.wording.live_model import LiveWording
 from planmethod.note.wording.machine_model import MachineWording
 from planmethod.note.wording.meshing_model import MeshingWording
 from planmethod.note.wording.model import Wording
@@ -57,6 +58,8 @@ class Language:
         A machine and its flywheel.
     synthesis : SynthesisWording
         Syntheses.
+    live : LiveWording
+        The page of a moving mechanism.
     layouts : mapping
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
@@ -82,5 +85,6 @@ class Language:
     meshing: MeshingWording
     synthesis: SynthesisWording
     teeth: TeethWording
+    live: LiveWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import isfinite
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, Protocol, assert_never
 
@@ -100,10 +100,21 @@ def draw_sheet(drawing: Drawing, canvas: Canvas) -> None:
         the point exists.
     """
     canvas.open(drawing.width, drawing.height, drawing.title, drawing.lettering)
-    for number, item in enumerate(drawing.items):
+    draw(drawing.items, canvas, drawing.title)
+
+
+def draw(items: Iterable[Item], canvas: Canvas, title: str = "") -> None:
+    """Draw items on the open sheet of a canvas; ``title`` is for the message.
+
+    Raises
+    ------
+    PlanMethodError
+        As of `draw_sheet`.
+    """
+    for number, item in enumerate(items):
         if not all(map(isfinite, _coordinates(item))):
             raise PlanMethodError(
-                f"Item {number} of the drawing '{drawing.title}' has a coordinate that is not "
+                f"Item {number} of the drawing '{title}' has a coordinate that is not "
                 f"finite: {item!r}. Draw only points that exist."
             )
         if _is_bare(item):

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from cmath import exp
+from collections.abc import Iterable
 from math import pi, tau
 from typing import Any
 
 import svgwrite
 
-from planmethod.render.backends.canvas import Canvas, Options
-from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
+from planmethod.render.backends.canvas import Canvas, Options, draw
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
@@ -149,6 +150,22 @@ class SvgCanvas(Canvas):
             self._sheet.defs.add(self._sheet.path(outlines[name], id=name))
         text: str = self._sheet.tostring()
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + text.encode("utf-8") + b"\n"
+
+    def parts(self, items: Iterable[Item]) -> str:
+        """Return items as elements, for a picture that is put together elsewhere, y down.
+
+        The sheet is open; the letters that they use are in its `letters`.
+        """
+        before, self._group_key = len(self._sheet.elements), ""
+        draw(items, self)
+        return "".join(str(one.tostring()) for one in self._sheet.elements[before:])
+
+    def letters(self) -> str:
+        """Return the outlines of the letters that occur, as elements."""
+        return "".join(
+            str(self._sheet.path(self._lettering.outline(char).outline, id=name).tostring())
+            for name, char in sorted((self._glyph_id(char), char) for char in self._letters)
+        )
 
     def _glyph_id(self, char: str) -> str:
         return "letter-none" if self._lettering.missing(char) else f"letter-{ord(char):x}"

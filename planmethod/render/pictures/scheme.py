@@ -263,7 +263,7 @@ class Scheme:
             self.joints += support.items()
         for joint in joints:
             place = self.at(joint.point)
-            self.joints += self._revolute(joint, place)
+            self.joints += self.joint_items(joint, place)
             named.add(joint.point)
         for link, body in problem.bodies.items():
             for point in body.points:
@@ -272,9 +272,9 @@ class Scheme:
                     named.add(point)
         self.named = sorted(named)
 
-    def _revolute(self, joint: Revolute, place: complex) -> list[Item]:
+    def joint_items(self, joint: Revolute, place: complex) -> list[Item]:
         """Return a joint; a link that goes on through it is seen to be one piece."""
-        passing = {link: way for link in joint.links if (way := self._passes(link, place))}
+        passing = {link: way for link in joint.links if (way := self.passes(link, place))}
         count = joint.pairs
         if len(passing) == 1 and count == 1:
             ((link, way),) = passing.items()
@@ -290,7 +290,7 @@ class Scheme:
             items.append(Stroke(ends, self.pen, tag=f"link {link}"))
         return items
 
-    def _passes(self, link: str, place: complex) -> complex | None:
+    def passes(self, link: str, place: complex) -> complex | None:
         """Return the direction of a bar that goes on through a joint between its ends, if any."""
         radius = SIZES.joint / 2 * self.factor
         for start, end in self.segments.get(link, []):

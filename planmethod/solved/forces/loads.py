@@ -40,7 +40,8 @@ SLACK = 1e-9
 
 TURN = 360.0
 
-_AHEAD = {Moving.UP: 1j, Moving.DOWN: -1j, Moving.LEFT: -1 + 0j, Moving.RIGHT: 1 + 0j}
+AHEAD = {Moving.UP: 1j, Moving.DOWN: -1j, Moving.LEFT: -1 + 0j, Moving.RIGHT: 1 + 0j}
+"""Which way a point moves."""
 
 Mask = npt.NDArray[np.bool_]
 
@@ -237,7 +238,7 @@ def _acts(solution: MotionValues, load: Load | Couple, phase: Phase) -> Mask:
         spans = [_within(solution.positions, *span) for span in phase.phi]
         acts &= np.any(spans, axis=0)
     if phase.moving is not None and isinstance(load, Load):
-        ahead = (solution.points[load.at].velocity * _AHEAD[phase.moving].conjugate()).real
+        ahead = (solution.points[load.at].velocity * AHEAD[phase.moving].conjugate()).real
         acts &= ahead > STILL * _largest_speed(solution)
     if phase.turning is not None:
         sign = 1.0 if phase.turning is Turning.CCW else -1.0

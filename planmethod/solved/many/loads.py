@@ -72,6 +72,8 @@ class LoadColumns:
     ----------
     names : tuple of NumberName
         Inputs of the program.
+    loads : tuple of str
+        Names of the loads, in the order of the inputs: two of a force, one of a couple.
     need_motion : bool
         Some load is known only where the motion is.
     """
@@ -86,6 +88,7 @@ class LoadColumns:
         self.problem, self.construction, self._motion = problem, construction, motion
         self._loads = tuple(loads)
         self.names = tuple(name for _, names in loads for name in names)
+        self.loads = tuple(name for name, _ in loads)
         mine, dynamics = {name for name, _ in loads}, problem.dynamics
         assert dynamics is not None
         self.need_motion = any(needs_motion(load) for load in dynamics.loads if load.name in mine)

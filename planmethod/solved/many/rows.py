@@ -7,7 +7,11 @@ from dataclasses import dataclass
 
 from planmethod.construct.compiled.symbolic import Symbol, Written
 from planmethod.construct.compiled.tape import Ref
+from planmethod.construct.steps import Name
 from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.model import FACTS, PlanKind
+
+FORCES = FACTS[PlanKind.FORCE].prefix
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +32,11 @@ class Row:
 
 
 def rows_of(
-    chosen: Sequence[Quantity], written: Written, origin: complex, moved: Sequence[Quantity] = ()
+    chosen: Sequence[Quantity],
+    written: Written,
+    origin: complex,
+    moved: Sequence[Quantity] = (),
+    drawn: Sequence[Name] = (),
 ) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
     """Return the rows of some results: their names, their numbers on the tape, their guards.
 
@@ -38,6 +46,8 @@ def rows_of(
         From which the places on the tape count.
     moved : sequence of Result
         What the loads depend on, and all forces with them.
+    drawn : sequence of Name
+        Points and numbers of the plans that are rows as well.
     """
     loaded = frozenset[int]().union(*(written.depends[result.name] for result in moved))
     rows: list[Row] = []
@@ -52,6 +62,12 @@ def rows_of(
         refs += parts
         mine = written.depends[result.name]
         depends += [mine | loaded if result.kind.is_force else mine] * len(parts)
+    for name in drawn:
+        place: Symbol = written.value[name]
+        rows += [Row(f"{name}.{axis}", name) for axis in "xy"]
+        refs += [place.re, 0.0 if place.im is None else place.im]
+        mine = written.depends[name]
+        depends += [mine | loaded if name.startswith(FORCES) else mine] * 2
     return tuple(rows), refs, depends
 
 

@@ -10,11 +10,14 @@ import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.compiled.blocks import Blocks
+from planmethod.construct.compiled.javascript import javascript
 from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
 from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
+from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.asked import results_for
 from planmethod.solved.closings import drive_data
@@ -58,6 +61,9 @@ class Sweep:
         float64; float32 is for pictures only.
     forces : bool
         Where nothing is asked by name: everything of the forces, too.
+    drawn : sequence of Name
+        Points and numbers of the plans that are results as well, SI, each as ``.x`` and ``.y``:
+        ``v:c.x``; places as they lie on their plan.
 
     Attributes
     ----------
@@ -86,6 +92,7 @@ class Sweep:
         varied: Sequence[str] = (),
         dtype: npt.DTypeLike = np.float64,
         forces: bool = False,
+        drawn: Sequence[Name] = (),
     ) -> None:
         self.problem = problem
         if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
@@ -100,7 +107,7 @@ class Sweep:
         # Loads against a motion are known only where all steps of that motion exist.
         moved = _motion(results) if self.loads is not None and self.loads.need_motion else []
         self._draft = results.draft
-        self.program = results.program.needed_for([r.name for r in (*chosen, *moved)])
+        self.program = results.program.needed_for([*(r.name for r in (*chosen, *moved)), *drawn])
         self.steps = len(self.program.steps)
         self.driver = problem.drive.coordinate.name
         data = drive_data(problem, results.draft, np.zeros(1))
@@ -122,8 +129,8 @@ class Sweep:
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
         given = (*self.branches, *(() if self.loads is None else self.loads.names))
         written = write(self.program, fixed, (self.driver, *self.varied, *given))
-        self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved)
-        self._refs, self._written = refs, written
+        self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
+        self._refs, self._depends, self._written = refs, depends, written
         self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
         self._straight: Straight | None = None
 
@@ -284,6 +291,21 @@ class Sweep:
         """Return the results by the names of their rows."""
         found = self.run(positions, parameters)
         return {row.name: values for row, values in zip(self.rows, found, strict=True)}
+
+    @property
+    def guards(self) -> list[tuple[Name, PlanKind]]:
+        """Step and plan of every margin that is watched, by the numbers of `reason`."""
+        steps = (guard.step for guard in self._written.guards)
+        return [(step, self._draft.plans.get(step, PlanKind.POSITION)) for step in steps]
+
+    def javascript(self) -> str:
+        """Return the source of a function of JavaScript: of a position, branches and loads.
+
+        It returns the results of one position in the order of the rows; see
+        `planmethod.construct.compiled.javascript`.
+        """
+        w = self._written
+        return javascript(w.tape, self._refs, w.guards, self._depends, len(w.inputs))
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""

@@ -9,6 +9,7 @@ from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
 from planmethod.note.wording.en.gears import GEARS
 from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.en.live import LIVE
 from planmethod.note.wording.en.machine import MACHINE
 from planmethod.note.wording.en.meshing import MESHING
 from planmethod.note.wording.en.note import NOTE
@@ -41,6 +42,7 @@ LANGUAGE = Language(
     meshing=MESHING,
     synthesis=SYNTHESIS,
     teeth=TEETH,
+    live=LIVE,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

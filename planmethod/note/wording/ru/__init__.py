@@ -10,6 +10,7 @@ from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
 from planmethod.note.wording.ru.gears import GEARS
 from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.ru.live import LIVE
 from planmethod.note.wording.ru.machine import MACHINE
 from planmethod.note.wording.ru.meshing import MESHING
 from planmethod.note.wording.ru.note import NOTE
@@ -41,6 +42,7 @@ LANGUAGE = Language(
     meshing=MESHING,
     synthesis=SYNTHESIS,
     teeth=TEETH,
+    live=LIVE,
     layouts=LAYOUTS,
     families=FAMILIES,
 )

@@ -1,0 +1,32 @@
+"""Command ``live``: the mechanism and its plans moving, one HTML file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from planmethod.commands.output import put
+from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.options import lang_option, out_option, problem_options
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+
+
+@click.command()
+@problem_options
+@out_option
+@lang_option
+@guarded
+def live(
+    problems: tuple[Path, ...], variant: str | None, all_variants: bool, out: Path, lang: str
+) -> None:
+    """Write a page where the mechanism and its plans move: one HTML file for any browser."""
+    from planmethod.render.live.page import live_page
+
+    def write(problem: Problem) -> None:
+        put(live_page(problem, lang), str(out / f"{stem(problem)}-live.html"))
+
+    finish(each(problems, variant, all_variants, write))

@@ -1,0 +1,281 @@
+"""The page of a moving mechanism: one HTML file without a server, a network or a library.
+
+What a problem file says comes in as escaped text or as data, never as source: a policy in the head
+lets the page's own script and style run, by their hashes, and nothing else.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Iterator
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.wording import language
+from planmethod.plans.legend import TURNING, Quantity, QuantityKind
+from planmethod.problem.model import Problem
+from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.svg import SvgCanvas
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.live.scene import LETTER, Scene, View
+
+POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"
+"""What the page may do: run its own script and style."""
+
+
+def live_page(problem: Problem, lang: str) -> str:
+    """Return the page of a problem, an HTML document.
+
+    Parameters
+    ----------
+    lang : str
+        Language of all that it says.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError, SelfCheckError
+    """
+    return _Page(problem, lang).html()
+
+
+def _runs(markup: str) -> list[list[str]]:
+    """Return rich text as letters with the element that they stand in: ``sub``, ``sup`` or none."""
+    height = 10.0
+    level = {True: "sub", False: "sup"}
+    runs = typeset(markup, height).runs
+    return [[run.text, level[run.y < 0] if abs(run.y) > 0.1 * height else ""] for run in runs]
+
+
+def _rich(markup: str) -> str:
+    """Return rich text as HTML."""
+    return "".join(
+        f"<{tag}>{escape(text)}</{tag}>" if tag else escape(text) for text, tag in _runs(markup)
+    )
+
+
+def _data(value: Any) -> str:
+    """Return a value as JSON that no element of a page ends in."""
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _hash(source: str) -> str:
+    return "sha256-" + b64encode(sha256(source.encode()).digest()).decode()
+
+
+class _Page:
+    def __init__(self, problem: Problem, lang: str) -> None:
+        self.problem, self.words = problem, language(lang)
+        self.scene = Scene(problem, self.words)
+        self.canvas = SvgCanvas(Options())
+        self.canvas.open(0.0, 0.0, "", in_use())
+
+    def html(self) -> str:
+        """Return the document."""
+        here = files("planmethod.render.live")
+        style = here.joinpath("page.css").read_text("utf-8")
+        script = self.scene.sweep.javascript() + here.joinpath("page.js").read_text("utf-8")
+        said, problem = self.words.live, self.problem
+        policy = POLICY.format(script=_hash(script), style=_hash(style))
+        body = "\n".join((self._views(), self._numbers()))
+        return (
+            f'<!DOCTYPE html>\n<html lang="{self.words.lang}">\n<head>\n<meta charset="utf-8">\n'
+            f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f"<title>{escape(problem.title or problem.name)}</title>\n<style>{style}</style>\n"
+            f"</head>\n<body>\n<header><h1>{escape(problem.title or problem.name)}</h1>"
+            f"<p>{escape(problem.source)}</p></header>\n{self._bar()}\n{body}\n"
+            f"<footer>{escape(said.made)}</footer>\n"
+            f'<svg width="0" height="0" aria-hidden="true"><defs>{self.canvas.letters()}</defs>'
+            f'</svg>\n<script type="application/json" id="scene">{_data(self._scene())}</script>\n'
+            f"<script>{script}</script>\n</body>\n</html>\n"
+        )
+
+    def _bar(self) -> str:
+        said, drive, low, high = self.words.live, self.problem.drive, *self.scene.way
+        label = _rich(drive.coordinate.symbol)
+        unit = _rich(self.words.say.units[drive.coordinate.unit])
+        speeds = "".join(
+            f'<option value="{v}"{" selected" if v == 1 else ""}>×{v:g}</option>'
+            for v in (0.25, 0.5, 1, 2)
+        )
+        return (
+            f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
+            f'<input id="slider" type="range" min="{low!r}" max="{high!r}" step="any" '
+            f'aria-label="{escape(said.driver)}"><label>{label} = <input id="exact" type="number" '
+            f'step="any"> {unit}</label><select id="speed" aria-label="{escape(said.speed)}">'
+            f'{speeds}</select><label><input id="trace" type="checkbox" checked> '
+            f"{escape(said.traces)}</label></section>"
+            '<section id="why" role="status" hidden></section></div>'
+        )
+
+    # Pictures --------------------------------------------------------------------------------
+
+    def _views(self) -> str:
+        return '<main id="views">' + "\n".join(map(self._view, self.scene.views)) + "</main>"
+
+    def _view(self, view: View) -> str:
+        say, convention = self.words.say, self.problem.scales.convention
+        box = " ".join(f"{value:.3f}" for value in view.box)
+        scheme = view.id == "scheme"
+        zoom = "" if scheme else f'<span id="zoom-{view.id}"></span>'
+        labels = "".join(
+            f'<g id="label-{view.id}-{number}">{self._lettered(view, one)}</g>'
+            for number, one in enumerate(view.labels)
+        )
+        return (
+            f"<figure><figcaption>{_rich(view.title)} "
+            f"<span>{_rich(scale_inscription(view.scale, convention, say))}</span> {zoom}"
+            f'</figcaption><svg id="svg-{view.id}" viewBox="{box}">'
+            f'<g class="traces"></g>{"".join(self._parts()) if scheme else ""}'
+            f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
+        )
+
+    def _lettered(self, view: View, label: dict[str, Any]) -> str:
+        """Return the letters of an inscription from its start, and note their size."""
+        text = typeset(label.pop("text"), label.pop("height", LETTER))
+        label |= {"width": text.width, "up": text.ascent, "down": text.descent}
+        label["gap"] = 2.6 if view.id == "scheme" else 1.4
+        return self.canvas.parts(text.at(0j))
+
+    def _parts(self) -> Iterator[str]:
+        """Yield the parts of the scheme, those of a link in its own axes."""
+        shown = self.scene.shown
+        for number, part in enumerate(self.scene.parts):
+            drawn = self.canvas.parts(part.items)
+            if part.link == FRAME:
+                yield f"<g>{drawn}</g>"
+                continue
+            place = self.scene.foot(part.link)
+            start = complex(shown.paper.point(place)[part.index])
+            turn = float(shown.links[part.link].phi_deg[part.index])
+            back = f"rotate({turn:.6f}) translate({-start.real:.5f} {start.imag:.5f})"
+            yield f'<g id="part-{number}"><g transform="{back}">{drawn}</g></g>'
+
+    # Numbers ---------------------------------------------------------------------------------
+
+    def _numbers(self) -> str:
+        said, note = self.words.live, self.words.note
+        tables: dict[str, list[str]] = {}
+        for number, quantity in enumerate(self.scene.quantities):
+            kind = quantity.kind
+            title = (
+                said.forces if kind.is_force
+                else note.table_links if kind in TURNING
+                else note.table_sliding if kind.is_number
+                else note.table_points
+            )  # fmt: skip
+            tables.setdefault(title, []).append(self._row(number, quantity))
+        told = "".join(
+            f"<table><caption>{escape(title)}</caption><tbody>{''.join(rows)}</tbody></table>"
+            for title, rows in tables.items()
+        )
+        return (
+            f'<section><h2>{escape(said.diagrams)}</h2><p class="hint">{escape(said.choose)}</p>'
+            f'<div id="diagrams"></div></section>\n<section><h2>{escape(said.numbers)}</h2>'
+            f'<div id="numbers">{told}</div></section>'
+        )
+
+    def _row(self, number: int, quantity: Quantity) -> str:
+        unit = _rich(self.words.say.units[quantity.kind.unit])
+        symbol = _rich(self._symbol(quantity))
+        first = self.scene.row(quantity.columns[0])
+        cells = [f'<span id="cell-{first + k}" data-row="{first + k}"></span>' for k in (0, 1)]
+        pair = f"<span>x = {cells[0]};</span> <span>y = {cells[1]}</span>"
+        if quantity.kind is QuantityKind.PLACE:
+            return f"<tr><th>{symbol}</th><td>{pair}</td><td>{unit}</td></tr>"
+        value = cells[0]
+        if not quantity.kind.is_number and len(quantity.columns) > 1:
+            value = f'<span id="size-{number}"></span><small>{pair}</small>'
+        return (
+            f'<tr><th><button id="choose-{number}" aria-pressed="false">{symbol}</button></th>'
+            f"<td>{value}</td><td>{unit}</td></tr>"
+        )
+
+    def _symbol(self, quantity: Quantity) -> str:
+        balancing, say = self.problem.drive.balancing, self.words.say
+        roles = {"dr": balancing.symbol, "lever": f"lever {balancing.quantity}"}
+        if quantity.kind.is_force and quantity.of in roles:
+            return say.symbol(roles[quantity.of])
+        return point_name(quantity.of) if quantity.kind is QuantityKind.PLACE else quantity.symbol
+
+    # Data ------------------------------------------------------------------------------------
+
+    def _scene(self) -> dict[str, Any]:
+        scene, drive, say, said = self.scene, self.problem.drive, self.words.say, self.words.live
+        closings = scene.sweep.branches.values()
+        chosen = scene.chosen()
+        forces = scene.rows_of(lambda kind: kind.is_force)
+        return {
+            "rows": [row.name for row in scene.sweep.rows],
+            "way": list(scene.way),
+            "start": scene.start,
+            "crank": drive.is_crank,
+            "sense": -1 if drive.rate < 0 else 1,
+            "symbol": _runs(drive.coordinate.symbol),
+            "unit": ("" if drive.is_crank else " ") + _plain(say.units[drive.coordinate.unit]),
+            "branches": [
+                {"changes": list(one.changes), "start": one.start, "turn": one.turn}
+                for one in closings
+            ],
+            "loads": scene.loads(),
+            "places": scene.rows_of(lambda kind: kind is QuantityKind.PLACE),
+            "forces": forces,
+            "reasons": [_runs(text) for text in scene.reasons()],
+            "parts": [
+                {"id": f"part-{k}", "at": scene.place(scene.foot(part.link)),
+                 "turn": scene.row(f"{part.link}.phi_deg")}
+                for k, part in enumerate(scene.parts) if part.link != FRAME
+            ],
+            "views": [self._told(view) for view in scene.views],
+            "quantities": [
+                {
+                    "rows": [scene.row(column) for column in one.columns],
+                    "vector": len(one.columns) > 1,
+                    "symbol": _runs(self._symbol(one)),
+                    "unit": _runs(say.units[one.kind.unit]),
+                    "chosen": one.label in chosen,
+                }
+                for one in scene.quantities
+            ],
+            "words": {
+                "play": said.play, "pause": said.pause, "touch": said.touch,
+                "zoom": said.zoom, "nearest": said.nearest, "unknown": said.unknown,
+                "decimal": say.decimal, "mm": _plain(say.units["mm"]),
+            },
+        }  # fmt: skip
+
+    def _told(self, view: View) -> dict[str, Any]:
+        segments = [
+            {k: _runs(v) if k in ("name", "symbol") else v for k, v in one.items()}
+            for one in view.segments
+        ]
+        told: dict[str, Any] = {
+            "id": view.id,
+            "per_mm": view.per_mm,
+            "mu": view.scale.per_mm,
+            "unit": _runs(self.words.say.units[view.scale.unit]),
+            "box": list(view.box),
+            "segments": segments,
+            "labels": view.labels,
+            "turns": view.turns,
+            "pushes": view.pushes,
+            "fixed": self.scene.fixed if view.id == "scheme" else [],
+            "blocks": self.scene.blocks if view.id == "scheme" else [],
+            "apart": view.id.startswith("forces"),
+        }
+        origin = self.scene.construction.draft.origin
+        if view.id == "scheme" and origin:
+            told["origin"] = [origin.real, origin.imag]
+        return told
+
+
+def _plain(markup: str) -> str:
+    return "".join(text for text, _ in _runs(markup))

@@ -1,0 +1,116 @@
+"""The scheme cut into rigid parts, each with the link that it moves with (звенья по частям)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.draft import cis
+from planmethod.problem.model import Slide
+from planmethod.render.ink.drawing import Disc, Ink, Item
+from planmethod.render.pictures.scheme import AXIS, Scheme
+from planmethod.render.symbols import SIZES, guide_line, slider, turn_arrow
+from planmethod.render.symbols.axes import axis_line
+from planmethod.solved.solution import Solution
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Items that move with a link as one body, mm, as they lie in one position.
+
+    ``layer`` tells which parts lie over which.
+    """
+
+    link: str
+    index: int
+    layer: int
+    items: tuple[Item, ...]
+
+
+GUIDES, BODIES, LINES, JOINTS = range(4)
+
+
+def parts_of(solution: Solution, letter_height: float) -> tuple[list[Part], Scheme]:
+    """Return the parts of a scheme, what lies below first, and the scheme of the first position.
+
+    The positions of the solution are those that the mechanism moves through: slots and guides are
+    as long as they need.
+    """
+    problem = solution.problem
+    scheme = Scheme(solution, 0, letter_height)
+    found: list[Part] = []
+    for link in problem.mechanism.links:
+        before = len(scheme.lines), len(scheme.corners)
+        scheme.draw_link(link)
+        items = (*scheme.lines[before[0] :], *scheme.corners[before[1] :])
+        found.append(Part(link, 0, LINES, items))
+    for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
+        if slide.host == FRAME and not problem.is_block(slide):
+            found += _on_frame(scheme, slide)
+        else:
+            found += _on_link(scheme, slide, letter_height)
+    scheme.draw_joints()
+    pivots = {joint.point for joint in problem.mechanism.revolutes}
+    for joint in problem.mechanism.revolutes:
+        links = [link for link in joint.links if link != FRAME]
+        place = scheme.at(joint.point)
+        link = next((one for one in links if scheme.passes(one, place)), links[0])
+        found.append(Part(link, 0, JOINTS, tuple(scheme.joint_items(joint, place))))
+    for link, body in problem.bodies.items():
+        dots = tuple(
+            Disc(scheme.at(point), 0.8 * scheme.factor, Ink.BLACK)
+            for point in body.points
+            if link != FRAME and point not in pivots
+        )
+        found.append(Part(link, 0, JOINTS, dots))
+    fixed = [item for support in scheme.supports for item in support.items()]
+    found.append(Part(FRAME, 0, GUIDES, (*fixed, *_sense(scheme))))
+    return sorted((p for p in found if p.items), key=lambda part: part.layer), scheme
+
+
+def _on_link(scheme: Scheme, slide: Slide, letter_height: float) -> Iterator[Part]:
+    """Yield stone or block, and the bar that passes through a block, in full length."""
+    solution = scheme.solution
+    index = 0
+    if solution.problem.is_block(slide) and slide.through is not None:
+        paper = solution.paper
+        reach = paper.point(PointName(slide.pin)) - paper.point(PointName(slide.through))
+        index = int(np.argmax(np.abs(reach)))
+    alone = Scheme(solution, index, letter_height)
+    alone.draw_slider(slide)
+    body = slide.host if solution.problem.is_block(slide) else slide.slider
+    yield Part(body, index, BODIES, tuple(alone.bodies))
+    yield Part(slide.slider, index, LINES, tuple(alone.lines))
+
+
+def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[Part]:
+    """Yield a slider, and its fixed guide as long as the way, hatched away from the mechanism."""
+    solution, factor = scheme.solution, scheme.factor
+    along = cis(slide.angle)
+    angle, pin = slide.angle, scheme.at(slide.pin)
+    way = ((solution.paper.point(PointName(slide.pin)) - pin) * along.conjugate()).real
+    half = SIZES.slider_length / 2 * factor
+    low, high = float(way.min()) - half, float(way.max()) + half
+    bodies = (body.points for body in solution.problem.bodies.values() if slide.pin in body.points)
+    others = [solution.paper.point(PointName(p)) for points in bodies for p in points]
+    left = sum(float(np.sum(((at - pin) * along.conjugate()).imag)) for at in others)
+    guide = guide_line(
+        pin, angle=angle, before=-low + 2, after=high + 2, side=-1 if left > 0 else 1, factor=factor
+    )
+    beyond = AXIS * factor
+    axis = axis_line(pin + along * (low - beyond), pin + along * (high + beyond), tag="guide")
+    yield Part(FRAME, 0, GUIDES, (*axis, *guide))
+    yield Part(slide.slider, 0, BODIES, tuple(slider(pin, angle=angle, factor=factor)))
+
+
+def _sense(scheme: Scheme) -> list[Item]:
+    """Return the arrow of a crank's sense."""
+    drive = scheme.solution.problem.drive
+    if drive.pivot is None:
+        return []
+    sense = (drive.rate > 0) - (drive.rate < 0)
+    return turn_arrow(scheme.at(drive.pivot), 7.0 * scheme.factor, sense, middle=45.0, sweep=80.0)

@@ -1,0 +1,506 @@
+"""What moves on the page, as plain data: outputs of the tape by number, and where they are drawn.
+
+A view has a box, mm, and a scale at which the tape's SI numbers are drawn in it; segments and
+inscriptions hang on outputs. Lengths in millimetres are told at the scales of the sheets, `mu`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.scale import Scale
+from planmethod.construct.steps import Name, PointName
+from planmethod.errors import AssemblyError
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.forces.statement import link_names
+from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.letters import mark, shown_letters
+from planmethod.note.wording import Language
+from planmethod.plans.forces.polygons import Edge, Share
+from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.model import FACTS, PlanKind
+from planmethod.problem.bodies import rotation
+from planmethod.problem.load_records import Fixed, Interpolation, Over, Table, Turning
+from planmethod.problem.model import Problem
+from planmethod.render.ink.drawing import Stroke
+from planmethod.render.live.parts import Part, parts_of
+from planmethod.render.pictures.planview import COMPONENTS, similar_lines
+from planmethod.render.symbols import SIZES
+from planmethod.solved.asked import results_for
+from planmethod.solved.course.motion import TurnMotion
+from planmethod.solved.cycle import only_in_positions
+from planmethod.solved.forces.loads import AHEAD, applied
+from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
+from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.scaling import OUTLIER
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
+
+Array = npt.NDArray[Any]
+Ref = list[int]
+"""Outputs of the two coordinates of a point: ``[k]`` is (k, k+1); ``[k, 1]`` is turned by 90°."""
+
+BOX = (105.0, 80.0)
+"""What a view's picture fills, mm: on a telephone its letters of 5 mm are read."""
+
+SHAPE = 1.3
+"""Width of all views by their height, so that they stand in rows."""
+
+LETTER, SMALL = 5.0, 4.5
+_STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
+_LOOKS = 4  # so many times finer is the way looked at
+
+
+@dataclass(slots=True)
+class View:
+    """One picture that moves: the scheme, a plan, the lever.
+
+    ``segments`` are ``{a, b, style, arrow, name, symbol}``; ``labels`` are ``{text, height}`` with
+    ``at`` (a point) or ``on`` (a segment); ``turns`` are couples, ``pushes`` forces not to scale.
+    """
+
+    id: str
+    title: str
+    scale: Scale
+    per_mm: float = 1.0
+    box: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
+    segments: list[dict[str, Any]] = field(default_factory=list)
+    labels: list[dict[str, Any]] = field(default_factory=list)
+    turns: list[dict[str, Any]] = field(default_factory=list)
+    pushes: list[dict[str, Any]] = field(default_factory=list)
+
+
+class Scene:
+    """A problem as it moves.
+
+    Parameters
+    ----------
+    problem : Problem
+    words : Language
+
+    Attributes
+    ----------
+    sweep : Sweep
+        The tape: its rows are the outputs.
+    views : list of View
+    parts : list of Part
+        Of the scheme.
+    shown : Solution
+        Of the positions that the mechanism moves through, at the scale of the scheme's view.
+
+    Raises
+    ------
+    StructureError, ProblemError, SelfCheckError
+    AssemblyError
+        There is no position at all.
+    """
+
+    def __init__(self, problem: Problem, words: Language) -> None:
+        self.problem, self.words = problem, words
+        self._drawn: dict[Name, int] = {}
+        bare = Solution(problem, positions=[])
+        self.construction = bare.construction
+        has_loads = problem.dynamics is not None
+        results = results_for(bare, None, forces=has_loads)
+        self.quantities: tuple[Quantity, ...] = results.choose(None)
+        self.columns = [column for one in self.quantities for column in one.columns]
+        self._row = {column: number for number, column in enumerate(self.columns)}
+        self.planned: Planned | None = None
+        if has_loads:
+            draft = self.construction.draft.copy()
+            self.planned = plan_forces(bare, draft, applied(bare))
+        self.views: list[View] = [
+            self._scheme(),
+            *(self._plan(kind) for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)),
+            *(self._forces() if self.planned is not None else []),
+        ]
+        self.sweep = Sweep(problem, forces=has_loads, drawn=tuple(self._drawn))
+        assert [row.name for row in self.sweep.rows][: len(self._row)] == self.columns
+        self._look()
+        self.parts: list[Part]
+        self.parts, self._drawing = parts_of(self.shown, LETTER)
+        self._fit()
+        # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
+        self.fixed = [
+            [[end.real, -end.imag] for end in item.points[:2]]
+            for part in self.parts
+            for item in part.items
+            if part.link == FRAME and isinstance(item, Stroke) and _long(item)
+        ]
+        self.blocks = [[self.place(slide.pin), 5.0] for slide in problem.slides.values()]
+
+    # Outputs ---------------------------------------------------------------------------------
+
+    def _ref(self, name: Name) -> Ref:
+        number = self._drawn.setdefault(name, len(self._drawn))
+        return [len(self.columns) + 2 * number]
+
+    def place(self, point: str) -> Ref:
+        """Return the outputs of the place of a point of the mechanism."""
+        return [self._row[f"{point}.x"]]
+
+    def foot(self, link: str) -> PointName:
+        """Return the point of a link that its parts hang on."""
+        return PointName(next(iter(self.problem.bodies[link].points)))
+
+    def rows_of(self, chosen: Callable[[QuantityKind], bool]) -> list[int]:
+        """Return the outputs of all quantities of some kinds."""
+        return [
+            self._row[name] for one in self.quantities if chosen(one.kind) for name in one.columns
+        ]
+
+    def row(self, column: str) -> int:
+        """Return the output of a column of ``solve --csv``."""
+        return self._row[column]
+
+    # Views -----------------------------------------------------------------------------------
+
+    def _scheme(self) -> View:
+        kind = PlanKind.POSITION
+        view = View("scheme", self.words.sheets.views[kind.value][0], _unit(kind))
+        bodies = self.problem.bodies
+        points = dict.fromkeys(p for body in bodies.values() for p in body.points)
+        known = [p for p in points if f"{p}.x" in self._row]
+        for segment in self.construction.segments:
+            ends = segment.name.split("-")
+            if segment.kind is kind and all(end in known for end in ends):
+                view.segments.append(
+                    {
+                        "a": self.place(ends[0]),
+                        "b": self.place(ends[1]),
+                        "style": "hidden",
+                        "name": mark(*ends),
+                        "symbol": f"l_{{{''.join(ends)}}}",
+                    }
+                )
+        view.labels += [{"at": self.place(p), "text": point_name(p)} for p in known]
+        for link, body in bodies.items():
+            ends = [p for p in body.points if p in known]
+            if link == FRAME or not ends:
+                continue
+            where = [self.place(ends[0]), self.place(ends[-1])]
+            view.labels.append({"text": link, "height": SMALL, "on": where})
+        return view
+
+    def _plan(self, kind: PlanKind) -> View:
+        plan, problem = self.construction.plan(kind), self.problem
+        view = View(kind.value, self.words.sheets.views[kind.value][0], _unit(kind))
+        letters = shown_letters(problem, plan)
+        for tail, head in similar_lines(Solution(problem, positions=[]), plan):
+            view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
+        for vector in plan.vectors:
+            thin = vector.kind in COMPONENTS
+            ends = [letters[end][0] for end in (vector.tail, vector.head)]
+            view.segments.append(
+                {
+                    "a": self._ref(vector.tail),
+                    "b": self._ref(vector.head),
+                    "style": "thin" if thin else "main",
+                    "arrow": True,
+                    "name": "".join(ends),
+                    "symbol": vector.symbol,
+                }
+            )
+        for at, own in letters.items():
+            view.labels.append({"at": self._ref(at), "text": ", ".join(own)})
+        return view
+
+    def _forces(self) -> list[View]:
+        assert self.planned is not None
+        said, found = self.words.sheets, []
+        for number, plan in enumerate(self.planned.board.plans):
+            whose = said.plan_of_group if len(plan.links) > 1 else said.plan_of_link
+            title = whose.format(links=link_names(plan.links))
+            view = View(f"forces-{number}", title, _unit(PlanKind.FORCE))
+            inner = () if plan.inner is None else (plan.inner,)
+            for edge in (*plan.polygon, *plan.wholes, *inner):
+                self._edge(view, edge, beside=edge not in plan.polygon)
+            found.append(view)
+        lever = self._lever()
+        return [*found, lever] if lever is not None else found
+
+    def _edge(self, view: View, edge: Edge, *, beside: bool) -> None:
+        symbol = self.words.say.symbol(edge.symbol)
+        view.labels.append({"text": symbol, "height": SMALL, "of": len(view.segments)})
+        view.segments.append(
+            {
+                "a": self._ref(edge.tail),
+                "b": self._ref(edge.head),
+                "style": "main" if edge.share is Share.WHOLE else "thin",
+                "arrow": True,
+                "symbol": symbol,
+                "beside": beside,
+            }
+        )
+
+    def _lever(self) -> View | None:
+        assert self.planned is not None
+        lever, say = self.planned.lever, self.words.say
+        if lever is None:
+            return None
+        velocity = self.construction.plan(PlanKind.VELOCITY)
+        view = View("lever", self.words.sheets.lever, _unit(PlanKind.LEVER))
+        bare = Solution(self.problem, positions=[])
+        letters = shown_letters(self.problem, velocity)
+        lines = [(vector.tail, vector.head) for vector in velocity.vectors]
+        for tail, head in [*lines, *similar_lines(bare, velocity)]:
+            a, b = [*self._ref(tail), 1], [*self._ref(head), 1]
+            view.segments.append({"a": a, "b": b, "style": "thin"})
+        for at, own in letters.items():
+            view.labels.append({"at": [*self._ref(at), 1], "text": ", ".join(own)})
+
+        def push(at: Ref, symbol: str, tail: PointName, head: PointName) -> None:
+            view.labels.append(
+                {"text": say.symbol(symbol), "height": SMALL, "push": len(view.pushes)}
+            )
+            ends = {"tail": self._ref(tail), "head_at": self._ref(head)}
+            view.pushes.append({"at": at, "symbol": say.symbol(symbol), **ends})
+
+        def turn(link: str, symbol: str, couple: Name) -> None:
+            view.labels.append(
+                {"text": say.symbol(symbol), "height": SMALL, "turn": len(view.turns)}
+            )
+            omega = self._row[f"{link}.omega"]
+            view.turns.append(
+                {"on": self._segment_of(link), "couple": self._ref(couple)[0], "omega": omega}
+            )
+
+        for hung in lever.loads:
+            one = hung.given.applied
+            if hung.at is None and hung.given.couple is not None:
+                turn(one.link, one.name, hung.given.couple)
+            elif hung.at is not None and hung.given.force is not None:
+                push(self._ref(hung.at), one.name, *hung.given.force.ends)
+        drive, driving = self.problem.drive, self.planned.driving
+        if driving.force is None:
+            turn(drive.link, drive.balancing.symbol, lever.balance)
+        else:
+            motion = self.construction.kinematics.velocity
+            pin = motion.point[drive.link, self.problem.slides[drive.link].pin]
+            push([*self._ref(pin), 1], drive.balancing.symbol, *driving.force.ends)
+        return view
+
+    def _segment_of(self, link: str) -> list[Ref]:
+        """Return the ends of the segment of the turned velocity plan that stands for a link."""
+        motion = self.construction.kinematics.velocity
+        own = [at for (name, _), at in motion.point.items() if name == link]
+        ends = [own[0], next((at for at in own if at != own[0]), own[0])]
+        return [[*self._ref(end), 1] for end in ends]
+
+    def chosen(self) -> set[str]:
+        """Return the labels of what has a diagram from the start: the motion of the last link."""
+        link = self.construction.draft.problem.mechanism.links[-1]
+        groups = Solution(self.problem, positions=[]).structure.groups
+        link = groups[-1].links[-1] if groups else link
+        slide = self.problem.slides.get(link)
+        if slide is not None and slide.host == FRAME:
+            found = {f"v_{slide.pin}", f"a_{slide.pin}"}
+        else:
+            found = {f"omega_{link}", f"epsilon_{link}"}
+        return found | {"M_dr", "F_dr"}
+
+    # The way of the driver -------------------------------------------------------------------
+
+    def _look(self) -> None:
+        """Look where the mechanism can go; choose the scales."""
+        drive = self.problem.drive
+        if drive.is_crank:
+            self.way = (0.0, self._cycle())
+        else:
+            self.way = self._reach()
+        count = _STEPS[drive.is_crank] * _LOOKS
+        self.grid = np.linspace(*self.way, count + 1)
+        values, failed = self._run(self.grid)
+        own = np.asarray(drive.positions, dtype=float)
+        own_values, own_failed = self._run(own)
+        self.values = np.hstack((values, own_values))
+        able, mine = self.grid[failed < 0][::_LOOKS], own[own_failed < 0]
+        if not (able.size or mine.size):
+            failure = self.sweep.failure(float(own[0]))
+            raise AssemblyError(str(failure) if failure is not None else "no position exists")
+        nominal = Solution(self.problem, positions=(mine if mine.size else able).tolist())
+        verify(nominal)
+        self.scales = dict(nominal.scales)
+        if self.planned is not None:
+            self.scales[PlanKind.FORCE] = statics_of(nominal).scale
+        self.scales[PlanKind.LEVER] = self.scales[PlanKind.VELOCITY]
+        places = self._of_places()
+        extent = max(np.ptp(places.real) / BOX[0], np.ptp(places.imag) / BOX[1])
+        per_mm = float(extent) or 1.0
+        unit = {kind: Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit) for kind in PlanKind}
+        unit[PlanKind.POSITION] = Scale("mu_l", per_mm, "m")
+        chosen = able if able.size else mine
+        self.shown = Solution(self.problem, positions=chosen.tolist(), scales=unit)
+        self.start = float(mine[0] if mine.size else able[0])
+        if drive.is_crank:
+            self.start %= self.way[1]
+
+    def _run(self, positions: Array) -> tuple[Array, Array]:
+        """Return the outputs in some positions, and the first guard that fails, or -1.
+
+        Loads that are known in the file's positions only leave no forces in others.
+        """
+        failed = np.empty(positions.shape, np.int16)
+        dynamics, own = self.problem.dynamics, self.problem.drive.positions
+        if dynamics is None or not only_in_positions(dynamics) or positions.tolist() == list(own):
+            return self.sweep.run(positions, failed=failed), failed
+        ahead = FACTS[PlanKind.FORCE].prefix
+        drawn = [name for name in self._drawn if not name.startswith(ahead)]
+        motion = Sweep(self.problem, drawn=drawn)
+        values = np.full((len(self.sweep.rows), len(positions)), np.nan)
+        number = {row.name: k for k, row in enumerate(self.sweep.rows)}
+        values[[number[row.name] for row in motion.rows]] = motion.run(positions, failed=failed)
+        return values, failed
+
+    def _of_places(self) -> Array:
+        rows = self.rows_of(lambda kind: kind is QuantityKind.PLACE)
+        places = self.values[rows[::2]] + 1j * self.values[rows[1::2]]
+        return np.asarray(places[:, ~np.isnan(places).any(axis=0)])
+
+    def _reach(self) -> tuple[float, float]:
+        """Return the way of a driving slider: its positions, and on as far as it goes."""
+        own = np.asarray(self.problem.drive.positions, dtype=float)
+        low, high = float(own.min()), float(own.max())
+        size = max([high - low, *(length for _, _, length in self.problem.lengths)]) or 1.0
+        ends = []
+        for start, sense in ((low, -1.0), (high, 1.0)):
+            there = start + sense * size * np.linspace(0.0, 0.5, 1001)
+            stop = np.flatnonzero(self._run(there)[1] >= 0)
+            ends.append(float(there[max(0, stop[0] - 1)]) if stop.size else float(there[-1]))
+        return ends[0], ends[1]
+
+    # Boxes -----------------------------------------------------------------------------------
+
+    def _fit(self) -> None:
+        """Choose the box and the scale of every view; the scheme's is as its parts are drawn."""
+        for view in self.views:
+            view.scale = self.scales[kind_of(view)]
+            if view.id == "scheme":
+                view.per_mm = self.shown.scales[PlanKind.POSITION].per_mm
+                places = (self._of_places() - self.construction.draft.origin) / view.per_mm
+                view.box = _box(places.ravel(), 17.0)
+                continue
+            refs = [end for one in view.segments for end in (one["a"], one["b"])]
+            refs += [one["at"] for one in view.labels if "at" in one] or [[0]]
+            ends = np.array([self._values(ref) for ref in refs])
+            ends = ends[:, ~np.isnan(ends).any(axis=0)]
+            sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
+            ends = ends[:, sizes <= OUTLIER * np.median(sizes)] if sizes.size else np.zeros((1, 1))
+            extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
+            view.per_mm = float(extent) or 1.0
+            view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
+
+    def _values(self, ref: Ref) -> Array:
+        place = self.values[ref[0]] + 1j * self.values[ref[0] + 1]
+        return np.asarray(1j * place if ref[1:] else place)
+
+    # Loads -----------------------------------------------------------------------------------
+
+    def loads(self) -> dict[str, Any] | None:
+        """Return the loads that differ from position to position; None if there are none."""
+        dynamics = self.problem.dynamics
+        if self.sweep.loads is None or dynamics is None:
+            return None
+        by_name = {load.name: load for load in dynamics.loads}
+        named = self.construction.kinematics.velocity.named
+        bodies = (self.problem.bodies[link] for link in self.problem.mechanism.links)
+        return {
+            "list": [self._load(by_name[name]) for name in self.sweep.loads.loads],
+            "speeds": [self._row[f"{name}.vx"] for name in named],
+            "omegas": [self._row[f"{link}.omega"] for link in self.problem.mechanism.links],
+            "reach": max(abs(z) for body in bodies for z in body.points.values()) or 1.0,
+            "positions": list(self.problem.drive.positions),
+        }
+
+    def _cycle(self) -> float:
+        """Return after how many degrees all is as before, the loads too."""
+        dynamics, machine = self.problem.dynamics, self.problem.machine
+        tables = [load.size for load in dynamics.loads] if dynamics is not None else []
+        turns = [table.turn for table in tables if isinstance(table, Table)]
+        if machine is not None and any(isinstance(table, Table) for table in tables):
+            turns.append(machine.cycle_deg)
+        return max([360.0, *turns])
+
+    def _stroke(self, point: str) -> dict[str, Any]:
+        turn = TurnMotion(self.problem)
+        stroke = turn.stroke(point)
+        return {
+            "start": [stroke.start.real, stroke.start.imag],
+            "towards": [stroke.towards.real, stroke.towards.imag],
+            "dead": stroke.dead.tolist(),
+            "first": turn.start_deg,
+            "sense": turn.sense,
+            "cycle": turn.cycle,
+        }
+
+    def _load(self, load: Any) -> dict[str, Any]:
+        phase = load.phase
+        told: dict[str, Any] = {"omega": self._row[f"{load.link}.omega"]}
+        size = load.size
+        if isinstance(size, Table):
+            told["over"], told["step"] = size.over.value, size.interpolation is Interpolation.STEP
+            told["at"], told["values"] = list(size.at), list(size.values)
+            told["turn"] = size.turn
+            if size.over in (Over.PATH, Over.STROKES):
+                told["stroke"] = self._stroke(load.at)
+        else:
+            told["size"] = size
+        if phase is not None:
+            told["spans"] = [list(span) for span in phase.phi]
+            if phase.moving is not None:
+                ahead = AHEAD[phase.moving]
+                told["ahead"] = [ahead.real, ahead.imag]
+            if phase.turning is not None:
+                told["turning"] = 1 if phase.turning is Turning.CCW else -1
+        if hasattr(load, "at"):
+            told["place"], told["speed"] = self._row[f"{load.at}.x"], self._row[f"{load.at}.vx"]
+            if isinstance(load.sense, Fixed):
+                along = rotation(load.sense.angle)
+                told["along"] = [along.real, along.imag]
+        else:
+            told["against"] = load.sense is not None
+        return told
+
+    def reasons(self) -> list[str]:
+        """Return for every guard of the tape why a position has no results where it fails."""
+        said = self.words.live
+        sentences = {
+            PlanKind.POSITION: said.no_place,
+            PlanKind.FORCE: said.no_forces,
+            PlanKind.LEVER: said.no_forces,
+        }
+        return [
+            sentences.get(kind, said.dead).format(point=point_name(step.partition("~")[0]))
+            for step, kind in self.sweep.guards
+        ]
+
+
+def _unit(kind: PlanKind) -> Scale:
+    return Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit)
+
+
+def kind_of(view: View) -> PlanKind:
+    """Return the plan that a view shows."""
+    name = {"scheme": "position"}.get(view.id, view.id.partition("-")[0])
+    return PlanKind.FORCE if name == "forces" else PlanKind(name)
+
+
+def _long(item: Stroke) -> bool:
+    return abs(item.points[1] - item.points[0]) > 1.5 * SIZES.hatch_stroke
+
+
+def _box(places: Array, margin: float) -> tuple[float, float, float, float]:
+    """Return left, top (y down), width and height of a box around places, mm."""
+    if not places.size:
+        places = np.zeros(1, complex)
+    low = complex(places.real.min(), places.imag.min())
+    high = complex(places.real.max(), places.imag.max())
+    middle, size = (low + high) / 2, high - low
+    width = 2 * margin + max(size.real, SHAPE * (size.imag + 2 * margin) - 2 * margin, BOX[0])
+    height = width / SHAPE
+    return middle.real - width / 2, -middle.imag - height / 2, width, height

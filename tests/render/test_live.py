@@ -1,0 +1,252 @@
+"""The page of a moving mechanism: its numbers, its pictures, and strangers' text in it."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from browser import PROGRAM, Page, browsing
+from cases import each, some
+from click.testing import CliRunner
+from worked import PROBLEMS, path_of, problem_of
+
+from benchmarks.generator import random_problem
+from planmethod.cli import cli
+from planmethod.errors import ExitCode
+from planmethod.note.wording import language
+from planmethod.problem import loads
+from planmethod.problem.model import Problem
+from planmethod.render.live.page import live_page
+from planmethod.render.live.scene import Scene
+from planmethod.solved.many.sweep import Sweep
+
+AGREE = 1e-12
+"""Of the largest value of a row."""
+
+WATT = """title = "</script><script>alert(1)</script> & <b>Watt</b>"
+source = "a linkage of two rockers"
+frame = { A = [0, 0], D = [0.4, 0.1] }
+driver = { link = "1", phi = 5, omega = 2 }
+assembly = { C = "above B" }
+[links.1]
+points = ["A", "B"]
+AB = 0.2
+[links.2]
+points = ["B", "C", "M"]
+BC = 0.1
+M = { on = "BC", at = 0.05 }
+[links.3]
+points = ["C", "D"]
+CD = 0.2
+[dynamics.links.2]
+mass = 3
+centre = "M"
+inertia = 0.002
+"""
+
+LOADS = {
+    "against the motion, one way, over x": 'link = "2"\nat = "M"\nagainst = "velocity"\n'
+    'phases = { moving = "up" }\nforce = { over = "x", values = [[0.1, 5], [0.19, 9], [0.2, 2]], '
+    'interpolation = "step" }',
+    "over a span of phi": 'link = "2"\nat = "C"\nangle = 30\nforce = -5\n'
+    "phases = { phi = [[350, 20]] }",
+    "a couple over phi": 'link = "3"\nphases = { turning = "cw" }\n'
+    'couple = { over = "phi", values = [[20, 1], [100, 4], [300, 7]], interpolation = "linear" }',
+    "a couple against the rotation": 'link = "3"\ncouple = 2\nagainst = "rotation"',
+}
+
+
+def watt(load: str = "") -> Problem:
+    return loads(WATT + (f"[[loads]]\n{load}\n" if load else ""), name="watt")
+
+
+# The tape in JavaScript -------------------------------------------------------------------------
+
+
+def apart(made: np.ndarray, sweep: Sweep, positions: np.ndarray) -> float:
+    """Return how far outputs are from the sweep's, as parts of the largest of the row."""
+    exact = sweep.run(positions)
+    assert (np.isnan(made) == np.isnan(exact)).all()
+    assert np.isfinite(exact).any()
+    largest = np.max(np.abs(np.nan_to_num(exact)), axis=1, keepdims=True)
+    forces = [row.name[:2] in ("f:", "F.") for row in sweep.rows]
+    if any(forces):  # what cancels is nothing beside the other forces
+        largest[forces] = np.maximum(largest[forces], 1e-3 * largest[forces].max())
+    return float(np.max(np.nan_to_num(np.abs(made - exact) / np.maximum(largest, 1e-300))))
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+@each("seed", range(some(60, 5)))
+def test_the_printed_tape_gives_the_numbers_of_the_sweep(seed: int) -> None:
+    problem = loads(random_problem(seed)[0], name="random")
+    sweep = Sweep(problem)
+    first = problem.drive.positions[0]
+    positions = np.concatenate((first + np.linspace(-400, 400, 161), 90.0 * np.arange(-5, 6)))
+    if not problem.drive.is_crank:
+        positions = first + np.linspace(-1.0, 1.0, 161)
+    script = (
+        f"{sweep.javascript()}\nconst all = {json.dumps(positions.tolist())}.map(x => run(x));\n"
+        "console.log(JSON.stringify(all.map(o => o.map(v => v === v ? v : null))));"
+    )
+    done = subprocess.run(["node", "-"], input=script, capture_output=True, text=True, check=True)
+    found = np.array(json.loads(done.stdout), dtype=float).T
+    assert apart(found[:-1], sweep, positions) < AGREE
+    failed = np.empty(len(positions), np.int16)
+    sweep.run(positions, failed=failed)
+    assert (found[-1] == failed).all()
+
+
+# In a browser -----------------------------------------------------------------------------------
+
+needs_chromium = pytest.mark.skipif(PROGRAM is None, reason="chromium is not installed")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    with browsing(tmp_path_factory.mktemp("browser")) as browser:
+        yield browser
+
+
+def opened(page: Page, problem: Problem, folder: Path, lang: str = "ru") -> Scene:
+    """Open the page of a problem on a telephone; return what is on it."""
+    file = folder / "live.html"
+    file.write_text(live_page(problem, lang), "utf-8")
+    page.said.clear()
+    page.open(file, width=360, height=740)
+    return Scene(problem, language(lang))
+
+
+@needs_chromium
+@pytest.mark.parametrize("name", ["linkages/ex3", "press/press"])
+def test_the_slider_moves_everything_to_the_numbers_of_solve(
+    name: str, page: Page, tmp_path: Path
+) -> None:
+    scene = opened(page, problem_of(name), tmp_path)
+    for phi in (20.0, 218.918918918919, 301.25):
+        page.ask(f"slider.value = {phi}; slider.dispatchEvent(new Event('input'))")
+        run = CliRunner().invoke(cli, ["solve", str(path_of(name)), "--json", "--phi", str(phi)])
+        (told,) = json.loads(run.output)["positions"]
+        shown = page.ask(
+            "Object.fromEntries([...document.querySelectorAll('[data-row]')].map(node =>"
+            " [D.rows[node.dataset.row], +node.dataset.value]))"
+        )
+        for point, values in told["points"].items():
+            for key in ("x", "y", "vx", "vy", "ax", "ay"):
+                size = max(abs(values[key[:-1] + axis]) for axis in "xy")
+                assert shown[f"{point}.{key}"] == pytest.approx(values[key], abs=AGREE * (size + 1))
+        for link, values in told["links"].items():
+            for key in ("phi_deg", "omega", "epsilon"):
+                assert shown[f"{link}.{key}"] == pytest.approx(values[key], rel=AGREE, abs=AGREE)
+        if "forces" in told:
+            balance = told["forces"]["driving"]["moment"]
+            assert shown["driving.moment"] == pytest.approx(balance, rel=1e-11)
+        # What is drawn: every vector at the scale of its view, every link where its point is.
+        for view in scene.views:
+            lines = page.ask(
+                f"D.views.find(v => v.id === '{view.id}').segments.map(one => one.ends && "
+                "[Math.hypot(one.ends[1][0] - one.ends[0][0], one.ends[1][1] - one.ends[0][1]),"
+                " one.line.getTotalLength()])"
+            )
+            assert sum(line is not None for line in lines) >= 2, view.id
+            assert all(line[0] == pytest.approx(line[1], abs=0.01) for line in lines if line)
+    values = page.ask("(planmethod.show(301.25), at(301.25))")
+    for part in scene.parts:
+        if part.link in scene.problem.mechanism.links:
+            x, turn = (
+                values[scene.place(scene.foot(part.link))[0]],
+                values[scene.row(f"{part.link}.phi_deg")],
+            )
+            placed = page.ask(f"byId('part-{scene.parts.index(part)}').getAttribute('transform')")
+            numbers = [float(text) for text in re.findall(r"-?[\d.]+", placed)]
+            assert numbers[0] == pytest.approx(x / scene.views[0].per_mm, abs=1e-3)
+            assert -numbers[2] == pytest.approx(turn, abs=1e-4)
+    assert page.ask("document.documentElement.scrollWidth") == 360
+    assert not page.said
+
+
+@needs_chromium
+def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: Path) -> None:
+    opened(page, watt(), tmp_path, "en")
+    assert page.ask("document.title").startswith("</script><script>alert(1)")
+    assert page.ask("document.scripts.length") == 2
+    assert page.ask("document.querySelectorAll('b').length") == 0
+    assert page.ask("byId('why').hidden")
+    page.ask("planmethod.show(60)")
+    told = page.ask("byId('why').textContent")
+    assert told.startswith("There is no such position: point C cannot be placed.")
+    near = [float(text) for text in re.findall(r"= ([\d.]+)°", told)]
+    sweep = Sweep(watt())
+    for edge, inside in zip(near, (-0.001, 0.001), strict=True):
+        values = sweep.run(np.array([edge + inside, edge - inside]))
+        assert np.isnan(values).any(axis=0).tolist() == [False, True]
+    assert page.ask("document.querySelectorAll('figure.gone').length") == len(Scene(
+        watt(), language("en")).views)  # fmt: skip
+    assert set(page.ask("[...document.querySelectorAll('[data-row]')].map(n => n.textContent)")) > {
+        "—"
+    }
+    # Where there is no way on the driver turns back; it does not jump over the gap.
+    page.ask(
+        "planmethod.show(57); sense = 1; playing = 1; for (let t = 20; t < 2000; t += 20) tick(t)"
+    )
+    assert page.ask("sense") == -1
+    assert page.ask("exists(now)")
+    assert not page.said
+
+
+@needs_chromium
+def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) -> None:
+    problems = {told: watt(load) for told, load in LOADS.items()}
+    problems |= {name: problem_of(f"machines/{name}") for name in ("engine", "compressor")}
+    for told, problem in problems.items():
+        scene = opened(page, problem, tmp_path)
+        assert scene.loads() is not None, told
+        positions = np.concatenate((np.linspace(-29.0, 57.0, 87) % 360.0, [20.0, 350.0]))
+        if problem.machine is not None:
+            positions = np.linspace(*scene.way, 121)
+        asked = f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v === v ? v : null))"
+        made = np.array(page.ask(asked), dtype=float).T[:-1]
+        assert apart(made, scene.sweep, positions) < 1e-11, told
+        assert not page.said, told
+
+
+# The file ---------------------------------------------------------------------------------------
+
+
+def test_the_page_asks_for_nothing_and_runs_nothing_of_strangers() -> None:
+    text = live_page(watt(), "en")
+    assert "default-src 'none'" in text
+    assert "unsafe" not in text
+    assert text.count("<script") == text.count("</script>") == 2
+    assert "alert(1)</script>" not in text.replace("&lt;/script&gt;", "")
+    assert not re.search(r'(?:src|href)="(?!#)', text)
+    assert not set(re.findall(r"https?://[\w./]+", text)) - {"http://www.w3.org/2000/svg"}
+
+
+@pytest.mark.parametrize(
+    ("name", "code", "said"),
+    [
+        ("gears/gears-ex1.toml", ExitCode.PROBLEM, "links"),
+        ("no-such.toml", ExitCode.PROBLEM, "no-such"),
+    ],
+)
+def test_what_is_no_linkage_is_refused(
+    name: str, code: ExitCode, said: str, tmp_path: Path
+) -> None:
+    run = CliRunner().invoke(cli, ["live", str(PROBLEMS / name), "-o", str(tmp_path)])
+    assert run.exit_code == code
+    assert said in run.output
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_mechanism_without_any_position_has_no_page(tmp_path: Path) -> None:
+    file = tmp_path / "watt.toml"
+    file.write_text(WATT.replace("phi = 5", "phi = 100").replace("[0.4, 0.1]", "[4, 1]"), "utf-8")
+    run = CliRunner().invoke(cli, ["live", str(file), "-o", str(tmp_path)])
+    assert run.exit_code == ExitCode.ASSEMBLY
+    assert "arcs from B" in run.output
