@@ -27,6 +27,26 @@ def pytest_configure(config: pytest.Config) -> None:
     gc.set_threshold(100_000)
 
 
+DRAWN = ("render/", "test_sheets.py", "note/", "gears/", "moving/", "check/test_drawn", "commands/")
+"""Where a case takes long, and many cases of a test show the same."""
+
+MANY = 4
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Take every other case of a test that has many, but for ``--thorough``."""
+    if config.getoption("--thorough") or any("::" in word for word in config.args):
+        return
+    found: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        name, bracket, _ = item.nodeid.partition("[")
+        if bracket and name.removeprefix("tests/").startswith(DRAWN):
+            found.setdefault(name, []).append(item)
+    left = {id(one) for own in found.values() if len(own) >= MANY for one in own[1::2]}
+    config.hook.pytest_deselected(items=[item for item in items if id(item) in left])
+    items[:] = [item for item in items if id(item) not in left]
+
+
 @pytest.fixture(scope="session", autouse=True)
 def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """The tests read an empty config file, never that of who runs them; no warning is let pass."""
