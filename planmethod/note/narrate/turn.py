@@ -37,20 +37,23 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
     def size(value: float) -> str:
         return degrees(value, words) if unit == "°" else with_unit(say.found(value), unit)
 
+    def place(phi: float) -> str:
+        # Of a full turn as the table beside has it; within a range as its limits are.
+        return degrees(phi if turn.range else round(phi % TURN, 2) % TURN, words)
+
     facts = [said.output[output.unit].format(name=output_name(output), link=output.link)]
     if turn.range is None:
         facts.append(said.full_turn)
         if turn.tightest is not None:
             links, at = turn.tightest
-            phi = degrees(at % TURN, words)
-            facts.append(said.tightest.format(links=", ".join(links), phi=phi))
+            facts.append(said.tightest.format(links=", ".join(links), phi=place(at)))
     else:
         low, high = (degrees(limit, words) for limit in turn.range)
         links = tuple(dict.fromkeys(link for end in turn.range for link in turn.stopping(end)))
         facts.append(said.range.format(low=low, high=high, links=", ".join(links)))
-    facts.append(said.zero.format(phi=degrees(float(turn.positions[0]), words)))
+    facts.append(said.zero.format(phi=place(float(turn.positions[0]))))
     if turn.extremes:
-        ends = (f"{degrees(one.phi, words)} ({size(one.value)})" for one in turn.extremes)
+        ends = (f"{place(one.phi)} ({size(one.value)})" for one in turn.extremes)
         facts.append(said.extremes.format(extremes=", ".join(ends)))
     stroke = said.stroke[output.unit]
     if turn.stroke is not None:
@@ -64,8 +67,8 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         facts.append(_none("K_{v}", turn.why_no_ratio, words))
     peak = turn.pressure
     if peak is not None:
-        values = (peak.most, peak.most_at, peak.least, peak.least_at)
-        most, most_at, least, least_at = (degrees(value, words) for value in values)
+        most, least = degrees(peak.most, words), degrees(peak.least, words)
+        most_at, least_at = place(peak.most_at), place(peak.least_at)
         facts.append(
             said.pressure.format(most=most, most_at=most_at, least=least, least_at=least_at)
         )
