@@ -234,10 +234,8 @@ class Errors:
         with np.errstate(all="ignore"):
             taken = item.take(go_on(Trace(env, {}), steps, {}, pencil))
         drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), self.draws))
-        if _turns(item):
-            drawn = np.array([_unwound(row) for row in drawn])
-        low, high = np.quantile(drawn, CENTRAL, axis=1)
-        found[chosen] = (high - low) / 2
+        found[chosen] = [_half_width(item, row) for row in drawn]
+        found[chosen] = np.nan_to_num(found[chosen], nan=np.inf)
         return found
 
     def _at(self, index: int) -> _Slopes:
@@ -292,8 +290,7 @@ class Errors:
         if index not in self._sheets:
             drawn = self.sample(index)
             self._sheets[index] = {
-                label: _half_width(_unwound(drawn[label]) if _turns(item) else drawn[label])
-                for label, item in self.items.items()
+                label: _half_width(item, drawn[label]) for label, item in self.items.items()
             }
         return self._sheets[index]
 
@@ -424,22 +421,20 @@ def _covariance(slopes: npt.NDArray[np.complex128]) -> Reals:
     return np.asarray(np.einsum("amn,bmn->abn", rows, rows), dtype=float)
 
 
-def _half_width(values: Reals) -> float:
+def _half_width(item: DrawnQuantity, values: Reals) -> float:
     """Return half of the interval of the middle 68 % of what was drawn and could be."""
     able = values[np.isfinite(values)]
     if not able.size:
         return float("nan")
+    if item.kind is DrawnKind.DIRECTION:
+        able = _unwound(able)
     low, high = np.quantile(able, CENTRAL)
     return float(high - low) / 2
 
 
-def _turns(item: DrawnQuantity) -> bool:
-    return item.kind is DrawnKind.DIRECTION
-
-
 def _unwound(degrees: Reals) -> Reals:
     """Return directions from their mean one, in (-180, 180]: those about 180 lie together."""
-    ways = np.exp(1j * np.radians(degrees[np.isfinite(degrees)]))
+    ways = np.exp(1j * np.radians(degrees))
     return np.asarray(np.degrees(np.angle(ways / ways.sum())), dtype=float)
 
 
