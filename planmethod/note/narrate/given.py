@@ -35,11 +35,7 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
     drive, number, units = problem.drive, words.say.given, words.say.units
     asked = drive.positions if positions is None else positions
     unit = units[drive.coordinate.unit]
-    said = with_unit(number(float(asked[0])), unit)
-    if len(asked) > 1:
-        count = words.note.given_count.format(count=len(asked))
-        said += f"…{with_unit(number(float(asked[-1])), unit)}{count}"
-    lines = [f"{drive.coordinate.symbol} = {said}"]
+    lines = [f"{drive.coordinate.symbol} {_asked([float(one) for one in asked], unit, words)}"]
     named = {name for _, name, _ in problem.lengths}
     for _, name, metres in problem.lengths:
         lines.append(f"l_{{{name}}} = {number(metres)} {units['m']}")
@@ -73,6 +69,23 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
         lines.append(f"v = {number(drive.rate)} {units['m/s']}")
         lines.append(f"a = {number(drive.acceleration)} {units['m/s²']}")
     return lines
+
+
+MOST_LISTED = 6
+"""Most positions that are given one by one."""
+
+
+def _asked(asked: Sequence[float], unit: str, words: Language) -> str:
+    """Return the driver's positions: all of a few, else the ends and the step, else the count."""
+    said = [with_unit(words.say.given(one), unit) for one in asked[:MOST_LISTED]]
+    if len(asked) <= MOST_LISTED:
+        return f"= {', '.join(said)}"
+    first, last = said[0], with_unit(words.say.given(asked[-1]), unit)
+    step = (asked[-1] - asked[0]) / (len(asked) - 1)
+    if np.ptp(np.diff(asked)) <= 1e-6 * abs(step) and abs(round(step, 4) - step) < 1e-9:
+        step_said = with_unit(words.say.given(round(step, 4)), unit)
+        return words.note.given_steps.format(first=first, last=last, step=step_said)
+    return f"= {first}…{last}{words.note.given_count.format(count=len(asked))}"
 
 
 def _through(geared: Geared, words: Language) -> list[str]:

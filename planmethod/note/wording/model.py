@@ -37,6 +37,7 @@ class Wording:
     formula: str
     given: str
     given_count: str
+    given_steps: str
     given_left: str
     given_right: str
     given_through: str

@@ -69,7 +69,7 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         *run_into_graphs(drawing.items, drawing.views),
         *short_segments(drawing.views),
         *scales_missing(drawing.items, drawing.views),
-        *unused_paper(drawing.items, inner),
+        *(() if drawing.goes_on else unused_paper(drawing.items, inner)),
         *(_attributed(finding, drawing.views, inner) for finding in dashes_unseen(drawing.items)),
     ]
     return sorted(findings, key=lambda finding: finding.code)

@@ -162,7 +162,8 @@ class Drawing:
     """Display list of one sheet, drawn in order (чертёж), and what its views are.
 
     ``lettering`` is that in which its texts were measured: the output formats draw them in it.
-    ``is_cut_down`` tells that blocks were left out that may be, so that the others had room.
+    ``is_cut_down`` tells that blocks were left out that may be, so that the others had room;
+    ``goes_on``, that it is a sheet with what the one before had no room for.
     """
 
     width: float
@@ -172,6 +173,7 @@ class Drawing:
     views: list[View] = field(default_factory=list)
     lettering: OutlineLettering = field(default_factory=in_use)
     is_cut_down: bool = False
+    goes_on: bool = False
 
     def add(self, *items: Item) -> None:
         """Append items."""

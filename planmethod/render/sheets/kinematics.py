@@ -15,14 +15,15 @@ from planmethod.note.wording import language
 from planmethod.paper import Format
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame.frame import paper_format, sheet_frame
-from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
-from planmethod.solved.scaling import Views
+from planmethod.solved.scaling import FEW, Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
@@ -68,22 +69,19 @@ class _Task:
             pages += found
         return pages
 
-    def on(self, paper: Paper) -> list[Page] | None:
-        """Return the sheets on a paper, with as many positions on one as fit."""
+    def on(self, paper: Paper, per_sheet: int) -> list[Page] | None:
+        """Return the sheets on a paper with so many positions on each, or None."""
         views = self.layout.views_for(paper.name, len(self.positions))
         asked = self.problem.scales
         solution = self.solved(views, asked)
-        for per_sheet in self.layout.at_most(len(self.positions)):
-            pages = self.pages(solution, paper, per_sheet)
-            if pages is not None and self.layout.grow:
+        pages = self.pages(solution, paper, per_sheet)
+        if pages is not None and self.layout.grow:
 
-                def draw(scales: Scales, per_sheet: int = per_sheet) -> list[Page] | None:
-                    return self.pages(self.solved(views, scales), paper, per_sheet)
+            def draw(scales: Scales) -> list[Page] | None:
+                return self.pages(self.solved(views, scales), paper, per_sheet)
 
-                return grown(pages, solution.scales, asked, draw)
-            if pages is not None:
-                return pages
-        return None
+            return grown(pages, solution.scales, asked, draw)
+        return pages
 
 
 def _drawn(
@@ -98,11 +96,15 @@ def _drawn(
     for number, page in enumerate(pages, 1):
         numbers = furniture.numbers(number, len(pages))
         told = stamp_fields(problem, numbers, fields, page.title)
-        drawing = Drawing(fmt.width, fmt.height, told.get("title", problem.title))
-        drawing.extend(sheet_frame(fmt, told, furniture, sheet=number).items)
+        own, around = paper_format(page.paper or fmt.name), furniture
+        if page.paper:
+            around = replace(furniture, form="2a")
+        drawing = Drawing(own.width, own.height, told.get("title", problem.title))
+        drawing.extend(sheet_frame(own, told, around, sheet=number).items)
         drawing.extend(page.items)
         drawing.views.extend(page.views)
         drawing.is_cut_down, *_ = page.tried
+        drawing.goes_on = bool(page.paper)
         sheets.append(drawing)
     return sheets
 
@@ -162,7 +164,7 @@ def kinematics_sheets(
             f"{len(asked)} are asked. Ask fewer (--phi 0:360:30); for tables take solve --csv."
         )
     if made is None:
-        made = composition("one-position" if len(asked) == 1 else "many-positions", words.lang)
+        made = composition(SHIPPED[(len(asked) > 1) + (len(asked) > FEW)], words.lang)
     _check_positions(made, len(asked))
     paper = paper or problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)
@@ -170,14 +172,19 @@ def kinematics_sheets(
     papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
     scales = problem.scales
     tasks = [_Task(problem, made, tuple(asked), ruler, profile, extras)]
-    if made.turn and (scales.mu_v, scales.mu_a) != (None, None):
+    if (made.turn or len(asked) > FEW) and (scales.mu_v, scales.mu_a) != (None, None):
         # Scales for one position may be too fine for a dozen plans on one sheet.
         free = replace(problem, scales=replace(scales, mu_v=None, mu_a=None))
         tasks.append(replace(tasks[0], problem=free))
+
+    def later(name: str) -> Room:
+        return replace(furniture, form="2a").room(paper_format(name), 2)
+
     with using(lettering(problem.sheet.lettering or "B")):
-        for name, task in product(papers, tasks):
+        for name, per_sheet, task in product(papers, made.at_most(len(asked)), tasks):
             fmt = paper_format(name)
-            pages = task.on(Paper(name, partial(furniture.room, fmt), forced=paper is not None))
+            on = Paper(name, partial(furniture.room, fmt), later, paper is not None)
+            pages = task.on(on, per_sheet)
             if pages is not None:
                 return _drawn(problem, pages, fmt, fields or {}, furniture)
     given = any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))

@@ -144,7 +144,7 @@ class Composition:
         views = Views.for_paper(paper, positions)
         for kind, box in self.sizes_for(paper).boxes:
             named: dict[str, Any] = {kind.value: box}
-            views = replace(views, **named)
+            views = replace(views, kept=views.kept | {kind}, **named)
         return views
 
 

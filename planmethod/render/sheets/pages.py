@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, groupby, pairwise
+from math import inf
 from typing import TypeAlias
 
 from planmethod.problem.model import Problem
 from planmethod.render.frame.furniture import Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Item, View
-from planmethod.render.layout.block import Block
-from planmethod.render.layout.cuttings import Arrange, Group, Part
-from planmethod.render.layout.pack import pack
+from planmethod.render.layout.block import Block, Column, Row
+from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
+from planmethod.render.layout.pack import EDGE, pack
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
@@ -24,6 +25,12 @@ Tried: TypeAlias = tuple[bool, int, tuple[int, ...]]
 MOST_EXTRA = 4
 """Sheets that one sheet of a composition may take on a format that was asked for."""
 
+GOES_ON = ("calculation",)
+"""Kinds of blocks that go to a sheet of their own where one has no room for them."""
+
+CONTINUED = "A4"
+"""Format of that sheet where none is asked for."""
+
 MOST_TURNS = 60
 """Most ways to divide blocks among pages that are tried."""
 
@@ -33,13 +40,15 @@ class Page:
     """What is inside the frame of one sheet.
 
     ``title`` is its name, if it has one of its own; ``tried`` says what was given up for it: blocks
-    left out, letter heights passed over, groups taken apart.
+    left out, letter heights passed over, groups taken apart. ``paper`` is the format of a sheet
+    that goes on with what was left out.
     """
 
     items: list[Item]
     views: list[View]
     title: str = ""
     tried: Tried = (False, 0, ())
+    paper: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,10 +64,12 @@ class Paper:
     """Paper that sheets are drawn on: its format, and the room of the sheet of a number, from 1.
 
     ``forced``: the format was asked for, so that a sheet of one position may take several pages.
+    ``next_room``: the room of a later sheet of a format, which has the small title block.
     """
 
     name: str
     room: Callable[[int], Room]
+    next_room: Callable[[str], Room]
     forced: bool = False
 
 
@@ -131,8 +142,37 @@ def _sheet(
         parts = made and _divided(made, rooms, composition.arranged, taken_apart)
         if parts:
             title, tried = composition.titles.get(number, ""), (dropped, level, taken_apart)
-            return [_page(part, corners, title, tried) for part, corners in parts]
+            pages = [_page(part, corners, title, tried) for part, corners in parts]
+            left_out = [entry for entry in entries if dropped and entry.kind in GOES_ON]
+            return pages + _going_on(left_out, composition, stock, paper, extras, title)
     return None
+
+
+def _going_on(
+    entries: Sequence[Entry],
+    composition: Composition,
+    stock: _Stock,
+    paper: Paper,
+    extras: Extras,
+    title: str,
+) -> list[Page]:
+    """Return sheets with texts that the sheet before had no room for: one, else one for each."""
+    name = paper.name if paper.forced else CONTINUED
+    around, sizes = paper.next_room(name), composition.sizes_for(name)
+    left, _, right, high = around.inner
+    room = (right - left - 2 * EDGE, high - around.stamp[3] - 2 * EDGE)
+    tries: list[tuple[int, list[Block]]] = []
+    for level in range(composition.levels) if entries else ():
+        manners = [Manner(entry, sizes, right - left, extras, level) for entry in entries]
+        blocks = [one.block for one in stock.made(manners, inf) or ()]
+        tries += [(level, [Column(blocks, gap=GAP)]), (level, [Row(blocks, gap=GAP)])]
+        tries.append((level + composition.levels, blocks))
+    for level, texts in sorted(tries, key=lambda one: one[0]):
+        if all(one.width <= room[0] and one.height <= room[1] for one in texts):
+            tried = (False, level, ())
+            corner = complex(left + EDGE, high - EDGE)
+            return [Page(one.place(corner), [], title, tried, name) for one in texts]
+    return []
 
 
 def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:

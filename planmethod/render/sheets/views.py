@@ -20,10 +20,8 @@ from planmethod.render.pictures.positions import bold_position
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
+from planmethod.solved.scaling import per_row
 from planmethod.solved.solution import Solution
-
-PER_ROW = {2: 2, 3: 3, 4: 4, 5: 5}
-"""Plans in a row by their number; of more there are six."""
 
 CAPTION = 3.5
 """Height of the letters of one of many plans, and of its caption, mm."""
@@ -129,7 +127,7 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
         indices = (manner.entry.position,)
     if len(solution.positions) > 1:
         step, say = manner.entry.per_row, manner.words.say
-        picture = plan_grid(solution, kind, indices, say, per_row=step, errors=errors)
+        picture = plan_grid(solution, kind, indices, say, in_row=step, errors=errors)
     else:
         picture = plan_picture(
             solution, kind, indices[0], letter_height=manner.letter, errors=errors
@@ -176,7 +174,7 @@ def plan_grid(
     indices: Sequence[int],
     say: Notation,
     *,
-    per_row: int | None = None,
+    in_row: int | None = None,
     errors: bool = False,
 ) -> Block:
     """Return the plans of many positions in rows, each with its number."""
@@ -193,6 +191,6 @@ def plan_grid(
             caption = Column([caption, scale], gap=2.0, align="centre")
         picture = plan_picture(solution, kind, i, letter_height=CAPTION, errors=errors)
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
-    step = per_row or PER_ROW.get(len(cells), 6)
+    step = in_row or per_row(len(cells))
     rows = [Row(cells[k : k + step], gap=6.0, align="bottom") for k in range(0, len(cells), step)]
     return Column(rows, gap=6.0)

@@ -44,6 +44,9 @@ LAYOUTS = MappingProxyType(
         "homework_title": "Kinematic analysis of the mechanism",
         "homework_scheme": "Scheme of the mechanism",
         "homework_results": "Table of results",
+        "few_head": "A few positions, up to five: plans of each in a row, the calculation of one. "
+        "So planmethod sheet draws a homework.\n# What each key means: docs/layout.md.",
+        "few_about": "two to five positions: scheme, equations, plans of each, calculation of one",
         "many_head": "Many positions: up to twelve on a sheet. So planmethod sheet draws several "
         "positions.\n# What each key means: docs/layout.md.",
         "many_about": "many positions: scheme, equations, plans in rows, table by positions",

@@ -22,6 +22,7 @@ NOTE = Wording(
     formula="Structural formula: {formula}",
     given="Given: {given}.",
     given_count=" ({count} positions)",
+    given_steps="from {first} to {last} in steps of {step}",
     given_left="{point} to the left of {line}",
     given_right="{point} to the right of {line}",
     given_through="{guide} through {point}",

@@ -14,6 +14,7 @@ from planmethod.note.wording import language
 
 SHIPPED = (
     "one-position",
+    "few-positions",
     "many-positions",
     "homework",
     "coursework",
@@ -22,7 +23,7 @@ SHIPPED = (
     "forces-cycle",
     "flywheel",
 )
-"""Compositions that come with the program; the first two are taken when none is asked for."""
+"""Compositions that come with the program; the first three are taken when none is asked for."""
 
 
 def shipped_text(name: str, lang: str = LANGUAGES[0]) -> str:
