@@ -103,14 +103,14 @@ FEW_POSITIONS: dict[str, tuple[Box, Box, Box]] = {
     "A4": ((80.0, 50.0), (160.0, 50.0), (160.0, 50.0)),
     "A3": ((110.0, 90.0), (230.0, 70.0), (230.0, 75.0)),
     "A2": ((190.0, 130.0), (330.0, 110.0), (330.0, 115.0)),
-    "A1": ((270.0, 200.0), (500.0, 165.0), (500.0, 175.0)),
+    "A1": ((290.0, 230.0), (500.0, 165.0), (500.0, 175.0)),
     "A0": ((320.0, 260.0), (720.0, 240.0), (720.0, 250.0)),
 }
 MANY_POSITIONS: dict[str, tuple[Box, Box, Box]] = {
     "A4": ((80.0, 50.0), (160.0, 60.0), (160.0, 60.0)),
     "A3": ((100.0, 80.0), (240.0, 90.0), (240.0, 90.0)),
     "A2": ((150.0, 120.0), (340.0, 110.0), (340.0, 110.0)),
-    "A1": ((300.0, 190.0), (490.0, 165.0), (490.0, 175.0)),
+    "A1": ((310.0, 250.0), (490.0, 165.0), (490.0, 175.0)),
     "A0": ((320.0, 260.0), (730.0, 240.0), (730.0, 250.0)),
 }
 
@@ -136,7 +136,14 @@ take with letters of 3.5 mm, mm²."""
 FILLED = 0.48
 """Part of the paper beside the texts that views take with their letters."""
 
-FEW_FAR = 0.25
+FAR = 1.4
+"""A plan that would be so many times larger than its share of the room has a scale of its own."""
+
+NEAR, SMALL = 0.4, 0.7
+"""A plan that takes less than that part of its share is drawn at a finer scale of its own, so that
+it takes so much of it at most."""
+
+FEW_FAR = 0.2
 """Part of the plans of a kind that may have scales of their own."""
 
 OUTLIER = 5.0
@@ -321,13 +328,21 @@ class _Drawn:
 
     def _on_paper(self, per_mm: float) -> tuple[Reals, Reals]:
         """Return the width and height of every plan with its letters, mm, shape (n,)."""
-        own = self.views.plan_box(self.kind, self.si.count)
+        own, count = self.views.plan_box(self.kind, self.si.count), self.si.count
         width, height = self.sizes
-        far = np.maximum(width / own[0], height / own[1]) / per_mm > OUTLIER / 2
+        over = np.maximum(width / own[0], height / own[1]) / per_mm
+        far = over > _far(count)
         if far.mean() > FEW_FAR:
-            return np.full(self.si.count, np.inf), np.full(self.si.count, np.inf)
-        wide, high = np.where(far, own[0], width / per_mm), np.where(far, own[1], height / per_mm)
+            return np.full(count, np.inf), np.full(count, np.inf)
+        near = (over < NEAR) & (over > 0)
+        wide = np.select([far, near], [own[0], SMALL * own[0]], width / per_mm)
+        high = np.select([far, near], [own[1], SMALL * own[1]], height / per_mm)
         return wide + BESIDE, high + UNDER
+
+
+def _far(count: int) -> float:
+    """Return how many times larger than its share of the room one of so many plans may be."""
+    return FAR if count > FEW else OUTLIER / 2
 
 
 def _next(per_mm: float, asked: Scales, *, finer: bool) -> float:
@@ -346,12 +361,15 @@ def own_scale(
 ) -> Scale:
     """Return the scale at which a plan is drawn in one position.
 
-    It is the common one, but for a plan that would leave its view by far (near a dead position).
+    It is the common one, but for a plan that would leave its view by far (near a dead position),
+    or would be too small to be read where the file gives no scale.
     """
     size, box = plan_extent(construction, si, kind, index), views.plan_box(kind, si.count)
     over = max(size[0] / box[0], size[1] / box[1]) / common.per_mm
     asked = construction.draft.problem.scales
-    given = getattr(asked, common.symbol)
-    if over <= OUTLIER / 2 or (given is not None and si.count == 1):
+    given = getattr(asked, common.symbol) is not None
+    if si.count > 1 and given is False and 0.0 < over < NEAR:
+        box = (SMALL * box[0], SMALL * box[1])
+    elif over <= _far(si.count) or (given and si.count == 1):
         return common
     return Scale(common.symbol, _fitting(asked, box, size), common.unit)

@@ -19,6 +19,7 @@ class SheetWording:
     # Texts of the plans; equations and calculation by the kind of plan
     equations: Mapping[str, str]
     calculation: Mapping[str, str]
+    but_for: str
     of_position: str
     wanted: str
 

@@ -2,7 +2,7 @@
 
 The positions are thin lines; at every moving point stands its letter with the number of the
 position (A₀, A₁, ...), at the centres of mass, whose letters have an index already, the number
-alone. The lines that the points move along are there, and the extreme positions of the output
+alone; of many positions the driver and the output alone have letters, the others numbers. The lines that the points move along are there, and the extreme positions of the output
 link in dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 """
 
@@ -22,6 +22,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
+from planmethod.solved.scaling import FEW
 from planmethod.solved.solution import Solution
 
 PRIMES = ("′", "″")
@@ -122,6 +123,10 @@ class Positions:
         output = self.paths.output
         return {*ends[:1], *([output[1]] if output else [])}
 
+    def _by_number(self, point: str) -> bool:
+        """Tell whether a point has numbers alone: of many positions all but driver and output."""
+        return len(self.overlay) > FEW and point not in self._turning
+
     # Lines -----------------------------------------------------------------------------------
 
     def lines(self) -> list[Item]:
@@ -178,7 +183,7 @@ class Positions:
     ) -> Label:
         size = max(height, self.letter_height) if spot.bold else height
         return Label(
-            typeset(written(point, numbers, bold=spot.bold), size),
+            typeset(written(point, numbers, bold=spot.bold, alone=self._by_number(point)), size),
             spot.place,
             prefer=way,
             gap=1.5 if spot.bold else 1.0,
@@ -224,9 +229,9 @@ def bold_position(solution: Solution, indices: Sequence[int]) -> int:
     return max(indices, key=lambda i: (bool(good[i]), float(solution.margin[i])))
 
 
-def written(point: str, numbers: Sequence[str], *, bold: bool = False) -> str:
+def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:
     """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``."""
-    if len(point) > 1:
+    if len(point) > 1 or (alone and not bold):
         found = ", ".join(numbers)
         return point_name(point) + (f" ({found})" if len(numbers) > 1 else "") if bold else found
     return ", ".join(point + n if n in PRIMES else f"{point}_{{{n}}}" for n in numbers)

@@ -135,8 +135,9 @@ class Scheme:
         start = self.base(slide)
         reach = ((self.foot(slide) - start) * u.conjugate()).real
         beyond = (7.0 + OVERHANG) * self.factor
-        # A link has one length: as far as the stone goes in any position of the sheet.
-        ways = self._reaches(slide)
+        # A link has one length: as far as the stone goes in any position of the sheet. Behind the
+        # position that stands in full it is drawn to its stone, or long ends would hide the rest.
+        ways = self._reaches(slide) if self.pen is Pen.MAIN else (reach,)
         marks = [0.0, *(way + math.copysign(beyond, way if way else 1.0) for way in ways)]
         if slide.angle in (0.0, 180.0) and len(along) > 1:
             on_axis = [((p - start) * u.conjugate()).real for _, p in along]

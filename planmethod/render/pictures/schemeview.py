@@ -110,50 +110,97 @@ def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
     body = problem.bodies[link].points
     if link in problem.slides and len(body) == 1:
         return  # the stone turns with the link that it slides on: one arrow for both
-    pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
     part = scheme.longest(link)
     if part is None:
         return
-    start, end = part
-    if pivot is not None:
-        centre = scheme.at(pivot)
-        other = end if abs(end - centre) > abs(start - centre) else start
-        radius = max(10.0 * scheme.factor, min(20.0 * scheme.factor, 0.6 * abs(other - centre)))
-    else:
-        centre, other, radius = start + 0.4 * (end - start), end, 8.0 * scheme.factor
-    turn = angle_of(other - centre)
-    for kind, value, shift in (
-        (QuantityKind.OMEGA, float(motion.omega[scheme.index]), 0.0),
-        (QuantityKind.EPSILON, float(motion.epsilon[scheme.index]), 3.5 * scheme.factor),
-    ):
+    pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
+    places = _turning(scheme, part, None if pivot is None else scheme.at(pivot))
+    kinds = (
+        (QuantityKind.OMEGA, float(motion.omega[scheme.index])),
+        (QuantityKind.EPSILON, float(motion.epsilon[scheme.index])),
+    )
+    for (kind, value), (centre, radius, turn) in zip(kinds, places, strict=True):
         if is_nothing(value, solution_peak(scheme.solution, kind)):
             continue
         sense = 1 if value > 0 else -1
-        middle, sweep = turn, 70.0
-        if others and not shift:
-            around = [*others, *scheme.bodies, *scheme.lines, *scheme.joints]
-            turn = middle = turn + _roomy(centre, radius + 4.0, turn - sense * 18.0, around)
-        arrow = turn_arrow(
+        middle, sweep = turn, min(SWEEP, np.degrees(ARC * scheme.factor / radius))
+        if others:
+            around = [*others, *scheme.bodies, *scheme.lines, *scheme.joints, *view.arrows]
+            middle += _roomy(centre, radius, turn - sense * (sweep / 2 + 8.0), around)
+        view.arrows += turn_arrow(
             centre,
-            radius + shift,
+            radius,
             sense,
             middle=middle,
             sweep=sweep,
             length=3.5 * scheme.factor,
             tag=f"{kind.sign} {link}",
         )
-        view.arrows += arrow
-        tail = centre + (radius + shift) * cis(middle - sense * sweep / 2)
+        # The letter goes on behind the tail of its own arc.
+        aim = cis(middle - sense * sweep / 2)
         view.labels.append(
             Label(
                 typeset(f"{kind.sign}_{{{link}}}", SMALL if others else scheme.letter_height),
-                tail,
-                along=(tail, centre + (radius + shift) * cis(middle)) if others else None,
-                prefer=tail - centre,
+                centre + radius * aim,
+                prefer=-1j * sense * aim,
                 gap=0.8,
+                priority=2,
                 name=f"{kind.sign} {link}",
             )
         )
+
+
+SWEEP, ARC = 70.0, 24.0
+"""Most that an arrow of ω or ε turns by, degrees, and its length before ``factor``, mm."""
+
+_LEAST, _BETWEEN, _OFF = 9.0, 8.0, 5.0
+"""Least radius of such an arrow, between two about one centre, and to a joint, before ``factor``,
+mm."""
+
+
+def _turning(
+    scheme: Scheme, part: tuple[complex, complex], pivot: complex | None
+) -> tuple[tuple[complex, float, float], ...]:
+    """Return where the arrows of ω and of ε cross a link: centre, radius, direction in degrees.
+
+    Two arrows never stand side by side, where their letters would be taken one for the other: about
+    a pivot they have radii well apart, on another link they cross it on both sides of their centre.
+    Both keep clear of the joints, points and stones on the link.
+    """
+    start, end = (
+        part if pivot is None or abs(part[1] - pivot) > abs(part[0] - pivot) else part[::-1]
+    )
+    start = start if pivot is None else pivot
+    length, along, f = abs(end - start), angle_of(end - start), scheme.factor
+    problem = scheme.solution.problem
+    pins = [(scheme.at(p), _OFF * f) for p in scheme.named]
+    for slide in problem.slides.values():
+        place = scheme.base(slide) if problem.is_block(slide) else scheme.at(slide.pin)
+        pins.append((place, (_OFF + SIZES.slider_length / 2) * f))
+
+    def room(way: float) -> float:
+        place = start + (end - start) / length * way
+        return min(abs(place - pin) - off for pin, off in pins)
+
+    ways = np.linspace(0.0, length, max(12, int(length)))
+    if pivot is not None:
+        near = [way for way in ways if way >= (_LEAST + _OFF) * f]
+        first = next(
+            (way for way in near if room(way) >= 0.0), max(near, key=room, default=ways[-1])
+        )
+        far = [way for way in near if way >= first + _BETWEEN * f]
+        second = next((way for way in far if room(way) >= 0.0), first + _BETWEEN * f)
+        return (start, float(first), along), (start, float(second), along)
+    radius = (_LEAST - 1.0) * f
+    middles = [way for way in ways if radius <= way <= length - radius] or [length / 2]
+    best = max(
+        middles,
+        key=lambda way: (
+            min(room(way - radius), room(way + radius), 0.0) - 0.01 * abs(way - 0.45 * length)
+        ),
+    )
+    centre = start + (end - start) / length * best
+    return (centre, radius, along), (centre, radius, along + 180.0)
 
 
 def _roomy(centre: complex, radius: float, turn: float, items: Sequence[Item]) -> float:

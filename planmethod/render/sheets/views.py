@@ -156,6 +156,10 @@ def _with_scale(
     title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
     convention = solution.problem.scales.convention
     said = [scale_inscription(solution.scales[kind], convention, words.say)]
+    plans = kind is not PlanKind.POSITION and len(solution.positions) > 1
+    own = [i for i in ellipses if plans and solution.own_scale(kind, i) != solution.scales[kind]]
+    if own:
+        said[0] += words.sheets.but_for.format(numbers=", ".join(map(str, own)))
     said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
     return named(picture, title, said, manner)
 

@@ -16,6 +16,7 @@ SHEETS = SheetWording(
         "velocity": "Calculation of velocities",
         "acceleration": "Calculation of accelerations",
     },
+    but_for=" (but for positions: {numbers})",
     of_position="{title} (position {number})",
     wanted="Find: {wanted}.",
     results="Results",

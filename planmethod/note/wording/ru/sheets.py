@@ -16,6 +16,7 @@ SHEETS = SheetWording(
         "velocity": "Расчёт скоростей",
         "acceleration": "Расчёт ускорений",
     },
+    but_for=" (кроме положений: {numbers})",
     of_position="{title} (положение {number})",
     wanted="Определить: {wanted}.",
     results="Результаты",
