@@ -31,7 +31,9 @@ if TYPE_CHECKING:
 @sheet_options
 @layout_option
 @click.option("--errors", is_flag=True, help="With the error ellipses of the drafting.")
-@click.option("--sigma", is_flag=True, help="With the drafting errors in the table of results.")
+@click.option(
+    "--sigma/--no-sigma", default=None, help="With the drafting errors in the table of results."
+)
 @click.option(
     "--structure", "structural", is_flag=True, help="The structural sheet, not the plans."
 )
@@ -48,7 +50,7 @@ def lint(
     asked: Asked,
     layout: str | None,
     errors: bool,
-    sigma: bool,
+    sigma: bool | None,
     structural: bool,
     strict: bool,
     as_json: bool,
@@ -100,7 +102,7 @@ def lint(
 
     def look_other(kind: Kind, problem: KindProblem) -> None:
         refuse_plans(
-            kind, phi=phi is not None, layout=layout, errors=errors, sigma=sigma,
+            kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma),
             structure=structural,
         )  # fmt: skip
         problem = settled(problem)

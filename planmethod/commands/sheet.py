@@ -57,7 +57,12 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     help="All sheets in one PDF, numbered consecutively, not one PDF for each problem.",
 )
 @click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
-@click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
+@click.option(
+    "--sigma/--no-sigma",
+    default=None,
+    help="Show what is read off the plans, and the drafting errors, in the table of results.  "
+    "[default: of one position]",
+)
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @dxf_text_option
 @guarded
@@ -74,7 +79,7 @@ def sheet(
     layout: str | None,
     one_file: str | None,
     errors: bool,
-    sigma: bool,
+    sigma: bool | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
 ) -> None:
@@ -103,7 +108,7 @@ def sheet(
     def drawn_other(
         kind: Kind, problem: KindProblem, *, before: int = 0, total: int | None = None
     ) -> list[Drawing]:
-        refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=sigma)
+        refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma))
         hand = drawn_by(profile, ruler)
         return kind.drawings(problem, fields=asked.fields, profile=hand, before=before, total=total)
 

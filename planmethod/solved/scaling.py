@@ -129,11 +129,11 @@ BESIDE, UNDER = 20.0, 22.0
 LETTERS = {"A4": 2.5, "A3": 3.5, "A2": 3.5, "A1": 5.0, "A0": 5.0}
 """Height of the texts on a format, mm."""
 
-EQUATION, LINES, STATEMENT = 1300.0, 1050.0, 34000.0
+EQUATION, LINES, STATEMENT = 1300.0, 1050.0, 42000.0
 """Paper that a vector equation, the calculation of a vector, and statement, table and title block
 take with letters of 3.5 mm, mm²."""
 
-FILLED = 0.48
+FILLED = 0.46
 """Part of the paper beside the texts that views take with their letters."""
 
 FAR = 1.4

@@ -151,19 +151,24 @@ def test_rows_of_a_single_position(name: str) -> None:
         column.head: column.cells for column in result_columns(solution, [0], RU, sigma=True)
     }
     plain = {column.head: column.cells for column in result_columns(solution, [0], RU)}
-    assert [cell.text for cell in columns.pop("")] == ["точно", "снято", "±σ"]
+    assert [cell.text for cell in columns.pop("")] == ["точно", "план", "Δ, %", "±σ"]
     assert list(columns) == list(plain)
     labels = [("v", "v", p) for p in asked_points(solution)]
     labels += [("ω", "omega", k) for k in asked_links(solution)]
     labels += [("a", "a", p) for p in asked_points(solution)]
     labels += [("ε", "epsilon", k) for k in asked_links(solution)]
     for symbol, word, what in labels:
-        exact, read, error = columns[f"{symbol}_{{{what}}}"]
+        exact, read, off, error = columns[f"{symbol}_{{{what}}}"]
         assert exact == plain[f"{symbol}_{{{what}}}"][0]
         spread = drafting_of(solution).spreads[f"{word}_{what}"]
         sigma = float(spread.sigma[0])
         value = abs(float(solution.read_off(f"{word}_{what}")[0]))
         assert error.text.endswith("*") == bool(spread.drawn[0])
+        if off.text != "—":
+            true = float(solution.exact(solution.quantity(f"{word}_{what}"))[0])
+            assert float(number(off.text)) == pytest.approx(
+                100.0 * (abs(value) / abs(true) - 1.0), abs=0.06
+            )
         if sigma == 0.0:
             assert error.text == "0"
             continue

@@ -113,6 +113,18 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
         sheet(Stroke((60 + 270j, 60 + 285j))),
         sheet(Stroke((60 + 270j, 60 + 277j))),
     ),
+    "PM-D14": (
+        sheet(
+            Arc(100 + 100j, 9.0, 0.0, 1.0, tag="ω 1"),
+            Arc(150 + 100j, 9.0, 0.0, 1.0, tag="ε 1"),
+            Text(148 + 100j, "ω", 3.5, label="ω 1"),
+        ),
+        sheet(
+            Arc(100 + 100j, 9.0, 0.0, 1.0, tag="ω 1"),
+            Arc(150 + 100j, 9.0, 0.0, 1.0, tag="ε 1"),
+            Text(104 + 94j, "ω", 3.5, label="ω 1"),
+        ),
+    ),
 }
 """Of every code a sheet that shows it and one that does not."""
 

@@ -52,6 +52,7 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
         "PM-D11": Remark(_ERROR, "mm"),
         "PM-D12": Remark(_WARNING, "mm"),
         "PM-D13": Remark(_ERROR, "mm"),
+        "PM-D14": Remark(_WARNING, "mm"),
     }
 )
 """Every code."""

@@ -13,6 +13,9 @@ APART = 0.9  # white between two labels one above the other, mm
 UNDER_LABEL = "under a label"
 """Tag of the white under a label that breaks the thin lines behind it."""
 
+LED = "leader of "
+"""How the tag of a leader line begins, before the name of its label."""
+
 BREAKABLE = frozenset({Pen.THIN, Pen.PALE, Pen.PHANTOM})
 """Pens of the lines that it may break."""
 
@@ -147,7 +150,14 @@ class Placed:
             )
             corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
             items = [Fill(corners, Ink.WHITE, tag=UNDER_LABEL), *items]
-        return items if self.leader is None else [Stroke(self.leader, Pen.THIN), *items]
+        return (
+            items
+            if self.leader is None
+            else [
+                Stroke(self.leader, Pen.THIN, tag=LED + self.label.name),
+                *items,
+            ]
+        )
 
 
 def segment_label(

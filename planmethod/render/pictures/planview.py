@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import isfinite
+
 from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, VectorKind
@@ -35,16 +37,24 @@ def similar_lines(solution: Solution, plan: Plan) -> list[tuple[PointName, Point
     return list(lines.values())
 
 
-def plan_places(solution: Solution, kind: PlanKind, index: int) -> dict[PointName, complex]:
+def plan_places(
+    solution: Solution, kind: PlanKind, index: int, *, by_hand: bool = False
+) -> dict[PointName, complex]:
     """Return where the points of a plan lie in one position, mm from its pole.
 
-    A plan near a dead position has a scale of its own: the same figure, smaller.
+    A plan near a dead position has a scale of its own: the same figure, smaller. ``by_hand`` gives
+    the plan as it comes out with the ruler, whose segments are those of the calculation; where one
+    of its points does not come out so, the exact plan.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
     ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
     share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
-    return {name: complex(solution.paper.point(name)[index]) * share for name in ends}
+    for reading in (solution.by_hand, solution.paper) if by_hand else (solution.paper,):
+        at = {name: complex(reading.point(name)[index]) for name in ends}
+        if all(isfinite(abs(place)) for place in at.values()):
+            break
+    return {name: place * share for name, place in at.items()}
 
 
 @remembered
@@ -55,15 +65,17 @@ def plan_picture(
     *,
     letter_height: float = 5.0,
     errors: bool = False,
+    by_hand: bool = False,
 ) -> Picture:
     """Return a plan in one position as a picture, its own pole at the origin, mm.
 
-    ``errors`` draws the ellipses of the drafting error around its points. Kept, since a sheet is
+    ``errors`` draws the ellipses of the drafting error around its points; ``by_hand`` is told by
+    `plan_places`. Kept, since a sheet is
     tried with fewer positions when it does not fit with more.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
-    at = plan_places(solution, kind, index)
+    at = plan_places(solution, kind, index, by_hand=by_hand)
     factor = min(1.0, letter_height / 5.0 + 0.2)
     ellipses = error_ellipses(solution, kind, index) if errors else Ellipses()
     items: list[Item] = list(ellipses.strokes)

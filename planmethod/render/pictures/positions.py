@@ -2,8 +2,9 @@
 
 The positions are thin lines; at every moving point stands its letter with the number of the
 position (A₀, A₁, ...), at the centres of mass, whose letters have an index already, the number
-alone; of many positions the driver and the output alone have letters, the others numbers. The lines that the points move along are there, and the extreme positions of the output
-link in dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
+alone; of many positions the driver and the output alone have letters, the others numbers. The
+lines that the points move along are there, and the extreme positions of the output link in
+dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ def controlled_kinematics(
     profile: Profile = PROFILES["board"],
     fields: Mapping[str, str] | None = None,
     errors: bool = False,
-    sigma: bool = False,
+    sigma: bool | None = None,
     layout: str | Path | Composition | None = None,
 ) -> list[Controlled]:
     """Draw the sheets of the kinematic analysis and look them over.

@@ -119,7 +119,7 @@ def kinematics_sheets(
     fields: Mapping[str, str] | None = None,
     furniture: Furniture | None = None,
     errors: bool = False,
-    sigma: bool = False,
+    sigma: bool | None = None,
     layout: str | Path | Composition | None = None,
 ) -> list[Drawing]:
     """Draw the kinematic analysis in the language of ``problem.sheet``, a dozen positions a sheet.
@@ -140,8 +140,8 @@ def kinematics_sheets(
         Form of the title block and additional graphs; the file's when absent.
     errors : bool
         Draw the ellipses of the drafting error around the points of scheme and plans.
-    sigma : bool
-        Show the drafting errors of the results in their table.
+    sigma : bool, optional
+        Show the drafting errors of the results in their tables; None: of one position alone.
     layout : str, Path or Composition, optional
         What is on the sheets: the name of a shipped composition or a file of one's own. When
         absent, ``one-position`` or ``many-positions``.

@@ -152,12 +152,13 @@ class Composition:
 class Extras:
     """What is asked of all blocks of a sheet: its language, and what it shows of drafting errors.
 
-    ``errors`` are ellipses around points, ``sigma`` stands in the tables.
+    ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of
+    the results of one position alone.
     """
 
     words: Language
     errors: bool = False
-    sigma: bool = False
+    sigma: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)

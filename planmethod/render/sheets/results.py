@@ -19,6 +19,9 @@ from planmethod.render.sheets.model import Manner
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
 
+MOST_OFF = 100.0
+"""A reading that is further off than so many per cent is none: the segment is too short."""
+
 
 def position_text(solution: Solution, index: int, say: Notation) -> str:
     """Return a driver position as the sheet writes it: an angle within one turn, two decimals."""
@@ -34,13 +37,16 @@ def _sense(value: float) -> int:
 
 def _sigma_rows(
     solution: Solution, quantity: Quantity, index: int, say: Notation
-) -> tuple[Cell, Cell]:
-    """Return what was read on the drawing, to the place of its error, and the error."""
+) -> tuple[Cell, ...]:
+    """Return what was read on the plans, to the place of its error, how far off, and the error."""
     read = float(solution.read_off(quantity.label)[index])
     sigma, mark = marked(drafting_of(solution), quantity.label, index)
     turns = quantity.kind.is_number
+    exact = float(solution.exact(quantity)[index])
+    off = 100.0 * (read - exact) / exact if abs(exact) > sigma else inf
     return (
         Cell(say.number(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
+        Cell(say.number(f"{off:.1f}") if abs(off) < MOST_OFF else "—", 0 if turns else None),
         Cell(say.number(sigma_text(sigma)) + mark, 0 if turns else None),
     )
 
@@ -83,7 +89,7 @@ def result_columns(
     shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]
     columns = [column(quantity) for quantity in told(solution, *shown)]
     if sigma and alone:
-        columns.insert(0, TableColumn("", (said.exact, said.read, "±σ")))
+        columns.insert(0, TableColumn("", (said.exact, said.read, "Δ, %", "±σ")))
     return columns if alone else [*position_columns(solution, indices, words), *columns]
 
 
@@ -108,6 +114,7 @@ def table_width(manner: Manner, usual: float = inf) -> float:
 def results_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the table of results and, with sigmas, what its errors are."""
     alone, sigma = len(solution.positions) == 1, manner.extras.sigma
+    sigma = alone if sigma is None else sigma
     size = manner.sizes.text
     height = manner.text(size if len(indices) == 1 else min(size, 3.5))
     width = table_width(manner)

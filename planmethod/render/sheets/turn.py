@@ -83,7 +83,9 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
                               manner.words.say)]  # fmt: skip
     block = named(picture, title, said, manner)
-    return PlanViewed(block, kind.value, solution.scales[kind], solution, kind, chosen)
+    return PlanViewed(
+        block, kind.value, solution.scales[kind], solution, kind, chosen, by_hand=True
+    )
 
 
 # Hodographs --------------------------------------------------------------------------------------

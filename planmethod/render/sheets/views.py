@@ -68,21 +68,24 @@ class PlanViewed(Viewed):
     solution: Solution
     kind: PlanKind
     indices: tuple[int, ...]
+    by_hand: bool = False
 
     def spans(self, items: Sequence[Item]) -> Iterable[Span]:
         """Return the segments of the plans."""
         poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
         for pole, index in zip(poles, self.indices, strict=False):
-            yield from plan_spans(self.solution, self.kind, index, pole)
+            yield from plan_spans(self.solution, self.kind, index, pole, by_hand=self.by_hand)
 
 
-def plan_spans(solution: Solution, kind: PlanKind, index: int, pole: complex) -> list[Span]:
+def plan_spans(
+    solution: Solution, kind: PlanKind, index: int, pole: complex, *, by_hand: bool = False
+) -> list[Span]:
     """Return the measured segments of a plan whose pole lies at ``pole`` on the sheet.
 
     A vector that is nothing beside the plan is zero by nature and no segment.
     """
     plan = solution.construction.plan(kind)
-    at = plan_places(solution, kind, index)
+    at = plan_places(solution, kind, index, by_hand=by_hand)
     sizes = [abs(at[vector.head] - at[vector.tail]) for vector in plan.vectors]
     letters = shown_letters(solution.problem, plan)
     position = index if len(solution.positions) > 1 else None
@@ -119,7 +122,11 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return a plan, or the plans of many positions in rows."""
+    """Return a plan, or the plans of many positions in rows.
+
+    They are drawn as they come out with the ruler, so that what the calculation says is what a
+    ruler finds; with error ellipses, which lie around the exact points, they are exact.
+    """
     kind = manner.entry.of
     assert kind is not None
     errors = manner.extras.errors
@@ -130,10 +137,17 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
         picture = plan_grid(solution, kind, indices, say, in_row=step, errors=errors)
     else:
         picture = plan_picture(
-            solution, kind, indices[0], letter_height=manner.letter, errors=errors
+            solution,
+            kind,
+            indices[0],
+            letter_height=manner.letter,
+            errors=errors,
+            by_hand=not errors,
         )
     block = _with_scale(solution, kind, picture, manner, indices)
-    return PlanViewed(block, kind.value, solution.scales[kind], solution, kind, tuple(indices))
+    return PlanViewed(
+        block, kind.value, solution.scales[kind], solution, kind, tuple(indices), not errors
+    )
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
@@ -193,7 +207,9 @@ def plan_grid(
         if own != solution.scales[kind]:
             scale = Line(typeset(scale_inscription(own, convention, say), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        picture = plan_picture(solution, kind, i, letter_height=CAPTION, errors=errors)
+        picture = plan_picture(
+            solution, kind, i, letter_height=CAPTION, errors=errors, by_hand=not errors
+        )
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     step = in_row or per_row(len(cells))
     rows = [Row(cells[k : k + step], gap=6.0, align="bottom") for k in range(0, len(cells), step)]

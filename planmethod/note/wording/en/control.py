@@ -104,6 +104,14 @@ CONTROL = ControlWording(
                 "": "Take a coarser scale in [scales] or a larger format (--paper).",
             },
         ),
+        "PM-D14": Said(
+            "letter misleads",
+            "the letter {name} stands {value} mm from its own arrow or point (at most {limit}), "
+            "{place}",
+            {
+                "": "Take a larger scale or format, so that the letter stands at its own arrow.",
+            },
+        ),
     },
     severities={
         "error": "error",

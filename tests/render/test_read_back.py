@@ -1,0 +1,49 @@
+"""One segment, one number: what the calculation says is what a ruler finds on the sheet."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from reading import read_svg
+from worked import SIX, problem_of
+
+from planmethod.note.narrate.calculation import calculation
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import language
+from planmethod.plans.model import PlanKind
+from planmethod.render.backends import render
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.solution import Solution
+
+LAID_OFF = re.compile(r"\(([^() ]+)\) = [^;]*?([\d.]+) мм")
+READ = re.compile(r"μ_?[va]·\(([^()]+)\) = [\d./]+·([\d.]+)")
+
+
+@pytest.mark.parametrize("layout", ["one-position", "homework"])
+@pytest.mark.parametrize("name", SIX)
+def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout: str) -> None:
+    """The vectors are found in the SVG, from tail to tip, and compared with every number."""
+    problem = problem_of(name)
+    sheet = kinematics_sheets(problem, layout=layout)[0]
+    page = read_svg(render(sheet, "svg"))
+    inked = np.array([corner for path in page.paths for corner in path.corners])
+    solution, compared = Solution(problem), 0
+    for view in sheet.views:
+        if view.kind == "position":
+            continue
+        on_sheet = {span.name: span for span in view.spans}
+        for span in view.spans:
+            if span.length > 1.0:
+                for end in (span.start, span.end):
+                    assert np.abs(inked - end).min() < 0.01
+        if solution.scales[PlanKind(view.kind)].per_mm != pytest.approx(view.per_mm):
+            continue  # grown: the calculation of that sheet is of its own scale
+        for line in calculation(solution, PlanKind(view.kind), 0, language("ru")):
+            said = plain_text(line).replace(",", ".")
+            for letters, value in (*LAID_OFF.findall(said), *READ.findall(said)):
+                if letters in on_sheet:
+                    assert on_sheet[letters].length == pytest.approx(float(value), abs=0.25), said
+                    compared += 1
+    assert compared >= 8 or layout == "homework"
