@@ -45,12 +45,12 @@ text-anchor:middle;dominant-baseline:central}
 """
 
 
-def html_page(page: Page, solution: Solution, words: Language) -> str:
+def html_page(page: Page, solution: Solution | None, words: Language) -> str:
     """Return the page of a student as HTML."""
     return "\n".join(_parts(page, solution, words)) + "\n"
 
 
-def _parts(page: Page, solution: Solution, words: Language) -> Iterator[str]:
+def _parts(page: Page, solution: Solution | None, words: Language) -> Iterator[str]:
     say = words.check.student
     yield f'<!DOCTYPE html>\n<html lang="{page.lang}"><head><meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
@@ -74,8 +74,8 @@ def _parts(page: Page, solution: Solution, words: Language) -> Iterator[str]:
             for column, cell in enumerate(line.cells)
         )
         yield f'<tr class="{line.verdict.value}">{cells}</tr>'
-    yield f'</tbody></table><p class="note">{tagged(say.tolerance)}</p>'
-    if page.plans:
+    yield f'</tbody></table><p class="note">{tagged(page.tolerance)}</p>'
+    if solution is not None and page.plans:
         yield f'<section><h2>{say.plans}</h2><div class="plans">'
         for plan, factor, caption in chain.from_iterable(page.rows()):
             yield f"<figure>{_picture(plan, factor, solution)}"
