@@ -97,10 +97,13 @@ class Kind:
         ``audited(problem, ruler)``;
         of what students are asked for ``asked_of(problem)``. It is imported when one of them is
         called.
+    scales : str
+        Where its file has the scales.
     """
 
     table: str
     package: str
+    scales: str = "[scales]"
 
     def load(self, path: Path, variant: str | None) -> KindProblem:
         """Read a problem file."""
@@ -198,7 +201,7 @@ class Kind:
 
 
 KINDS = (
-    Kind("gears", "planmethod.gears"),
+    Kind("gears", "planmethod.gears", "gears.picture.mu_l"),
     Kind("point", "planmethod.moving"),
     Kind("meshing", "planmethod.gears.involute"),
 )

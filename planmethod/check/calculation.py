@@ -16,10 +16,12 @@ from planmethod.check.explain import Explanation, Fit
 from planmethod.check.judge import Examined, decide, distance
 from planmethod.check.letters import plain
 from planmethod.check.marks import Settings
-from planmethod.check.model import Diagnosis, Verdict, Written
+from planmethod.check.model import Diagnosis, Unread, Verdict, Written
 from planmethod.check.questions import Question, Sign
 from planmethod.check.sheet import Sheet
+from planmethod.check.slips import METRES, PLACES, UNITS
 from planmethod.check.task import Item, Task
+from planmethod.check.works.cells import refused
 from planmethod.check.works.units import ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import Trace
@@ -186,16 +188,10 @@ class Calculation(Task):
         raise UnansweredError(NoAnswer.NO_WHAT)
 
     def written(self, item: Item, written: Written) -> Written:
-        """Return an answer in the unit of its key, its sense as the sign of its number.
-
-        Raises
-        ------
-        UnansweredError
-            Its unit is of another quantity.
-        """
+        """Return an answer in the unit of its key, its sense as the sign of its number."""
         per = ratio(written, item.question.unit)
         if per is None:
-            raise UnansweredError(NoAnswer.NO_WHAT)
+            return refused(Unread.UNIT, written.unit, written.where, base=written)
         per = 1.0 if item.question.is_mm else per  # the judge makes millimetres himself
         value, sense = written.value, written.sense
         if value is not None and sense is not None and sense.turns:
@@ -245,15 +241,14 @@ class Calculation(Task):
         self._replay(sheet, found)
         decide(sheet, found, self.settings.near)
         diagnoses: list[Diagnosis] = []
-        turned = {one.item.question.id: -one.limit.exact for one in found}
         left = [one for one in found if one.verdict is Verdict.WRONG]
         if not left:
             return []
         tried = [*self.named(sheet), *self._copied(sheet)]
-        tried += [
-            Explanation("sign", "", {**sheet.exact, key: value}, _NOTHING, sheet)
-            for key, value in turned.items()
-        ]
+        for one in left:
+            for code, factor in _slips(one.item.question.unit):
+                given = {**sheet.exact, one.item.question.id: one.limit.exact * factor}
+                tried.append(Explanation(code, "", given, _NOTHING, sheet))
         while left:
             scored = [
                 (sum(_gives(e, one) for one in left), e)
@@ -302,6 +297,15 @@ def _question_of(name: str, figure: Figure, *, drawn: bool, turns: bool) -> Ques
     return Question(
         Selector(kind, (name,)), own, figure.symbol, figure.unit, sign, lambda _: value, ()
     )
+
+
+def _slips(unit: str) -> Iterator[tuple[str, float]]:
+    """Yield what one number is multiplied by when it is written down wrongly."""
+    yield "sign", -1.0
+    for factor in UNITS.get("1/s" if unit == "1/min" else unit, METRES) if unit else ():
+        yield "S2", factor
+    for factor in PLACES:
+        yield "S4", factor
 
 
 def _gives(explanation: Explanation, one: Examined) -> bool:

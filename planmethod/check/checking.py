@@ -40,12 +40,12 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
         name = written.id or written.what
         try:
             item = task.find(written)
-            read = task.written(item, written)
         except UnansweredError:
             judged[number] = Judged(name, Verdict.UNREADABLE, written=written)
             continue
-        if written.unreadable:
-            judged[number] = _unjudged(task, item, Verdict.UNREADABLE, written)
+        read = task.written(item, written)
+        if read.unreadable:
+            judged[number] = _unjudged(task, item, Verdict.UNREADABLE, read)
         elif written.is_blank:
             judged[number] = _unjudged(task, item, Verdict.BLANK, written)
         else:

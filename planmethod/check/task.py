@@ -202,13 +202,7 @@ class Task:
         raise UnansweredError(why)
 
     def written(self, item: Item, written: Written) -> Written:
-        """Return an answer in the unit of its key.
-
-        Raises
-        ------
-        UnansweredError
-            Its unit is of another quantity.
-        """
+        """Return an answer as it is judged, in the unit of its key."""
         return written
 
     # Sheets ----------------------------------------------------------------------------------

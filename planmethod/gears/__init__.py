@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
 
 __all__ = [
+    "asked_of",
     "audited",
     "drawings",
     "driven",
-    "asked_of",
     "load",
     "protocol_text",
     "record",

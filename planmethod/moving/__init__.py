@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from planmethod.note.audit.audit import Audited
     from planmethod.render.ink.drawing import Drawing
 
-__all__ = ["audited", "drawings", "asked_of", "load", "protocol_text", "record", "solved_text"]
+__all__ = ["asked_of", "audited", "drawings", "load", "protocol_text", "record", "solved_text"]
 
 
 def drawings(

@@ -12,13 +12,14 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, move
 from planmethod.moving.reader import WHAT, column_of
 from planmethod.moving.told import SYMBOLS, unit_of
-from planmethod.problem.figures import Figure, Mistaken
+from planmethod.problem.figures import Figure, Mistaken, Taken
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
 
 SIZES = ("v", "a", "a_normal", "rho")
 USUAL = ("v", "a", "a_tau", "a_n", "rho")
+PARTS = ("a_tangential", "a_normal")
 ROOTS = {"v": ("vx", "vy"), "a": ("ax", "ay")}
 """Lengths of vectors, and their parts."""
 
@@ -61,13 +62,14 @@ class PointFigures:
 
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes: roots, the parts of the acceleration, degrees."""
-        for code, change in (
+        changes: list[tuple[str, Taken]] = [
             ("K1", self._exchanged),
-            ("K2", self._whole),
-            ("K3", partial(self._rooted, 1, 2)),
-            ("K4", partial(self._rooted, 0.5, 1)),
+            *(("K2", partial(self._whole, of)) for of in (PARTS, PARTS[:1], PARTS[1:])),
+            *(("K3", partial(self._rooted, of, 2)) for of in (("v", "a"), ("v",), ("a",))),
+            *(("K4", partial(self._rooted, of, 1)) for of in (("v", "a"), ("v",), ("a",))),
             ("K5", self._curved),
-        ):
+        ]
+        for code, change in changes:
             yield Mistaken(code, "", change)
         turned = {key: one.in_degrees for key, one in self.problem.formulas.items()}
         if turned != self.problem.formulas:
@@ -79,32 +81,22 @@ class PointFigures:
 
     def _exchanged(self, name: str, position: int) -> float | None:
         """Take a_n for a_tau and the other way round."""
-        parts = {"a_tangential": "a_normal", "a_normal": "a_tangential"}
+        parts = dict(zip(PARTS, PARTS[::-1], strict=True))
         column = column_of(name) or ""
-        found = self._of(parts.get(column, column), position)
-        tau, a = self._of("a_tangential", position), self._of("v", position)
-        if column == "rho" and tau and a is not None:
-            return a**2 / abs(tau)
-        return found
+        return self._of(parts.get(column, column), position)
 
-    def _whole(self, name: str, position: int) -> float | None:
-        """Take the whole acceleration for its parts."""
+    def _whole(self, parts: tuple[str, ...], name: str, position: int) -> float | None:
+        """Take the whole acceleration for some of its parts."""
         column = column_of(name) or ""
-        v, a = self._of("v", position), self._of("a", position)
-        if column in ("a_tangential", "a_normal"):
-            return a
-        if column == "rho" and a and v is not None:
-            return v**2 / a
-        return self._of(column, position)
+        return self._of("a" if column in parts else column, position)
 
-    def _rooted(self, root: float, power: int, name: str, position: int) -> float | None:
-        """Leave out the root of a length, or the squares under it."""
+    def _rooted(self, of: tuple[str, ...], power: int, name: str, position: int) -> float | None:
+        """Leave out the root of some lengths, or the squares under it as well."""
         column = column_of(name) or ""
-        parts = [self._of(part, position) for part in ROOTS.get(column, ())]
-        if not parts or None in parts:
+        if column not in of:
             return self._of(column, position)
-        total = sum(part**power for part in parts if part is not None)
-        return abs(total) if root == 1 or power == 1 else total
+        parts = (self._of(part, position) or 0.0 for part in ROOTS[column])
+        return abs(sum(part**power for part in parts))
 
     def _curved(self, name: str, position: int) -> float | None:
         """Leave the square out of v²/a_n."""
