@@ -14,9 +14,11 @@ from typing import TYPE_CHECKING
 
 from planmethod.gears.answers import answer
 from planmethod.gears.asked import AskedError, parse
+from planmethod.gears.construction import construct, read
 from planmethod.gears.linear import solve
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import Motion, mesh_row, solve_motion
+from planmethod.gears.picture import draw
 from planmethod.gears.told import symbol
 from planmethod.problem.figures import Figure, Mistaken
 
@@ -61,9 +63,6 @@ class TrainFigures:
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
         """Return the segment of a speed on the picture, mm, and one sigma of what is read."""
-        from planmethod.gears.construction import construct, read
-        from planmethod.gears.picture import draw
-
         picture = draw(self.motion)
         if picture is None:
             return None

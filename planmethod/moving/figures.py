@@ -8,9 +8,12 @@ from dataclasses import replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
+from planmethod.moving.construction import construct
+from planmethod.moving.course import course_of
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, move
 from planmethod.moving.reader import WHAT, column_of
+from planmethod.moving.sheet import sheet_scales
 from planmethod.moving.told import SYMBOLS, unit_of
 from planmethod.problem.figures import Figure, Mistaken, Taken
 
@@ -46,10 +49,6 @@ class PointFigures:
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
         """Return its segment on the drawing, mm, and one sigma of what is read."""
-        from planmethod.moving.construction import construct
-        from planmethod.moving.course import course_of
-        from planmethod.moving.sheet import sheet_scales
-
         scales = sheet_scales(self.problem, course_of(self.problem), profile)
         built = construct(self.problem, self.motion, position, scales)
         column = column_of(name) or ""

@@ -215,7 +215,7 @@ MISTAKES = {
         "driving one.",
     ),
     "G3": Words(
-        "carrier left out: U^{(H)} taken for U",
+        "carrier left out of account",
         "the ratio seen from the carrier is taken for the real one",
         "Hold the carrier in mind: (n_{1} − n_{H})/(n_{3} − n_{H}) = U^{(H)}_{13}; with wheel 3 "
         "fixed that makes U_{1H} = 1 − U^{(H)}_{13}.",
