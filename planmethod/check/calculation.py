@@ -109,6 +109,9 @@ class Calculation(Task):
         self._found: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, Item] = {}
         self._numbers: dict[tuple[object, ...], Numbers] = {}
+        if not (problem.answers or self.figures.names):
+            fault = Fault(kind.table, "no quantity has a value that could be asked for")
+            raise ProblemError(problem.name, [fault])
         self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
 
     def _stated(self, at: int, asked: AskedAnswer) -> Item:
