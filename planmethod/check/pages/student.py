@@ -12,7 +12,6 @@ from planmethod.check.pages.speech import Speech, quoted
 from planmethod.kinds import KindProblem
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
-from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 
 PAPER = (178.0, 92.0)
@@ -85,8 +84,7 @@ class Page:
 
 def student_page(
     checked: Checked,
-    problem: Problem | KindProblem,
-    solution: Solution | None,
+    solved: Solution | KindProblem,
     words: Language,
     *,
     scales: Mapping[str, float],
@@ -96,8 +94,8 @@ def student_page(
 
     Parameters
     ----------
-    solution : Solution or None
-        None of a problem without plans.
+    solved : Solution or KindProblem
+        A problem without plans is told without them.
     scales : mapping of str to float
         Those of the key, unit per mm.
     mark : str
@@ -105,6 +103,8 @@ def student_page(
     """
     speech = Speech(words)
     say = words.check.student
+    solution = solved if isinstance(solved, Solution) else None
+    problem = solved.problem if isinstance(solved, Solution) else solved
     remarks = Remarks(speech, checked, scales)
     facts = [f"{say.student}: {quoted(checked.work.student)}"]
     if checked.variant:

@@ -217,6 +217,8 @@ def _sign(limit: Limit, say: Notation) -> str:
         case LimitKind.TIP:
             share = f"{say.given(limit.least)}m" if limit.least else "0"
             return f"s_{{a{number}}} = {share}"
+        case LimitKind.TIPS:
+            return "Δφ = 0"
         case LimitKind.OVERLAP:
             return f"ε_{{α}} = {say.given(limit.least)}"
 

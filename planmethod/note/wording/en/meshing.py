@@ -61,7 +61,7 @@ MESHING = MeshingWording(
         "undercut": "undercut: x_{{{wheel}}} = {value} {sign} x_{{min{wheel}}} = {bound}",
         "tip": "pointed tooth: s_{{a{wheel}}}/m = {value} {sign} {bound}",
         "overlap": "contact ratio: ε_{{α}} = {value} {sign} {bound}",
-        "tips": "interference of the tips: angle left {value} rad {sign} {bound}",
+        "tips": "interference of the tips: Δφ = {value} rad {sign} {bound}",
         "interference": "interference: ρ_{{p{wheel}}} = {value} mm {sign} "
         "ρ_{{l{wheel}}} = {bound} mm",
     },

@@ -61,7 +61,7 @@ MESHING = MeshingWording(
         "undercut": "подрезание: x_{{{wheel}}} = {value} {sign} x_{{min{wheel}}} = {bound}",
         "tip": "заострение: s_{{a{wheel}}}/m = {value} {sign} {bound}",
         "overlap": "перекрытие: ε_{{α}} = {value} {sign} {bound}",
-        "tips": "интерференция вершин: запас по углу {value} рад {sign} {bound}",
+        "tips": "интерференция вершин: Δφ = {value} рад {sign} {bound}",
         "interference": "интерференция: ρ_{{p{wheel}}} = {value} мм {sign} "
         "ρ_{{l{wheel}}} = {bound} мм",
     },
