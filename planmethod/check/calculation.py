@@ -51,6 +51,7 @@ class Numbers(Sheet):
         self.figures, self.position = figures, position
         self.asked, self.profile = tuple(asked), by
         self.scales, self.order, self.made = {}, {}, {}
+        self._seen: dict[str, tuple[float, float]] = {}
 
     @cached_property
     def trace(self) -> Trace:
@@ -66,7 +67,10 @@ class Numbers(Sheet):
         if question.selector.kind != READ:
             return math.nan, 0.0
         name = question.selector.names[0]
-        return self.figures.read_off(name, self.position, self.profile) or (math.nan, 0.0)
+        if name not in self._seen:
+            read = self.figures.read_off(name, self.position, self.profile)
+            self._seen[name] = read or (math.nan, 0.0)
+        return self._seen[name]
 
     def length(self, question: Question) -> float | None:
         """Return the length of its segment on the picture, mm."""

@@ -238,7 +238,8 @@ def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tu
         most = np.max(np.where(is_kept(every, others), every.epsilon, 0.0))
     what = f"no shifts from {LOW:g} to {HIGH:g} keep all limits"
     if total is not None:
-        what += f", x1 + x2 being {total:.4f} by a_w"
+        sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
+        what += f", {sum_of} being {total:.4f} by a_w"
     if most >= 1:
         return what, (
             f"Where the others are kept ε_α is at most {most:.3f}: give a smaller epsilon_min "
