@@ -29,6 +29,7 @@ COMMANDS = (
     "specimen",
     "layouts",
     "new",
+    "tasks",
     "synthesize",
     "teeth",
     "check",

@@ -87,3 +87,14 @@ FAMILIES = MappingProxyType(
         "moving-point": "motion of a point",
     }
 )
+
+TASKS = MappingProxyType(
+    {
+        "linkage": "Linkages without groups",
+        "gears": "Gear trains",
+        "meshing": "Wheels in mesh",
+        "point": "A moving point",
+        "none": "No such task. All of them: planmethod tasks.",
+    }
+)
+"""Of the list of shipped tasks: kinds of problem that have no groups, and that there is none."""

@@ -83,3 +83,14 @@ FAMILIES = MappingProxyType(
         "moving-point": "движение точки",
     }
 )
+
+TASKS = MappingProxyType(
+    {
+        "linkage": "Рычажные механизмы без групп",
+        "gears": "Зубчатые механизмы",
+        "meshing": "Зубчатое зацепление",
+        "point": "Движение точки",
+        "none": "Таких задач нет. Все: planmethod tasks.",
+    }
+)
+"""Of the list of shipped tasks: kinds of problem that have no groups, and that there is none."""
