@@ -57,7 +57,8 @@ def new(
     task = next((task for task in tasks() if task.name.casefold() == wanted), None)
     if task is None:
         names = (*known, *(task.name for task in tasks()))
-        refuse_unknown("family or task", family, names, "planmethod new --list, planmethod tasks")
+        noun = "task" if any(map(str.isdigit, family)) else "family"
+        refuse_unknown(noun, family, names, "planmethod new --list, planmethod tasks")
         return
     if variant is not None:
         refuse_unknown(

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
+from unicodedata import combining, normalize
 
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
@@ -72,7 +73,8 @@ class Task:
 
 
 def _folded(text: str) -> str:
-    return text.casefold().replace("ё", "е")
+    """Small letters without accents, as words are looked for."""
+    return "".join(c for c in normalize("NFD", text.casefold()) if not combining(c))
 
 
 def home() -> Path:

@@ -94,7 +94,7 @@ TASKS = MappingProxyType(
         "gears": "Gear trains",
         "meshing": "Wheels in mesh",
         "point": "A moving point",
-        "none": "No such task. All of them: planmethod tasks.",
+        "none": "No such task. All of them: `planmethod tasks`.",
     }
 )
 """Of the list of shipped tasks: kinds of problem that have no groups, and that there is none."""

@@ -90,7 +90,7 @@ TASKS = MappingProxyType(
         "gears": "Зубчатые механизмы",
         "meshing": "Зубчатое зацепление",
         "point": "Движение точки",
-        "none": "Таких задач нет. Все: planmethod tasks.",
+        "none": "Таких задач нет. Все: `planmethod tasks`.",
     }
 )
 """Of the list of shipped tasks: kinds of problem that have no groups, and that there is none."""
