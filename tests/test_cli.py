@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from cases import thinned
 from click.testing import CliRunner, Result
 from worked import ROOT, path_of
 
@@ -447,7 +448,7 @@ def test_a_new_train_or_point_is_ready_to_solve(family: str) -> None:
     assert run("solve", "mine.toml", "--variant", "Б").exit_code == 0
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("family", thinned(FAMILIES, 3))
 def test_a_new_problem_is_ready_to_solve(family: str) -> None:
     done = run("new", family, "mine.toml")
     assert done.exit_code == 0
