@@ -14,7 +14,7 @@ from worked import ROOT, every_task
 from benchmarks.tasks import document, index, index_text
 from planmethod.cli import cli
 from planmethod.kinds import load
-from planmethod.problem import variant_names
+from planmethod.problem import Problem, variant_names
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
 from planmethod.problem.tasks import LINKAGE, Task, groups_of, home, tasks, text_for
@@ -76,12 +76,17 @@ def test_tasks_are_solved_in_all_variants(path: Path) -> None:
 
 @each("path", thinned(every_task(), 35))
 def test_sheets_of_tasks_have_no_errors(path: Path) -> None:
-    """In one position and in three, as their variants or the file have them."""
+    """In one position and in several; with --thorough each variant, and all positions at once."""
+    names = variant_names(path)
     problem = load(path)
-    own = {load(path, variant=name).drive.positions[0] for name in variant_names(path)}
-    many = sorted(own) or [problem.drive.positions[0] + step for step in (0, 5, 10)]
-    for positions in ([many[0]], many[:3]):
-        for sheet in controlled_kinematics(problem, positions=positions):
+    own = [at for name in names for at in load(path, variant=name).drive.positions]
+    many = sorted(own or [problem.drive.positions[0] + step for step in (0, 5, 10)])
+    asked: list[tuple[Problem, list[float] | None]] = [
+        *((load(path, variant=name), None) for name in thinned((None, *names), 7)),
+        *((problem, row) for row in thinned((many[:3], many, many[:1]), 3)),
+    ]
+    for one, positions in asked:
+        for sheet in controlled_kinematics(one, positions=positions):
             assert not [f for f in sheet.findings if f.severity is Severity.ERROR]
 
 
