@@ -101,7 +101,6 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
                 ("solve", EX3, "--ask", "v_E"),
                 ("protocol", EX3),
                 ("synthesize", "slotted", "--K_v", "1.22", "--centres", "1.08"),
-                ("solve", TRAIN, "--json"),
                 ("solve", MESHING),
                 ("protocol", MESHING),
                 ("teeth", "--U", "6.5"),
@@ -110,6 +109,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {*ALL, *FONTS} - {"numpy"},
         ),
         ((("structure", EX3, "--json"),), set(), {*ALL, *FONTS} - {"numpy"}),
+        ((("solve", TRAIN, "--json"),), set(), {*ALL, *FONTS}),
         (
             (
                 ("structure", EX3, "--no-drawing"),

@@ -132,7 +132,6 @@ def solve(
         raise click.UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
     if covariance_file is not None and covariance_file.lower().endswith(".toml"):
         raise click.UsageError(f"--covariance would write over {covariance_file}; put it last")
-    hand = drawn_by(profile, ruler)
     if referee is not None:
         _need_mpmath()
     drawn: list[Solution] = []
@@ -147,6 +146,7 @@ def solve(
     sweeps: list[GappedSweep] = []
 
     def compute(problem: Problem) -> None:
+        hand = drawn_by(profile, ruler)  # a train needs no arrays
         if swept:
             tell_changes(problem, phi)
             if csv_file is None and npz_file is None:
