@@ -39,6 +39,9 @@ READ = "read"
 COUNTED = 0.3
 """How far a count may be off: nobody writes a half."""
 
+COARSE = 0.01
+"""Share of a number that its last digit is worth from which it is no sign of another variant."""
+
 _NOTHING = Trace({}, {})
 
 
@@ -319,6 +322,8 @@ def _gives(explanation: Explanation, one: Examined) -> bool:
     """Tell whether an explanation gives a wrong answer."""
     given = explanation.values[one.item.question.id]
     if not math.isfinite(given) or abs(given - one.limit.exact) <= one.limit.tolerance():
+        return False
+    if explanation.code == "P2" and one.step > COARSE * abs(one.value):
         return False
     share = max(abs(given / one.limit.exact), 0.3) if one.limit.exact else 1.0
     slack = math.hypot(one.limit.tolerance() * share, one.step / 2)
