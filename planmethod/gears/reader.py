@@ -40,7 +40,7 @@ ASK_LIMIT = 100
 TURNS = ("n", "omega")
 _NAMES = "For example: W, U_1_5, U_1_4^H, n_5, omega_H, z_5, a_w_1_2."
 GROUP_LIMIT = 60
-TOP = ("title", "source", "stamp", "sheet", "published", "answers", "variants", "gears")
+TOP = ("title", "source", "stamp", "sheet", "published", "answers", "compare", "variants", "gears")
 """Tables of the file that a gear train may have."""
 
 
@@ -61,7 +61,7 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     body = read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
     train = None if body is None else read_train(faults, body)
     published = _read_published(faults, given.get("published", {}), train)
-    answers = read_answers(faults, given.get("answers", []), _scene(train))
+    answers = read_answers(faults, given, _scene(train))
     if faults or train is None:
         raise ProblemError(str(path), faults.found)
     return GearProblem(

@@ -38,7 +38,8 @@ from planmethod.problem.source import parse, read_source
 from planmethod.problem.variants import apply_variant, read_variants
 
 TOP = (
-    "title", "source", "point", "scales", "stamp", "sheet", "published", "answers", "variants",
+    "title", "source", "point", "scales", "stamp", "sheet", "published", "answers", "compare",
+    "variants",
 )  # fmt: skip
 """Keys of a file with a moving point."""
 
@@ -139,7 +140,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         stamp=read_stamp(faults, given.get("stamp", {})),
         sheet=read_sheet(faults, given.get("sheet", {})),
         published=_read_published(faults, given.get("published", {}), len(times)),
-        answers=read_answers(faults, given.get("answers", []), _scene(len(times))),
+        answers=read_answers(faults, given, _scene(len(times))),
     )
     return None if faults else problem
 

@@ -13,6 +13,7 @@ from planmethod.problem.extras import check_what, read_position
 from planmethod.problem.fields import (
     Faults,
     Table,
+    read_flag,
     read_keys,
     read_member,
     read_number,
@@ -150,8 +151,13 @@ class Plain:
     positions: int = 1
 
 
-def read_answers(faults: Faults, value: object, scene: Scene | Plain) -> tuple[AskedAnswer, ...]:
-    """Read ``[[answers]]``, in file order."""
+def read_answers(
+    faults: Faults, given: Mapping[str, object], scene: Scene | Plain
+) -> tuple[AskedAnswer, ...]:
+    """Read ``[[answers]]`` of a file, in its order, and check its ``compare``."""
+    if "compare" in given:
+        read_flag(faults, "compare", given["compare"])
+    value = given.get("answers", [])
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.add("answers", f"expected tables [[answers]], got {show(value)}")
         return ()

@@ -19,6 +19,7 @@ TOP = (
     "sheet",
     "published",
     "answers",
+    "compare",
     "variants",
     "dynamics",
     "loads",

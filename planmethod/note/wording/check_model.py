@@ -50,6 +50,17 @@ class KeyWording:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ComparedWording:
+    """What stands beside a student's own numbers before he hands them in.
+
+    ``columns`` are the quantity, his value, the exact one, the difference, per cent of it.
+    """
+
+    columns: tuple[str, ...]
+    note: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ResultWording:
     """What stands in the tables of results: names of the sheets, heads of their columns.
 
@@ -141,3 +152,4 @@ class CheckWording:
     key: KeyWording
     results: ResultWording
     student: StudentWording
+    compared: ComparedWording

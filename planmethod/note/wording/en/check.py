@@ -2,6 +2,7 @@
 
 from planmethod.note.wording.check_model import (
     CheckWording,
+    ComparedWording,
     KeyWording,
     ResultWording,
     StudentWording,
@@ -81,6 +82,11 @@ CHECK = CheckWording(
         suspicious="closer than any pencil comes: probably not read off the drawing",
         by_hand="set by hand",
         files="File",
+    ),
+    compared=ComparedWording(
+        columns=("Quantity", "Yours", "Exact", "Difference", "%"),
+        note="Compared with the exact values. What is read off a plan differs from them in a right "
+        "work, too; `planmethod solve --sigma` tells by how much.",
     ),
     student=StudentWording(
         title="Check of your work",

@@ -2,6 +2,7 @@
 
 from planmethod.note.wording.check_model import (
     CheckWording,
+    ComparedWording,
     KeyWording,
     ResultWording,
     StudentWording,
@@ -81,6 +82,11 @@ CHECK = CheckWording(
         suspicious="значения точнее, чем позволяет карандаш: похоже, сняты не с чертежа",
         by_hand="исправлено вручную",
         files="Файл",
+    ),
+    compared=ComparedWording(
+        columns=("Величина", "У вас", "Точно", "Разность", "%"),
+        note="Значения сравнены с точными. Снятое с плана отличается от них и в верной работе; "
+        "на сколько, показывает `planmethod solve --sigma`.",
     ),
     student=StudentWording(
         title="Проверка работы",
