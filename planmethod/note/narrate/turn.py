@@ -52,6 +52,8 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         links = tuple(dict.fromkeys(link for end in turn.range for link in turn.stopping(end)))
         facts.append(said.range.format(low=low, high=high, links=", ".join(links)))
     facts.append(said.zero.format(phi=place(float(turn.positions[0]))))
+    if turn.range is not None:
+        facts.append(said.path_zero.format(phi=place(turn.zero)))
     if turn.extremes:
         ends = (f"{place(one.phi)} ({size(one.value)})" for one in turn.extremes)
         facts.append(said.extremes.format(extremes=", ".join(ends)))

@@ -55,13 +55,11 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     if turn.ratio is None:
         reasons["K_v"] = turn.why_no_ratio
     if not turn.zero_is_asked:
-        reasons["zero_deg"] = turn.why_no_stroke
+        reasons["zero_deg"] = turn.why_no_stroke or Why.PARTIAL
     peak = turn.pressure
     if peak is None:
         reasons["pressure_angle"] = Why.NO_DYAD
-    if diagrams is None:
-        reasons |= dict.fromkeys(("diagrams", "hodograph"), Why.PARTIAL)
-    elif diagrams.mu_t is None:
+    if diagrams.mu_t is None:
         reasons["mu_t"] = Why.NO_RATE
     return {
         "output": turn.output.name,
@@ -83,8 +81,8 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
             "min_deg": plain(peak.least),
             "min_phi_deg": plain(peak.least_at),
         },
-        "diagrams": None if diagrams is None else _diagrams(diagrams),
-        "hodograph": None if diagrams is None else _hodograph(turn),
+        "diagrams": _diagrams(diagrams),
+        "hodograph": _hodograph(turn),
         **({"reasons": {key: why.value for key, why in reasons.items() if why}} if reasons else {}),
     }
 

@@ -15,7 +15,7 @@ from planmethod.problem.model import Differentiation
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.turn import TURN, turn_of
 
 Columns = list[tuple[str, str, tuple[str, ...]]]
 """Columns of a table: head (rich text), unit of SI or none, cells (rich text)."""
@@ -38,13 +38,11 @@ def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
         (f"{v}_{index}", "1/s" if turns else "m/s", one * rate),
         (f"{a}_{index}", "1/s²" if turns else "m/s²", two * rate**2),
     ]
+    at = turn.at(shares)
+    at = at if turn.range is not None else np.round(at % TURN, 2) % TURN
     columns: Columns = [
         (words.note.number, "", tuple(str(k) for k in range(diagrams.count))),
-        (
-            "φ",
-            "deg",
-            tuple(say.number(f"{round(p % 360.0, 2) % 360.0:.2f}") for p in turn.at(shares)),
-        ),
+        ("φ", "deg", tuple(say.number(f"{p:.2f}") for p in at)),
     ]
     for head, unit, values in found:
         peak = float(np.nanmax(np.abs(values), initial=0.0))
@@ -102,8 +100,6 @@ def cycle_tables(solution: Solution, words: Language) -> list[str]:
     turn, diagrams, said = turn_of(solution), diagrams_of(solution), words.cycle
     lines = [*heading(plain_text(said.title)), ""]
     lines += wrap("; ".join(plain_text(fact) for fact in turn_facts(turn, words)) + ".")
-    if diagrams is None:
-        return lines
     for title, columns in (
         (said.table, cycle_columns(diagrams, words)),
         (deviations_title(solution, words), deviation_columns(diagrams, words)),
@@ -116,8 +112,6 @@ def cycle_protocol(solution: Solution, words: Language) -> list[str]:
     """Return how the diagrams of a turn are made, and what they give, as lines of plain text."""
     diagrams = diagrams_of(solution)
     lines = cycle_tables(solution, words)
-    if diagrams is None:
-        return lines
     steps = [plain_text(step) for step in diagram_steps(diagrams, words)]
     told = [line for k, step in enumerate(steps, 1) for line in wrap(f"{k}. {step}", rest="   ")]
     return [*lines, "", *told]

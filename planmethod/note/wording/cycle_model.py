@@ -17,6 +17,7 @@ class CycleWording:
     # Facts, of a stroke along a guide and of a swing
     output: Mapping[str, str]
     zero: str
+    path_zero: str
     extremes: str
     stroke: Mapping[str, str]
     ratio: str

@@ -54,12 +54,6 @@ def _whose(turn: Turn, manner: Manner) -> str:
 def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the diagrams of s, v and a under one another."""
     diagrams, words = diagrams_of(solution), manner.words
-    if diagrams is None:
-        turn, said = turn_of(solution), words.cycle
-        what = said.diagrams.format(of=_whose(turn, manner))
-        told = said.none.format(what=what, why=said.why[Why.PARTIAL.name])
-        height = manner.text(manner.sizes.text)
-        return paragraph(told + ".", height, width=manner.width(manner.sizes.column))
     picture = kinematic_picture(diagrams, manner.letter, words.say)
     title = words.cycle.diagrams.format(of=_whose(diagrams.turn, manner))
     scales = diagram_scales(diagrams, words)
@@ -165,15 +159,11 @@ def _table(columns: Columns, lead: int, title: str, manner: Manner) -> Block:
 def turn_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the table of the turn by positions; without diagrams the results of all of them."""
     diagrams = diagrams_of(solution)
-    if diagrams is None:
-        return results_block(solution, indices, manner)
     return _table(cycle_columns(diagrams, manner.words), 2, manner.words.cycle.table, manner)
 
 
 def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return how far the diagrams are off by every way."""
     diagrams = diagrams_of(solution)
-    if diagrams is None:
-        return Spacer(1.0, 1.0)
     columns = deviation_columns(diagrams, manner.words)
     return _table(columns, 2, deviations_title(solution, manner.words), manner)

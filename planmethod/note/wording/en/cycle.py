@@ -16,6 +16,7 @@ CYCLE = CycleWording(
     none="{what}: none, {why}",
     output={"m": "Output: point {name} of slider {link}", "deg": "Output: angle of link {name}"},
     zero="position 0: φ = {phi}; numbered as the crank turns",
+    path_zero="the path is counted from φ = {phi}",
     extremes="extreme positions: {extremes}",
     stroke={"m": "stroke H = {stroke}", "deg": "swing ψ = {stroke}"},
     ratio="φ_{{w}} = {working}, φ_{{i}} = {idle}, K_{{v}} = {ratio}",

@@ -16,6 +16,7 @@ CYCLE = CycleWording(
     none="{what}: нет, {why}",
     output={"m": "Выход: точка {name} ползуна {link}", "deg": "Выход: угол поворота звена {name}"},
     zero="положение 0: φ = {phi}; нумерация в сторону вращения кривошипа",
+    path_zero="путь отсчитан от положения при φ = {phi}",
     extremes="крайние положения: {extremes}",
     stroke={"m": "ход H = {stroke}", "deg": "угол размаха ψ = {stroke}"},
     ratio="φ_{{р}} = {working}, φ_{{х}} = {idle}, K_{{v}} = {ratio}",
