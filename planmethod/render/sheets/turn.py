@@ -19,18 +19,18 @@ from planmethod.note.narrate.turn import (
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.layout.block import Block, Spacer, paragraph
+from planmethod.render.layout.block import Block
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import results_block, table_width
+from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import PlanViewed, Viewed, named, plan_grid
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.turn import TURN, Turn, Why, turn_of
+from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
 SIDE = 0.4
 """Side of a hodograph as a part of the width of a text."""

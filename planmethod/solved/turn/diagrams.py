@@ -197,7 +197,7 @@ class Diagrams(Remembering):
 
     def x(self, shares: Reals) -> Reals:
         """Return abscissae, mm from that of position 0."""
-        return self.task.length * (shares - self.shares[0])
+        return np.asarray(self.task.length * (shares - self.shares[0]), dtype=float)
 
     # Scales --------------------------------------------------------------------------------------
 
@@ -264,7 +264,7 @@ class Diagrams(Remembering):
         curve = {}
         if way is Differentiation.CURVE:  # through what this hand has found of chords
             _, v, _ = self.drawn(Differentiation.CHORDS, arithmetic)
-            read = smooth(v, np.arange(self.count) - 0.5)
+            read = smooth(v, np.arange(self.count, dtype=float) - 0.5)
             curve = {f"v{k}": float(y) for k, y in enumerate(read)}
         trace = evaluate(graph.program, {**graph.data, **curve}, arithmetic)
         return [graph.ordinates(trace, number) for number in range(3)]
@@ -273,7 +273,7 @@ class Diagrams(Remembering):
     def curve(self) -> Reals:
         """The smooth curve through the velocities of the chords, read in the positions, mm."""
         _, v, _ = self.drawn(Differentiation.CHORDS)
-        return smooth(v, np.arange(self.count) - 0.5)
+        return smooth(v, np.arange(self.count, dtype=float) - 0.5)
 
     def integrated(self) -> Reals:
         """Return the path found from exact velocities by middle ordinates, mm; n + 1 ordinates."""
