@@ -24,6 +24,7 @@ COMMANDS = (
     "structure",
     "protocol",
     "live",
+    "animate",
     "audit",
     "lint",
     "specimen",

@@ -91,6 +91,11 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {"numpy", "svgwrite"},
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL"},
         ),
+        (
+            (("animate", EX3, "--format", "svg"),),
+            {"numpy", "svgwrite"},
+            {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL"},
+        ),
         ((("lint", EX3),), {"numpy", "shapely"}, {*ALL, *FONTS} - {"numpy", "shapely"}),
         (
             (
