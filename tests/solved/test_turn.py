@@ -9,10 +9,14 @@ import numpy as np
 import pytest
 from worked import ROOT
 
+from planmethod.construct.drafting import PROFILES, Sampled
+from planmethod.construct.evaluate import evaluate
 from planmethod.note.records.cycle import analogue_records, cycle_record
 from planmethod.problem import load, loads
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import PRIMES, extreme_construction
 from planmethod.solved.turn.diagrams import smooth
+from planmethod.solved.turn.turn import turn_of
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
 FOUR_BAR = """title = "Шарнирный четырёхзвенник"
@@ -210,3 +214,46 @@ def test_the_transfer_functions_of_the_analytic_example_are_those_printed() -> N
         degrees(2 * asin(1 / hypot(5, 1))), abs=1e-10
     )
     assert told["K_v"] == pytest.approx((180 + 67.3801350519596) / (180 - 67.3801350519596))
+
+
+CONSTRUCTED = {
+    "guide": """frame = { O = [0, 0], guides.g = { through = [0.01, 0.02], angle = 30 } }
+driver = { link = "1", phi = 40, omega = -10 }
+links.1 = { points = ["O", "A"], OA = 0.1 }
+links.2 = { points = ["A", "B"], AB = 0.35 }
+links.3 = { points = ["B"], slides = { on = "g", offset = 0.03 } }
+assembly = { B = "right of A" }
+""",
+    "circle": FOUR_BAR.format(
+        a=0.1, b=0.3, c=0.25, d=0.35, omega=-10, rule="above D", asked='zero = "other extreme"'
+    ),
+    "tangents": PRESS,
+}
+
+
+@pytest.mark.parametrize("locus", CONSTRUCTED)
+def test_extremes_are_constructed_where_the_roots_are(locus: str) -> None:
+    solution = Solution(loads(CONSTRUCTED[locus], name=locus))
+    made, turn = extreme_construction(solution), turn_of(solution)
+    assert made is not None and made.locus.value == locus
+    for k, phi in enumerate(made.phi):
+        name = f"{made.pivot}{made.pin}{PRIMES[k]}"
+        assert (made.angle(made.exact, name) - phi + 180) % 360 == pytest.approx(180, abs=1e-9)
+        assert 0 < abs(made.off(k)) < 1.5  # of a millimetre at the end of the crank
+    if locus != "tangents":  # of the press the slotted link swings, the output slides
+        assert made.stroke(made.exact) == pytest.approx(turn.stroke, rel=1e-12)
+    # What one sigma is, told by many hands.
+    pencil = Sampled(PROFILES["board"], frozenset(), 2000, 5)
+    trace = evaluate(made.program, made.data, pencil)
+    for k, sigma in enumerate(made.sigma[:2]):
+        pin, pivot = (trace.value[p] for p in (f"{made.pin}{PRIMES[k]}", made.pivot))
+        turned = np.degrees(np.angle((pin - pivot) * np.exp(-1j * np.radians(made.phi[k]))))
+        assert sigma == pytest.approx(np.std(turned), rel=0.1)
+    told = cycle_record(solution)["extremes"]
+    assert all({"read_deg", "sigma_deg"} <= one.keys() for one in told)
+
+
+def test_where_no_arcs_find_the_extremes_there_is_no_construction() -> None:
+    solution = Solution(load(ROOT / "problems/levers/six-link.toml"))
+    assert extreme_construction(solution) is None
+    assert all(one.keys() == {"phi_deg", "value"} for one in cycle_record(solution)["extremes"])

@@ -10,8 +10,9 @@ import numpy as np
 from planmethod.note.numbers import finite_or_none, plain
 from planmethod.problem.model import Differentiation
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
-from planmethod.solved.turn.turn import Turn, Why, analogues, turn_of
+from planmethod.solved.turn.turn import TURN, Extreme, Turn, Why, analogues, turn_of
 
 
 def analogue_records(solution: Solution) -> list[dict[str, Any]]:
@@ -66,7 +67,8 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         "zero_deg": plain(turn.zero),
         "positions_deg": _listed(turn.positions),
         "extremes": [
-            {"phi_deg": plain(one.phi), "value": plain(one.value)} for one in turn.extremes
+            {"phi_deg": plain(one.phi), "value": plain(one.value), **_constructed(solution, one)}
+            for one in turn.extremes
         ],
         "stroke": turn.stroke,
         "K_v": turn.ratio,
@@ -85,6 +87,16 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         "hodograph": _hodograph(turn),
         **({"reasons": {key: why.value for key, why in reasons.items() if why}} if reasons else {}),
     }
+
+
+def _constructed(solution: Solution, extreme: Extreme) -> dict[str, float]:
+    """Return an extreme position as the ruler reads it, and its sigma, where it is constructed."""
+    made = extreme_construction(solution)
+    for k, phi in enumerate(made.phi if made is not None else ()):
+        assert made is not None
+        if abs((extreme.phi - phi + TURN / 2) % TURN - TURN / 2) < 1e-9:
+            return {"read_deg": plain(extreme.phi + made.off(k)), "sigma_deg": plain(made.sigma[k])}
+    return {}
 
 
 def _diagrams(diagrams: Diagrams) -> dict[str, Any]:

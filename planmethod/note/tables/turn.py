@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from planmethod.construct.hand import Hand
-from planmethod.note.narrate.turn import diagram_steps, output_symbol, turn_facts
+from planmethod.note.narrate.turn import diagram_steps, extreme_steps, output_symbol, turn_facts
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
 from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
 from planmethod.solved.turn.turn import TURN, turn_of
 
@@ -109,10 +110,12 @@ def cycle_tables(solution: Solution, words: Language) -> list[str]:
 
 
 def cycle_protocol(solution: Solution, words: Language) -> list[str]:
-    """Return how the diagrams of a turn are made, and what they give, as lines of plain text."""
+    """Return how extremes and diagrams of a turn are made, and what they give, as plain text."""
     diagrams = diagrams_of(solution)
     lines = cycle_tables(solution, words)
-    steps = [plain_text(step) for step in diagram_steps(diagrams, words)]
+    made = extreme_construction(solution)
+    own = [*extreme_steps(diagrams.turn, made, words), *diagram_steps(diagrams, words)]
+    steps = [plain_text(step) for step in own]
     told = [line for k, step in enumerate(steps, 1) for line in wrap(f"{k}. {step}", rest="   ")]
     return [*lines, "", *told]
 

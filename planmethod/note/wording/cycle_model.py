@@ -26,6 +26,11 @@ class CycleWording:
     range: str
     pressure: str
 
+    # Extreme positions by construction, by what the end of the rod goes along
+    construction: Mapping[str, str]
+    constructed: Mapping[str, str]
+    no_construction: str
+
     # Diagrams
     of: Mapping[str, str]
     diagrams: str
