@@ -25,6 +25,7 @@ COMMANDS = (
     "protocol",
     "live",
     "animate",
+    "sketch",
     "audit",
     "lint",
     "specimen",
