@@ -67,11 +67,19 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn."""
+    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn.
+
+    At a scale of their own, where the largest of all positions would make them small.
+    """
     kind = manner.entry.of
     assert kind is not None
     count = len(solution.positions)
     chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3))))
+    at, problem = solution.positions.tolist(), solution.problem
+    own = Solution(problem, positions=[at[k] for k in chosen], views=solution.views).scales[kind]
+    if own.per_mm < solution.scales[kind].per_mm:
+        scales = {**solution.scales, kind: own}
+        solution = Solution(problem, positions=at, scales=scales, profile=solution.profile)
     picture = plan_grid(solution, kind, chosen, manner.words.say)
     title = manner.entry.title or manner.words.sheets.views[kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
