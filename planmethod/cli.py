@@ -31,6 +31,7 @@ COMMANDS = (
     "specimen",
     "layouts",
     "new",
+    "tasks",
     "synthesize",
     "teeth",
     "check",
