@@ -37,7 +37,7 @@ def test_an_svg_that_plays_has_links_and_plan_where_they_are_solved_to_be() -> N
     solved = Solution(problem, positions=film.positions.tolist())
     e = solved.points["E"].place
 
-    def moves(kind: str) -> list[np.ndarray]:  # type: ignore[type-arg]
+    def moves(kind: str) -> list[np.ndarray]:
         found = [one.get("values") or "" for one in root.iter(f"{SVG}animateTransform")
                  if one.get("type") == kind]  # fmt: skip
         return [np.array([row.split() for row in v.split(";")], float) for v in found]
@@ -91,7 +91,7 @@ def test_the_command_writes_every_frame_and_says_what_is_wrong(tmp_path: Path) -
             picture.seek(k)
             shown.add(picture.convert("L").tobytes())
         # To and fro: all but both ends twice; as long as was asked.
-        assert picture.n_frames == count and len(shown) > count // 2
+        assert getattr(picture, "n_frames", 0) == count and len(shown) > count // 2
         assert picture.info["duration"] == round(600 / count) * 10
     wrong = CliRunner().invoke(cli, [*args, "--format", "mp4"])
     assert wrong.exit_code == ExitCode.USAGE and "gif, svg" in wrong.output

@@ -11,6 +11,7 @@ from worked import ROOT
 
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.steps import PointName
 from planmethod.note.records.cycle import analogue_records, cycle_record
 from planmethod.problem import load, loads
 from planmethod.solved.solution import Solution
@@ -246,7 +247,8 @@ def test_extremes_are_constructed_where_the_roots_are(locus: str) -> None:
     pencil = Sampled(PROFILES["board"], frozenset(), 2000, 5)
     trace = evaluate(made.program, made.data, pencil)
     for k, sigma in enumerate(made.sigma[:2]):
-        pin, pivot = (trace.value[p] for p in (f"{made.pin}{PRIMES[k]}", made.pivot))
+        ends = (PointName(f"{made.pin}{PRIMES[k]}"), PointName(made.pivot))
+        pin, pivot = (trace.value[end] for end in ends)
         turned = np.degrees(np.angle((pin - pivot) * np.exp(-1j * np.radians(made.phi[k]))))
         assert sigma == pytest.approx(np.std(turned), rel=0.1)
     told = cycle_record(solution)["extremes"]
