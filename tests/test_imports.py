@@ -87,7 +87,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
         ),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
         (
-            (("live", EX3),),
+            (("live", EX3), ("animate", EX3, "--format", "svg", "--frames", "8")),
             {"numpy", "svgwrite"},
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL"},
         ),
