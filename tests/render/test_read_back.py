@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from reading import read_svg
+from reading import Path, read_svg
 from worked import SIX, problem_of
 
 from planmethod.note.narrate.calculation import calculation
@@ -28,7 +28,7 @@ def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout:
     problem = problem_of(name)
     sheet = kinematics_sheets(problem, layout=layout)[0]
     page = read_svg(render(sheet, "svg"))
-    inked = np.array([corner for path in page.paths for corner in path.corners])
+    inked = np.array([z for path in page.items if isinstance(path, Path) for z in path.corners])
     solution, compared = Solution(problem), 0
     for view in sheet.views:
         if view.kind == "position":
