@@ -494,7 +494,7 @@ def test_a_worked_sheet_is_the_same_picture_in_svg_and_in_pdf(tmp_path: FilePath
     black to white: 0.26 to 0.46 % between PDF and either viewer of the SVG (edges of letters,
     which the PDF has as a font), none between the two viewers.
     """
-    (drawing,) = kinematics_sheets(problem_of("linkages/ex1"))
+    (drawing,) = kinematics_sheets(problem_of("linkages/ex1"), sigma=False)
     dpi, width, height = 254, 4200, 2970
     svg, pdf = tmp_path / "a.svg", tmp_path / "a.pdf"
     svg.write_bytes(render(drawing, "svg"))

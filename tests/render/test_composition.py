@@ -306,13 +306,13 @@ def test_a_block_that_must_stay_is_never_left_out() -> None:
     """The calculation of the default goes to a sheet of its own, a required one stays."""
     default = shipped_text("one-position")
     strict = made(default.replace("droppable = true", "droppable = false"))
-    problem = problem_of("linkages/ex2")
-    loose = kinematics_sheets(problem, paper="A4", layout=made(default))
+    problem = problem_of("press/press")
+    loose = kinematics_sheets(problem, paper="A3", layout=made(default))
     *plans, texts = loose
     assert "Расчёт" not in "".join(map(shown, plans))
     assert shown(texts).count("Расчёт") == 2
     assert not texts.views
-    asked = kinematics_sheets(problem, paper="A4", layout=strict)
+    asked = kinematics_sheets(problem, paper="A3", layout=strict)
     assert "".join(map(shown, asked)).count("Расчёт") == 2
     assert all(sheet.views for sheet in asked)
 

@@ -23,6 +23,7 @@ from planmethod.render.forces.hodograph import polar_groups
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text, View
 from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.pictures.polar import HODOGRAPH, POLE
+from planmethod.render.sheets.composition.reader import shipped
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.errors.forces import drawn_forces
@@ -141,7 +142,9 @@ def _across(positions: Sequence[float], per: float) -> list[float]:
 def test_the_marks_are_what_both_methods_give_on_paper(
     name: str, positions: tuple[float, ...]
 ) -> None:
-    sheet, solution = drawn(name, positions), Solution(problem_of(name), positions=positions)
+    views = shipped("forces-cycle").views_for("A1", len(positions))
+    solution = Solution(problem_of(name), positions=positions, views=views)
+    sheet = drawn(name, positions)
     balances = drawn_forces(statics_of(solution)).balances
     assert balances is not None
     (view,) = (v for v in sheet.views if v.kind == "balance")

@@ -33,6 +33,7 @@ CASES = [
     ("coursework", "linkages/ex1", TURN),
     ("coursework-12", "linkages/ex1", TURN),
     *(("forces", name, None) for name in ("levers/six-link", "levers/task12", "press/press")),
+    ("few-positions", "linkages/ex3", TURN[:2]),
     ("forces-cycle", "levers/task12", TURN),
     ("forces-cycle", "press/press", TURN),
     ("flywheel", "press/flywheel", None),

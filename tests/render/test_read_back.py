@@ -46,4 +46,4 @@ def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout:
                 if letters in on_sheet:
                     assert on_sheet[letters].length == pytest.approx(float(value), abs=0.25), said
                     compared += 1
-    assert compared >= 8 or layout == "homework"
+    assert compared >= 5 or layout == "homework"

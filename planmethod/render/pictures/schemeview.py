@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from math import ceil
+from math import ceil, inf
 
 import numpy as np
 
@@ -15,8 +15,8 @@ from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
-from planmethod.render.ink.drawing import Item, Pen, Stroke
-from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
+from planmethod.render.ink.extent import arc_points, ink_bounds
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.tidy import untidiness
@@ -116,7 +116,7 @@ def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
     if part is None:
         return
     pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
-    places = _turning(scheme, part, None if pivot is None else scheme.at(pivot))
+    places = _turning(view, part, None if pivot is None else scheme.at(pivot))
     kinds = (
         (QuantityKind.OMEGA, float(motion.omega[scheme.index])),
         (QuantityKind.EPSILON, float(motion.epsilon[scheme.index])),
@@ -126,9 +126,11 @@ def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
             continue
         sense = 1 if value > 0 else -1
         middle, sweep = turn, min(SWEEP, np.degrees(ARC * scheme.factor / radius))
-        if others:
-            around = [*others, *scheme.bodies, *scheme.lines, *scheme.joints, *view.arrows]
-            middle += _roomy(centre, radius, turn - sense * (sweep / 2 + 8.0), around)
+        # The tail, where the letter is, looks for room; a single arrow goes on crossing its link.
+        around = [*others, *scheme.bodies, *scheme.lines, *scheme.joints, *view.arrows]
+        beyond = np.degrees(scheme.letter_height / radius)
+        most, enough = (180.0, inf) if others else (0.25 * sweep, 0.8 * scheme.letter_height)
+        middle += _roomy(centre, radius, turn - sense * (sweep / 2 + beyond), around, most, enough)
         view.arrows += turn_arrow(
             centre,
             radius,
@@ -155,20 +157,21 @@ def _senses(view: _View, link: str, others: Sequence[Item] = ()) -> None:
 SWEEP, ARC = 70.0, 24.0
 """Most that an arrow of ω or ε turns by, degrees, and its length before ``factor``, mm."""
 
-_LEAST, _BETWEEN, _OFF = 9.0, 8.0, 5.0
+_LEAST, _BETWEEN, _OFF = 9.0, 11.0, 5.0
 """Least radius of such an arrow, between two about one centre, and to a joint, before ``factor``,
 mm."""
 
 
 def _turning(
-    scheme: Scheme, part: tuple[complex, complex], pivot: complex | None
+    view: _View, part: tuple[complex, complex], pivot: complex | None
 ) -> tuple[tuple[complex, float, float], ...]:
     """Return where the arrows of ω and of ε cross a link: centre, radius, direction in degrees.
 
     Two arrows never stand side by side, where their letters would be taken one for the other: about
     a pivot they have radii well apart, on another link they cross it on both sides of their centre.
-    Both keep clear of the joints, points and stones on the link.
+    Both keep clear of the joints, points and stones on the link, and of the arrows of other links.
     """
+    scheme = view.scheme
     start, end = (
         part if pivot is None or abs(part[1] - pivot) > abs(part[0] - pivot) else part[::-1]
     )
@@ -176,6 +179,8 @@ def _turning(
     length, along, f = abs(end - start), angle_of(end - start), scheme.factor
     problem = scheme.solution.problem
     pins = [(scheme.at(p), _OFF * f) for p in scheme.named]
+    arcs = [item for item in view.arrows if isinstance(item, Arc)]
+    pins += [(p, 2 * _OFF * f) for arc in arcs for p in arc_points(arc)[::4]]
     for slide in problem.slides.values():
         place = scheme.base(slide) if problem.is_block(slide) else scheme.at(slide.pin)
         pins.append((place, (_OFF + SIZES.slider_length / 2) * f))
@@ -205,17 +210,28 @@ def _turning(
     return (centre, radius, along), (centre, radius, along + 180.0)
 
 
-def _roomy(centre: complex, radius: float, turn: float, items: Sequence[Item]) -> float:
-    """Return how far to turn about a centre from a direction to where a letter has room, deg."""
+def _roomy(
+    centre: complex,
+    radius: float,
+    turn: float,
+    items: Sequence[Item],
+    most: float,
+    enough: float = inf,
+) -> float:
+    """Return how far to turn about a centre from a direction to where a letter has room, deg.
+
+    ``most`` is the furthest, degrees; more room than ``enough`` is not looked for, mm.
+    """
     lines = [pair for item in items if isinstance(item, Stroke) for pair in pairwise(item.points)]
     ends = np.asarray(lines)
     ways = ends[:, 1] - ends[:, 0] + 1e-9
-    turns = (0.0, *(sign * k * 7.5 for k in range(1, 25) for sign in (1, -1)))
+    turns = (0.0, *(sign * k * 7.5 for k in range(1, 25) for sign in (1, -1) if k * 7.5 <= most))
 
     def room(by: float) -> float:
         place = centre + radius * cis(turn + by)
         part = np.clip(((place - ends[:, 0]) / ways).real, 0.0, 1.0)
-        return round(float(np.abs(place - ends[:, 0] - ways * part).min()) - abs(by) / 180.0, 3)
+        free = float(np.abs(place - ends[:, 0] - ways * part).min())
+        return round(min(free, enough) - abs(by) / 180.0, 3)
 
     return max(turns, key=room)
 

@@ -46,7 +46,10 @@ def _sigma_rows(
     off = 100.0 * (read - exact) / exact if abs(exact) > sigma else inf
     return (
         Cell(say.number(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
-        Cell(say.number(f"{off:.1f}") if abs(off) < MOST_OFF else "—", 0 if turns else None),
+        Cell(
+            say.number(f"{round(off, 1) + 0.0:.1f}") if abs(off) < MOST_OFF else "—",
+            0 if turns else None,
+        ),
         Cell(say.number(sigma_text(sigma)) + mark, 0 if turns else None),
     )
 
@@ -130,7 +133,8 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
         leading=(1 if sigma else 0) if alone else 2,
         title=manner.entry.title or title,
     )
-    if not sigma:
+    marks = any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells)
+    if not sigma or (manner.extras.sigma is None and not marks):
         return table
     errors = drafting_of(solution)
     return with_note(table, columns, height, solution.profile.name, errors.draws, words)
