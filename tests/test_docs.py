@@ -107,7 +107,7 @@ def test_options_that_the_text_speaks_of_exist(name: str) -> None:
         for command in cli.commands.values()
         for param in command.params
         if isinstance(param, click.Option)
-        for option in param.opts
+        for option in (*param.opts, *param.secondary_opts)
     }
     spans = re.findall(r"`(--[a-z-]+)", text_of(name))
     assert set(spans) - {"--help"} <= known

@@ -190,13 +190,15 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
         for drawing in sheets
         for line in read(render(drawing, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
     ]
-    exact = [
-        segment.exact[0] * solution.scales[kind].per_mm / solution.own_scale(kind, 0).per_mm
+    told = [
+        (float(segment.read[0]), float(segment.exact[0]))
         for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
         for segment in solution.segments(kind)
     ]
-    drawn = sorted(length for length in exact if length >= 0.3)
-    assert sorted(abs(b - a) for a, b in lines) == pytest.approx(drawn, abs=1e-6)
+    found = [abs(b - a) for a, b in lines]
+    assert len(found) == sum(exact >= 0.3 for _, exact in told)
+    for length in found:  # half a division of the ruler
+        assert min(abs(length - read) for read, _ in told) <= 0.25 + 1e-6
 
 
 @pytest.mark.parametrize("name", ["levers/six-link", "levers/task12", "press/press"])

@@ -203,13 +203,13 @@ def test_a_short_segment_alone_does_not_make_its_end_dashed() -> None:
 
 def test_the_inscription_names_factor_and_profile() -> None:
     assert ellipse_inscription(solved("linkages/ex3"), PlanKind.VELOCITY, [0], RU) == [
-        "эллипсы погрешности: 2σ, чертёжная доска"
+        "Эллипсы погрешностей построения (2σ), чертёжная доска"
     ]
     assert ellipse_inscription(solved("linkages/ex3", "coarse"), PlanKind.VELOCITY, [0], RU) == [
-        "эллипсы погрешности: 2σ, грубо"
+        "Эллипсы погрешностей построения (2σ), грубо"
     ]
     assert ellipse_inscription(solved("linkages/ex3"), PlanKind.POSITION, [0], RU) == [
-        "эллипсы погрешности: 2σ, увеличены 5:1, чертёжная доска"
+        "Эллипсы погрешностей построения (2σ), увеличено 5:1, чертёжная доска"
     ]
 
 

@@ -47,10 +47,11 @@ def test_the_lint_has_nothing_to_say(name: str, many: bool) -> None:
         assert marks(sheets) == []
         if sigma:
             assert_tables_inside(sheets)
+        sheets = [sheet for sheet in sheets if not sheet.goes_on]
         assert all((count_ellipses(sheet) > 0) == errors for sheet in sheets)
         for sheet in sheets:
             shown = texts(sheet)
-            assert shown.count("эллипсы погрешности") == (3 if errors else 0)
+            assert shown.count("Эллипсы погрешностей") == (3 if errors else 0)
             assert ("погрешность построения" in shown) == sigma
 
 

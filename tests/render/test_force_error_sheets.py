@@ -98,7 +98,7 @@ def test_the_lint_has_nothing_to_say(name: str, profile: str) -> None:
         assert errors_in(sheets) == []
         (sheet,) = sheets
         text = shown(sheet)
-        assert text.count("эллипсы погрешности") == (len(views(sheet, "forces")) if errors else 0)
+        assert text.count("Эллипсы погрешностей") == (len(views(sheet, "forces")) if errors else 0)
         assert ("погрешность построения" in text) == sigma
         assert ("(точные значения)" in text) != sigma
         assert bool(ellipses_in(sheet)) == (errors and profile != "cad") or profile == "cad"

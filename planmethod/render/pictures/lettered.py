@@ -13,12 +13,21 @@ ROOMS = (26.0, 60.0)
 """Room around a picture for its letters, mm: more where they find no free place in less."""
 
 
+NEAR = 8.0
+"""Furthest middle of a label that may be left out from what it names, mm."""
+
+
 def lettered(
-    items: Sequence[Item], labels: Sequence[Label], *, clear: Sequence[Item] = ()
+    items: Sequence[Item],
+    labels: Sequence[Label],
+    *,
+    clear: Sequence[Item] = (),
+    welcome: Sequence[Label] = (),
 ) -> Picture:
     """Return a picture of items with their labels in free places around them.
 
     ``clear`` is what the labels keep clear of though it is not drawn, as long as there is room.
+    ``welcome`` are labels that are left out where they have no free place within the picture.
     """
     left, low, right, high = ink_bounds(items)
     for hidden in (clear, ()) if clear else ((),):
@@ -31,4 +40,9 @@ def lettered(
             continue
         break
     whole = [*items, *(item for label in placed for item in label.items())]
+    for label in welcome:
+        (found,) = place_labels([label], [*whole, *clear], ink_bounds(whole))
+        near = abs(complex(*found.bounds[:2]) + complex(*found.bounds[2:]) - 2 * label.anchor) / 2
+        if found.free and found.leader is None and near < NEAR:
+            whole += found.items()
     return Picture(tuple(whole), ink_bounds(whole))

@@ -8,7 +8,7 @@ from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.labels import Label
+from planmethod.render.labels import Label, segment_label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
@@ -19,6 +19,9 @@ from planmethod.solved.solution import Solution
 
 POLE = "pole"
 """Tag of the disc at a plan's pole: one for each plan that is drawn."""
+
+NAMES, LONG = 3.5, 20.0
+"""Height of the names of vectors, on plans with larger letters, and how long these are, mm."""
 
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
 
@@ -95,7 +98,13 @@ def plan_picture(
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
     labels = _labels(solution, plan, at, letter_height, f"{kind.value} {index}")
-    return lettered(items, labels, clear=ellipses.grounds)
+    names = [
+        segment_label(f"\\bar{{{vector.symbol[0]}}}{vector.symbol[1:]}", at[tail], at[head], NAMES)
+        for vector in plan.vectors
+        for tail, head in ((vector.tail, vector.head),)
+        if letter_height > NAMES and abs(at[head] - at[tail]) > LONG
+    ]
+    return lettered(items, labels, clear=ellipses.grounds, welcome=names)
 
 
 def _labels(

@@ -244,7 +244,7 @@ def _tries(
             for apart in ((0, 1), (2,)):
                 yield from ((count, level, False, apart) for level in range(levels))
         if droppable and count != 2:
-            yield count, levels - 1, True, (0, 1, 2)
+            yield from ((count, level, True, (0, 1, 2)) for level in range(levels))
 
 
 def _divided(
