@@ -6,12 +6,14 @@ from pathlib import Path
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
+from planmethod.languages import say
 from planmethod.options import lang_option
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("family", required=False)
 @click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
@@ -30,7 +32,7 @@ def new(family: str | None, file: Path | None, show: bool, force: bool, lang: st
         for name in known:
             click.echo(f"{name.ljust(width)}  {meanings[name]}")
         if not show:
-            raise click.UsageError("give one of these families: planmethod new FAMILY [FILE]")
+            raise click.UsageError(say("give one of these families: planmethod new FAMILY [FILE]"))
         return
-    refuse_unknown("family", family, known)
+    refuse_unknown("no family {!r}", family, known)
     write_new(file or Path(f"{family}.toml"), template(family), force=force)
