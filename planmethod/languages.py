@@ -97,6 +97,11 @@ def _messages(lang: str) -> Mapping[str, str]:
     return found
 
 
+def spoken() -> str:
+    """Return the language that messages are in."""
+    return _spoken
+
+
 def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> str:
     """Return the language in which to answer a command line (язык сообщений).
 

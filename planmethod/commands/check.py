@@ -12,7 +12,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, is_narrow
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode
-from planmethod.languages import say
+from planmethod.languages import say, spoken
 from planmethod.options import lang_option, out_option
 
 if TYPE_CHECKING:
@@ -102,6 +102,8 @@ def check(
     checked, works = _checked(variants, paths, jobs)
     from planmethod.check.model import Unread
     from planmethod.check.pages.overrides import overridden, read_overrides
+    from planmethod.check.pages.speech import Speech
+    from planmethod.note.wording import language
 
     by_hand = overrides or (None if as_json else out / "overrides.csv")
     if by_hand is not None:
@@ -115,14 +117,16 @@ def check(
         _write_results(variants, paths, checked, out, salt if anonymize else None, lang)
     unreadable = [a for work in checked for a in work.answers if a.verdict.value == "unreadable"]
     lost = [remark for work in checked for remark in work.work.remarks]
+    speech = Speech(language(spoken()))
     for judged in unreadable:
-        why = "" if judged.written is None else judged.written.unreadable
-        reason = why or say("no quantity {!r} that the problem has", judged.id)
+        reason = say("no quantity {!r} that the problem has", judged.id)
+        if judged.written is not None and judged.written.unreadable:
+            reason = speech.unread(judged.written)
         click.echo(say("Unreadable: {}: {}", judged.where or judged.id, reason), err=True)
     for remark in lost:
         aside = remark.why in (Unread.COLUMN, Unread.KEY)
         told = "Not read: {}: {}" if aside else "Unreadable: {}: {}"
-        click.echo(say(told, remark.where, remark.unreadable), err=True)
+        click.echo(say(told, remark.where, speech.unread(remark)), err=True)
     # A column or key that nobody knows is told of, but no answer is lost by it.
     lost = [remark for remark in lost if remark.why not in (Unread.COLUMN, Unread.KEY)]
     finish(ExitCode.FINDINGS if unreadable or lost else ExitCode.DONE)

@@ -48,7 +48,7 @@ def refuse_unknown(said: str, name: str, known: Sequence[str]) -> None:
         from difflib import get_close_matches
 
         near = get_close_matches(name, known, 1)
-        hint = say("; did you mean {!r}?", near[0]) if near else ""
+        hint = say("; did you mean {!r}?", near[0]) if near else "."
         told = say("{}{} Known: {}.", say(said, name), hint, ", ".join(known))
         raise click.UsageError(told)
 

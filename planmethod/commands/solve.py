@@ -248,7 +248,7 @@ def _refuse_contradictions(
     forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
     given = [name for name, is_given in forms.items() if is_given]
     if len(given) > 1:
-        raise click.UsageError(say("give {}, not both", " or ".join(given)))
+        raise click.UsageError(say("give {}, not both", say(" or ").join(given)))
     if as_json and ask is not None:
         raise click.UsageError(
             say("--json is always whole; --ask goes with --csv, --npz or a table")

@@ -141,5 +141,5 @@ def read_list(faults: Faults, path: str, value: object, what: str, most: int) ->
     """Read a list that is neither empty nor too long; empty after a fault."""
     if isinstance(value, list) and 1 <= len(value) <= most:
         return value
-    faults.expected(path, say("a list of {}, one to {} of them", what, most), value)
+    faults.expected(path, say("a list of {}, one to {} of them", say(what), most), value)
     return []
