@@ -302,8 +302,8 @@ def _read_sense(
         hint = "Leave sense out: the sign of a number, or the size of a load, says all."
         faults.add(path, say("'{}' has no sense to be asked for", selector.kind), hint)
     elif asked is not None and (asked is AskedSense.TURN) != (own is AskedSense.TURN):
-        what = "turns" if own is AskedSense.TURN else "is a vector"
-        faults.add(path, f"'{selector.kind}' {what}", say('Write sense = "{}".', own.value))
+        told = "'{}' turns" if own is AskedSense.TURN else "'{}' is a vector"
+        faults.add(path, say(told, selector.kind), say('Write sense = "{}".', own.value))
     return asked or own
 
 
