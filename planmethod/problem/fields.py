@@ -135,9 +135,7 @@ def read_number(
         return None
     if not low <= number <= high:
         faults.add(
-            path,
-            say("expected {} from {:g} to {:g}, got {:g}", what, low, high, number),
-            hint,
+            path, say("expected {} from {:g} to {:g}, got {:g}", what, low, high, number), hint
         )
         return None
     return number

@@ -117,10 +117,7 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
             name = read_text(faults, path, body["name"], limit=NAME_LIMIT)
         if name is not None and not _NAME_RE.match(name):
             faults.expected(
-                path,
-                "a letter with its indices",
-                name,
-                "For example: F_{5}, P, M_{1}^{c}.",
+                path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
             )
             name = None
         if name is not None and name in names:
