@@ -290,7 +290,7 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
 def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:
     """Refuse or report positions without results; report the doubts about the others."""
     if gaps.count and not partial:
-        raise AssemblyError(gaps.refusal() + (HINT if len(gaps.reason) > 1 else ""))
+        raise AssemblyError(gaps.refusal() + (say(HINT) if len(gaps.reason) > 1 else ""))
     if gaps.count:
         warn(problem, gaps.warning())
     for said in doubts:
