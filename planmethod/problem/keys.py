@@ -120,7 +120,18 @@ MACHINE = (
     "method",
     "phi_0",
     "flywheel",
+    "motor",
+    "brake",
 )
+MOTOR_FORMS = {
+    "kloss": (("M_max", "s_k", "n_sync"), ("P_nom", "n_nom", "n_sync", "lambda")),
+    "line": (("M_start", "n_idle"), ("M_nom", "n_nom", "n_idle")),
+}
+"""Numbers of each way to give a motor's characteristic."""
+KLOSS, LINE = (
+    tuple(dict.fromkeys(key for form in forms for key in form)) for forms in MOTOR_FORMS.values()
+)
+MOTOR = (*MOTOR_FORMS, "ratio")
 FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
@@ -185,6 +196,9 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "phases": PHASES,
     "machine": MACHINE,
     "flywheel": FLYWHEEL,
+    "motor": MOTOR,
+    "kloss": KLOSS,
+    "line": LINE,
     "gears": GEARS,
     "wheel": WHEEL,
     "mesh": MESH,

@@ -16,6 +16,8 @@ SYMBOLS = (
     "crank inertia",
     "mean speed",
     "moment by lever",
+    "motor moment",
+    "braking moment",
 )
 """Quantities whose letters a language's `Notation` has."""
 
@@ -56,3 +58,22 @@ class MachineWording:
     held: str
     lever_agrees: str
     steps: tuple[str, ...]
+
+    run_up: str
+    kloss: str
+    line: str
+    ran_up: str
+    steady: str
+    by_motor: str
+    stays: str
+    stalled: str
+    not_steady: str
+    braked: str
+    coasted: str
+    not_stopped: str
+    motor_diagram: str
+    by_time: str
+    by_angle: str
+    stop_diagram: str
+    run_up_table: str
+    stop_table: str

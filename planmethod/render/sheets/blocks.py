@@ -88,6 +88,9 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "flywheel-calculation": Kind(_late("flywheel", "calculation_block"), _TEXT),
         "speed-diagram": Kind(_late("flywheel", "speed_diagram"), _DIAGRAM),
         "load-diagram": Kind(_late("flywheel", "load_diagrams"), _DIAGRAM),
+        "run-up-text": Kind(_late("runup", "run_up_text"), _TEXT),
+        "run-up-diagrams": Kind(_late("runup", "run_up_diagrams"), _DIAGRAM),
+        "run-up-tables": Kind(_late("runup", "run_up_tables"), _TEXT),
         "flywheel": Kind(_late("flywheel", "wheel_view"), _DIAGRAM),
         "cycle-reactions": Kind(_late("cycletable", "reactions_table"), _TEXT),
     }

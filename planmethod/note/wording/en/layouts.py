@@ -27,6 +27,10 @@ LAYOUTS = MappingProxyType(
         "in the problem file.",
         "flywheel_about": "flywheel: moments, work, inertia, energy-mass diagram, sizes",
         "flywheel_title": "Choice of the flywheel",
+        "runup_head": "Run-up and stop of a machine with its flywheel.\n# Needs motor or brake in "
+        "[machine] of the problem file.",
+        "runup_about": "run-up and stop: the motor, angular velocity over time and angle, tables",
+        "runup_title": "Run-up and stop of the machine",
         "forces_head": "Sheet 2 of a course work: forces in one position. Groups are cut free "
         "from the last to the first.\n# The problem file needs [dynamics] and [[loads]]; of "
         "several positions each has its sheet.",

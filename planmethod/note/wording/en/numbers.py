@@ -37,6 +37,8 @@ NOTATION = Notation(
         "crank inertia": "J_{cr}",
         "mean speed": "ω_{m}",
         "moment by lever": "M^{Zh}",
+        "motor moment": "M_{m}",
+        "braking moment": "M_{b}",
         "balancing moment": "M_{b}",
         "balancing force": "F_{b}",
         "lever moment": "M^{L}_{b}",

@@ -37,6 +37,8 @@ NOTATION = Notation(
         "crank inertia": "J_{кр}",
         "mean speed": "ω_{ср}",
         "moment by lever": "M^{Ж}",
+        "motor moment": "M_{дв}",
+        "braking moment": "M_{т}",
         "balancing moment": "M_{ур}",
         "balancing force": "F_{ур}",
         "lever moment": "M^{Ж}_{ур}",

@@ -21,6 +21,7 @@ SHIPPED = (
     "forces",
     "forces-cycle",
     "flywheel",
+    "run-up",
 )
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
