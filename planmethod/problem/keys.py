@@ -23,6 +23,7 @@ TOP = (
     "dynamics",
     "loads",
     "machine",
+    "balancing",
     "gears",
     "point",
     "cycle",
@@ -132,6 +133,7 @@ KLOSS, LINE = (
     tuple(dict.fromkeys(key for form in forms for key in form)) for forms in MOTOR_FORMS.values()
 )
 MOTOR = (*MOTOR_FORMS, "ratio")
+BALANCING = ("method", "share", "radii")
 FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
@@ -197,6 +199,7 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "machine": MACHINE,
     "flywheel": FLYWHEEL,
     "motor": MOTOR,
+    "balancing": BALANCING,
     "kloss": KLOSS,
     "line": LINE,
     "gears": GEARS,

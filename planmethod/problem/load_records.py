@@ -341,3 +341,29 @@ class Machine:
     wheel: Wheel = Wheel()
     motor: Motor | None = None
     brake: float | None = None
+
+
+class Weighing(Enum):
+    """How much counterweights balance (полное или частичное уравновешивание)."""
+
+    FULL = "full"
+    PARTIAL = "partial"  # by the crank's counterweight alone
+
+
+@dataclass(frozen=True, slots=True)
+class CounterweightTask:
+    """What ``[balancing]`` asks (статическое уравновешивание).
+
+    Attributes
+    ----------
+    method : Weighing
+    share : float or None
+        Share of the reciprocating mass that the crank balances; None: the first harmonic that turns
+        with the crank.
+    radii : mapping of str to float, m
+        By link, where its counterweight stands; elsewhere at the length of the link.
+    """
+
+    method: Weighing
+    share: float | None
+    radii: Mapping[str, float]

@@ -66,9 +66,7 @@ def test_run_up_and_stop_are_those_of_the_equation_of_motion() -> None:
     assert abs(float(course.omega[-1] / there[0]) - 1.0) == pytest.approx(NEAR, rel=0.1)
     stop = run.stop
     assert stop is not None
-    turned, omega = over_time(
-        run, float(stop.omega[0]), lambda _: -20.0, 500, float(stop.time[-1])
-    )
+    turned, omega = over_time(run, float(stop.omega[0]), lambda _: -20.0, 500, float(stop.time[-1]))
     assert turned == pytest.approx(float(stop.turned[-1]), rel=1e-4)
     assert abs(omega) < 2e-3
 

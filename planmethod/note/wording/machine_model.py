@@ -77,3 +77,22 @@ class MachineWording:
     stop_diagram: str
     run_up_table: str
     stop_table: str
+
+    balancing: str
+    balancing_wanted: str
+    structures: Mapping[str, str]
+    weighings: Mapping[str, str]
+    substituted: str
+    off_line: str
+    weight: str
+    no_weight: str
+    measured: str
+    force_falls: str
+    centre_stands: str
+    centre_moves: str
+    polygon_of: str
+    before: str
+    after: str
+    weights_table: str
+    forces_table: str
+    with_weights: str

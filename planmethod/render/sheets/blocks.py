@@ -91,6 +91,11 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "run-up-text": Kind(_late("runup", "run_up_text"), _TEXT),
         "run-up-diagrams": Kind(_late("runup", "run_up_diagrams"), _DIAGRAM),
         "run-up-tables": Kind(_late("runup", "run_up_tables"), _TEXT),
+        "balancing-text": Kind(_late("balancing", "balancing_text"), _TEXT),
+        "balanced-scheme": Kind(_late("balancing", "scheme_view"), _VIEW),
+        "mass-polygons": Kind(_late("balancing", "polygon_views"), _DIAGRAM),
+        "inertia-hodographs": Kind(_late("balancing", "hodograph_views"), _DIAGRAM),
+        "balancing-tables": Kind(_late("balancing", "tables"), _TEXT),
         "flywheel": Kind(_late("flywheel", "wheel_view"), _DIAGRAM),
         "cycle-reactions": Kind(_late("cycletable", "reactions_table"), _TEXT),
     }

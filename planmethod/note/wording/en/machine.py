@@ -70,4 +70,30 @@ MACHINE = MachineWording(
     stop_diagram="Stop: ω over time",
     run_up_table="Run-up",
     stop_table="Stop",
+    balancing="Static balancing",
+    balancing_wanted="To be found: masses and places of counterweights, main vector of inertia.",
+    structures={"four-bar": "four-bar linkage", "slider-crank": "slider-crank mechanism"},
+    weighings={
+        "full": "balanced in full",
+        "partial": "balanced in part, by the crank's counterweight",
+    },
+    substituted="The mass of rod {link} is replaced statically by masses in {A} and {B}: {one}; "
+    "{two}",
+    off_line="The centre of mass of rod {link} is off the line {A}{B}: vectors m·r stand for two "
+    "masses",
+    weight="Link {link}: {terms}; counterweight m·r = {moment}, at r = {radius} the mass "
+    "m = {mass} at {angle}° from {line}",
+    no_weight="Link {link}: no counterweight is needed",
+    measured="by the polygon with the ruler {moment}",
+    force_falls="Largest main vector of the inertia forces: {before} before, {after} after",
+    centre_stands="The centre of all masses stands: ({x}; {y}) {unit}; links {bare}, with "
+    "counterweights {whole}",
+    centre_moves="The centre of all masses moves within {before} before and {after} after; links "
+    "{bare}, with counterweights {whole}",
+    polygon_of="Polygon of m·r of link {link}",
+    before="Main vector of inertia before balancing",
+    after="Main vector of inertia after balancing",
+    weights_table="Counterweights",
+    forces_table="Main vector of inertia by positions",
+    with_weights="The mechanism with counterweights",
 )

@@ -15,6 +15,7 @@ UNITS = {
     "deg": "°",
     "rad": "rad",
     "kg": "kg",
+    "kg·m": "kg·m",
     "kg·m²": "kg·m²",
     "N": "N",
     "N·m": "N·m",

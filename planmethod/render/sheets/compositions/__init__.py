@@ -22,6 +22,7 @@ SHIPPED = (
     "forces-cycle",
     "flywheel",
     "run-up",
+    "balancing",
 )
 """Compositions that come with the program; the first two are taken when none is asked for."""
 
