@@ -382,17 +382,38 @@ class Flywheel(Remembering):
         step = self.cycle / count
         taken = middles if ordinates is Ordinates.MIDDLE else (moments[:-1] + moments[1:]) / 2.0
         work = self.sign * np.append(0.0, np.cumsum(taken)) * step
-        turned = step * np.arange(count + 1)
+        turned = np.asarray(step * np.arange(count + 1), dtype=float)
         gain = self.sign * (work[-1] / self.cycle * turned - work)
         inertia = np.append(both.inertia[::2], both.inertia[0])
-        speed = self.middle_speed
-        highs = gain - slopes[0] * speed**2 / 2.0 * inertia
-        lows = gain - slopes[1] * speed**2 / 2.0 * inertia
-        top, bottom = int(np.argmax(highs[:-1])), int(np.argmin(lows[:-1]))
-        high, low = float(highs[top]), float(lows[bottom])
-        found = (high - low) / (speed**2 * self.machine.delta)
-        tangents = Tangents(found, high, low, float(turned[top]), float(turned[bottom]))
+        tangents = touching(turned, gain, inertia, slopes, self.middle_speed, self.machine.delta)
         return Points(moments, middles, work, gain, inertia, tangents)
+
+
+def touching(
+    turned: Reals,
+    gain: Reals,
+    inertia: Reals,
+    slopes: tuple[float, float],
+    speed: float,
+    delta: float,
+) -> Tangents:
+    """Return the flywheel between tangents that touch one of some points each.
+
+    Parameters
+    ----------
+    turned, gain, inertia : ndarray of shape (n + 1,), rad, J and kg·m²
+        The last position is the first again.
+    slopes : (float, float)
+        Of the tangents, over omega²/2.
+    speed, delta : float
+        Mean speed, 1/s, and irregularity.
+    """
+    highs = gain - slopes[0] * speed**2 / 2.0 * inertia
+    lows = gain - slopes[1] * speed**2 / 2.0 * inertia
+    top, bottom = int(np.argmax(highs[:-1])), int(np.argmin(lows[:-1]))
+    high, low = float(highs[top]), float(lows[bottom])
+    found = (high - low) / (speed**2 * delta)
+    return Tangents(found, high, low, float(turned[top]), float(turned[bottom]))
 
 
 @remembered
