@@ -24,6 +24,7 @@ from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.render.live.page import live_page
 from planmethod.render.live.scene import Scene
+from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.many.sweep import Sweep
 
 AGREE = 1e-12
@@ -167,6 +168,21 @@ def test_the_slider_moves_everything_to_the_numbers_of_solve(
             assert numbers[0] == pytest.approx(x / scene.views[0].per_mm, abs=1e-3)
             assert -numbers[2] == pytest.approx(turn, abs=1e-4)
     assert page.ask("document.documentElement.scrollWidth") == 360
+    assert not page.said
+
+
+@needs_chromium
+def test_the_speed_of_a_machine_has_a_diagram_and_is_followed(page: Page, tmp_path: Path) -> None:
+    problem = problem_of("press/flywheel")
+    opened(page, problem, tmp_path)
+    rows = Flywheel(problem).rows
+    for phi, omega in zip(rows.phi_deg.tolist(), rows.omega.tolist(), strict=True):
+        page.ask(f"planmethod.show({phi % 360})")
+        assert page.ask("+D.quantities.at(-1).cells[0].dataset.value") == pytest.approx(
+            omega, rel=1e-5
+        )
+    assert page.ask("D.quantities.at(-1).plot.querySelector('.curve').getTotalLength()") > 300
+    assert page.ask("byId('follows').checked") is False
     assert not page.said
 
 
