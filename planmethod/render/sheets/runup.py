@@ -22,11 +22,11 @@ from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import Viewed, named
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
-from planmethod.solved.machine.runup import run_up_of
+from planmethod.solved.machine.runup import Course, run_up_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
-_POINTS = 400  # of a curve
+_POINTS, _MOST = 400, 4000  # of a curve, and of one of many turns
 
 
 def _teller(solution: Solution, words: Language) -> MachineTeller:
@@ -71,19 +71,22 @@ def run_up_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) 
     blocks = _characteristic(tell, manner)
     if run.machine.motor is not None and run.failure is None:
         course = run.run_up
-        at = course.turned_at(np.linspace(course.time[0], course.time[-1], _POINTS))
-        time, speeds = np.linspace(0.0, course.time[-1], _POINTS), course.at(at)[0]
-        speeds[0] = 0.0
+        time, _, speeds = course.rows(_count(course))
         blocks.append(_speed(tell, manner, said.by_time, ("t", "s"), time, speeds))
-        turned = np.linspace(course.turned[0], course.turned[-1], _POINTS)
+        turned = np.linspace(course.turned[0], course.turned[-1], _count(course))
         speeds = course.at(turned)[0]
         speeds[0] = 0.0
         blocks.append(_speed(tell, manner, said.by_angle, ("φ", "deg"), np.degrees(turned), speeds))
     if run.stop is not None:
-        time, _, speeds = run.stop.rows(_POINTS)
+        time, _, speeds = run.stop.rows(_count(run.stop))
         blocks.append(_speed(tell, manner, said.stop_diagram, ("t", "s"), time, speeds))
     rows = [Row(blocks[k : k + 2], gap=16.0, align="bottom") for k in range(0, len(blocks), 2)]
     return Column(rows, gap=12.0)
+
+
+def _count(course: Course) -> int:
+    """Return of how many points a curve is drawn: as many as show every turn."""
+    return min(max(_POINTS, int(4.0 * course.turned[-1])), _MOST)
 
 
 def _room(manner: Manner) -> tuple[float, float]:
@@ -119,7 +122,8 @@ def _speed(
     picture = diagram_picture(
         axis,
         Ordinates(f"ω, {tell.unit('1/s')}", per_mm, tell.say),
-        [Curve("", (places,))],
+        # ripples of many turns would run together
+        [Curve("", (places,), Pen.MAIN if len(places) <= 2 * _POINTS else Pen.THIN)],
         letter_height=manner.letter,
         name=f"speed over {symbol}",
     )
