@@ -24,6 +24,7 @@ COMMANDS = (
     "structure",
     "protocol",
     "live",
+    "sketch",
     "audit",
     "lint",
     "specimen",
