@@ -8,7 +8,6 @@ import numpy as np
 
 from planmethod.note.numbers import alike
 from planmethod.note.wording import Language
-from planmethod.problem.load_records import Weighing
 from planmethod.solved.machine.balancing import Balancing, balancing_of
 from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import Solution
@@ -131,11 +130,6 @@ class BalancingTeller:
             column("m", "kg", [one.mass for one in some]),
             ("α", "deg", [self.say.number(f"{one.angle_deg:.1f}") for one in some]),
         ]
-
-    @property
-    def is_full(self) -> bool:
-        """Whether nothing is left after balancing."""
-        return self.balancing.task.method is Weighing.FULL
 
 
 def _spread(column: Complexes) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.errors import LayoutError
 from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.narrate.runup import asks_run_up, course_columns, courses, run_up_lines
+from planmethod.note.narrate.runup import course_columns, courses, run_up_lines
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Pen
@@ -42,7 +42,6 @@ def _teller(solution: Solution, words: Language) -> MachineTeller:
 def run_up_text(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the motor, the run-up, the steady motion and the stop with numbers."""
     tell = _teller(solution, manner.words)
-    assert asks_run_up(tell)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     blocks: list[Block] = [heading(manner.entry.title or tell.said.run_up, height)]
     blocks += [paragraph(line.replace(" = ", f"{NBSP}={NBSP}"), height, width)
