@@ -30,6 +30,7 @@ COMMANDS = (
     "specimen",
     "layouts",
     "new",
+    "tasks",
     "synthesize",
     "teeth",
     "check",
