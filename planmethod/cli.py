@@ -24,6 +24,7 @@ COMMANDS = (
     "structure",
     "protocol",
     "live",
+    "animate",
     "sketch",
     "audit",
     "lint",

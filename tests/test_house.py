@@ -26,6 +26,8 @@ LATE_OF = {
     "planmethod.note.tables.forces": "forces",
     "planmethod.gears.audit": "printed values of gear trains",
     "planmethod.gears.drawn": "pens, for the sheets of gear trains alone",
+    "planmethod.gears.figures": "answers of students",
+    "planmethod.moving.figures": "answers of students",
     "planmethod.gears.protocol": "the construction of pictures",
     "planmethod.note.audit.machine": "machines",
     "planmethod.note.records.balancing": "counterweights",

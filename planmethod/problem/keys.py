@@ -19,6 +19,7 @@ TOP = (
     "sheet",
     "published",
     "answers",
+    "compare",
     "variants",
     "dynamics",
     "loads",
@@ -169,7 +170,21 @@ GEARS = (
 WHEEL = ("z", "r", "x", "axis")
 MESH = ("of", "kind", "carrier", "eta", "hand")
 PICTURE = ("mu_l", "longest_mm", "pole_mm")
-MESHING = ("z", "m", "alpha", "ha", "c", "x", "x1", "x2", "a_w", "s_a_min", "epsilon_min")
+MESHING = (
+    "z",
+    "m",
+    "internal",
+    "cutter",
+    "alpha",
+    "ha",
+    "c",
+    "x",
+    "x1",
+    "x2",
+    "a_w",
+    "s_a_min",
+    "epsilon_min",
+)
 """Keys of ``[meshing]``."""
 
 KNOWN: dict[str, tuple[str, ...]] = {

@@ -219,7 +219,7 @@ def _read_parts(
         dynamics,
         drive,
     )
-    answers = read_answers(faults, given.get("answers", []), scene)
+    answers = read_answers(faults, given, scene)
     if faults or drive is None or mechanism is None:
         assert faults, "a part was left out without a word"
         return None

@@ -132,7 +132,7 @@ class Scene:
         assert [row.name for row in self.sweep.rows][: len(self._row)] == self.columns
         self._look()
         self.parts: list[Part]
-        self.parts, self._drawing = parts_of(self.shown, LETTER)
+        self.parts, self.drawing = parts_of(self.shown, LETTER)
         self._fit()
         # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
         self.fixed = [
@@ -141,7 +141,9 @@ class Scene:
             for item in part.items
             if part.link == FRAME and isinstance(item, Stroke) and _long(item)
         ]
-        self.blocks = [[self.place(slide.pin), 5.0] for slide in problem.slides.values()]
+        self.blocks: list[tuple[Ref, float]] = [
+            (self.place(slide.pin), 5.0) for slide in problem.slides.values()
+        ]
 
     # Outputs ---------------------------------------------------------------------------------
 
