@@ -53,9 +53,11 @@ NO_MESSAGES = (
     "render/control/remarks.py",  # mistakes of ours
     "render/forces/",
     "render/ink/lettering/",
+    "render/live/film.py",  # SVG
     "render/live/page.py",  # HTML
     "render/pictures/",
     "render/sheets/flywheel.py",
+    "render/sheets/runup.py",
     "solved/closings.py",  # rules, in the words of the file
     "solved/many/sweep.py",  # for programs in Python
     "solved/turn/",  # codes of JSON, as in the next but one
@@ -74,6 +76,8 @@ NOT_SAID = {
     "a couple has no point",
     "a machine has loads",
     "the crank turns",
+    "a crank drives",
+    "a motor is given",
 }
 """Texts elsewhere that only mistakes of ours show, and metavariables."""
 
