@@ -19,7 +19,8 @@ from decimal import Decimal
 from enum import Enum
 from types import MappingProxyType
 
-from planmethod.problem.fields import Faults, is_number, show
+from planmethod.languages import say
+from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.names import describe_lookalikes, fold, listed, lookalikes, near, short
 
 LENGTH_LIMIT = 500
@@ -149,13 +150,15 @@ def read_formula(
     if is_number(value):
         value = repr(value)
         if len(value) > LENGTH_LIMIT or value.strip("-") in ("inf", "nan"):
-            faults.add(path, f"expected a finite number, got {short(value)}")
+            faults.add(path, say("expected a finite number, got {}", short(value)))
             return None
     if not isinstance(value, str):
-        faults.add(path, f"expected a formula, got {show(value)}", 'For example: "3*t*exp(t/2)".')
+        faults.expected(path, "a formula", value, 'For example: "3*t*exp(t/2)".')
         return None
     if len(value) > LENGTH_LIMIT:
-        faults.add(path, f"the formula has {len(value)} characters, the limit is {LENGTH_LIMIT}")
+        faults.add(
+            path, say("the formula has {} characters, the limit is {}", len(value), LENGTH_LIMIT)
+        )
         return None
     if lookalikes(value):
         faults.add(path, describe_lookalikes(value), "Type formulas in the Latin layout.")
@@ -184,11 +187,15 @@ class _Parser:
         self._sum()
         kind, text, where = self.tokens[self.at]
         if text == ")":
-            raise _FormulaError(f"character {where}: ')' closes no '('")
+            raise _FormulaError(say("character {}: ')' closes no '('", where))
         if kind != "end":
             before = self.tokens[self.at - 1][1]
-            hint = f"Nothing is multiplied without a sign: write {before}*{short(text, 12)}."
-            raise _FormulaError(f"character {where}: expected an operator before '{text}'", hint)
+            hint = say(
+                "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
+            )
+            raise _FormulaError(
+                say("character {}: expected an operator before '{}'", where, text), hint
+            )
         return self.made
 
     def _sum(self) -> None:
@@ -227,7 +234,9 @@ class _Parser:
         if kind == "number":
             number = float(text)
             if not math.isfinite(number):
-                raise _FormulaError(f"character {where}: the number {short(text, 12)} is too large")
+                raise _FormulaError(
+                    say("character {}: the number {} is too large", where, short(text, 12))
+                )
             self.at += 1
             self.made.append(Operation(Kind.NUMBER, value=number, is_exact=is_exact(text)))
         elif kind == "name":
@@ -238,7 +247,7 @@ class _Parser:
             raise _FormulaError("the formula ends where a number or a name is expected")
         else:
             hint = 'A bracket holds something: "(1 + t)".' if text == ")" else ""
-            raise _FormulaError(f"character {where}: expected a number, got '{text}'", hint)
+            raise _FormulaError(say("character {}: expected a number, got '{}'", where, text), hint)
 
     def _name(self, text: str, where: int) -> None:
         self.at += 1
@@ -249,14 +258,16 @@ class _Parser:
         elif text in FUNCTIONS:
             if self._text != "(":
                 hint = f"Write {text}(t)."
-                raise _FormulaError(f"character {where}: expected '(' after {text}", hint)
+                raise _FormulaError(say("character {}: expected '(' after {}", where, text), hint)
             self._bracket()
             self.made.append(Operation(Kind.CALL, FUNCTIONS[text]))
         else:
             known = (TIME, *CONSTANTS, *FUNCTIONS)
             guess = near(text, known)
-            hint = f"Did you mean '{guess}'?" if guess else f"Known: {listed(known, limit=30)}."
-            raise _FormulaError(f"character {where}: unknown name '{short(text)}'", hint)
+            hint = say("Known: {}.", listed(known, limit=30))
+            if guess:
+                hint = say("Did you mean '{}'?", guess)
+            raise _FormulaError(say("character {}: unknown name '{}'", where, short(text)), hint)
 
     def _bracket(self) -> None:
         where = self.tokens[self.at][2]
@@ -266,11 +277,13 @@ class _Parser:
             _, text, place = self.tokens[self.at]
             if text:
                 before = self.tokens[self.at - 1][1]
-                hint = f"Nothing is multiplied without a sign: write {before}*{short(text, 12)}."
-                raise _FormulaError(
-                    f"character {place}: expected an operator before '{text}'", hint
+                hint = say(
+                    "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
                 )
-            raise _FormulaError(f"character {where}: '(' is not closed", "Add ')'.")
+                raise _FormulaError(
+                    say("character {}: expected an operator before '{}'", place, text), hint
+                )
+            raise _FormulaError(say("character {}: '(' is not closed", where), "Add ')'.")
         self.at += 1
         self.depth -= 1
 
@@ -278,7 +291,7 @@ class _Parser:
         self.at += 1
         self.depth += 1
         if self.depth > DEPTH_LIMIT:
-            raise _FormulaError(f"the formula is nested deeper than {DEPTH_LIMIT} levels")
+            raise _FormulaError(say("the formula is nested deeper than {} levels", DEPTH_LIMIT))
 
     @property
     def _text(self) -> str:
@@ -297,7 +310,7 @@ def _tokens(text: str) -> list[tuple[str, str, int]]:
         if match is None:
             char = text[at]
             shown = f"'{char}'" if char.isprintable() else f"U+{ord(char):04X}"
-            message = f"character {at + 1}: {shown} has no meaning in a formula"
+            message = say("character {}: {} has no meaning in a formula", at + 1, shown)
             raise _FormulaError(message, _INSTEAD.get(char, ""))
         found.append((str(match.lastgroup), match[0], at + 1))
         at = match.end()

@@ -13,10 +13,11 @@ from fractions import Fraction
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from planmethod.problem.load_records import Dynamics, Machine
+    from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +126,7 @@ class Coordinate:
 
     def told(self, value: str) -> str:
         """Return a value for a message: ``phi = 20 deg``."""
-        return f"{self.name} = {value} {self.unit}"
+        return f"{self.name} = {value} {say(self.unit)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -405,6 +406,8 @@ class Problem:
         What ``[cycle]`` asks; None when the file has none.
     machine : Machine or None
         What the choice of a flywheel needs; None when the file has no ``[machine]``.
+    balancing : CounterweightTask or None
+        What ``[balancing]`` asks; None when the file has none.
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
     """
@@ -429,6 +432,7 @@ class Problem:
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
     machine: Machine | None = None
+    balancing: CounterweightTask | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
 
     def is_block(self, slide: Slide) -> bool:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.answers import Scene, read_answers
@@ -134,12 +135,14 @@ def read_parsed(
 def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     """Return the fault of a variant that a file has not, with the nearest name."""
     if not known:
-        return Fault("variants", f"there is no variant '{variant}'", "The file has no variants.")
+        return Fault(
+            "variants", say("there is no variant '{}'", variant), "The file has no variants."
+        )
     guess = near(variant, known) or next((k for k in known if fold(k) == fold(variant)), None)
-    hint = f"Did you mean '{guess}'?" if guess else f"There are {listed(known)}."
+    hint = say("Did you mean '{}'?", guess) if guess else say("There are {}.", listed(known))
     if guess and fold(guess) == fold(variant):
-        hint = f"Did you mean '{guess}' in the other layout (Russian or Latin)?"
-    return Fault("variants", f"there is no variant '{variant}'", hint)
+        hint = say("Did you mean '{}' in the other layout (Russian or Latin)?", guess)
+    return Fault("variants", say("there is no variant '{}'", variant), hint)
 
 
 def _read_parts(
@@ -166,7 +169,7 @@ def _read_parts(
     for guide in frame.guides:
         if guide in links:
             hint = "Rename the guide, for instance x-x."
-            faults.add(f"frame.guides.{guide}", f"link {guide} has the same name", hint)
+            faults.add(f"frame.guides.{guide}", say("link {} has the same name", guide), hint)
     hosts, guides = _find_hosts(faults, links, frame)
     bodies = _place(faults, links, frame, hosts)
     slides = _read_slides(faults, links, frame, hosts, guides, bodies)
@@ -194,6 +197,11 @@ def _read_parts(
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
         dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
+    balancing = None
+    if "balancing" in given:
+        from planmethod.problem.balancing import read_balancing  # few files have one
+
+        balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
     cycle = None
     if "cycle" in given:
         cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
@@ -241,6 +249,7 @@ def _read_parts(
         dynamics=dynamics,
         cycle=cycle,
         machine=machine,
+        balancing=balancing,
         tables=tables,
     )
 
@@ -256,7 +265,7 @@ def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
         if key in given:
             faults.add(
                 "links",
-                f"missing: the file describes {what} ([{key}]), not a linkage",
+                say("missing: the file describes {} ([{}]), not a linkage", what, key),
                 "Plans of a linkage need [frame], [links] and [driver].",
             )
             return
@@ -312,7 +321,7 @@ def _place(
         if alone and name not in carriers and link.sound:
             faults.add(
                 link.path,
-                f"link {name} has one point and neither slides nor carries a slide",
+                say("link {} has one point and neither slides nor carries a slide", name),
                 "List its second point, or give slides = { on = ... }.",
             )
             link.sound = link.whole = False

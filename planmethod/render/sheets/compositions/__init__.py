@@ -22,6 +22,8 @@ SHIPPED = (
     "forces",
     "forces-cycle",
     "flywheel",
+    "run-up",
+    "balancing",
 )
 """Compositions that come with the program; the first three are taken when none is asked for."""
 
