@@ -63,8 +63,7 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 @click.option(
     "--sigma/--no-sigma",
     default=None,
-    help="Show what is read off the plans, and the drafting errors, in the table of results.  "
-    "[default: of one position]",
+    help="Show the drafting errors in the table of results.",
 )
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @dxf_text_option
