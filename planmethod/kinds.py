@@ -27,14 +27,19 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     ------
     ProblemError
     """
-    problem: Problem = _of("planmethod.problem", "load")(path, variant=variant, train=_driven)
-    return problem
+    return _posed(_of("planmethod.problem", "load")(path, variant=variant, train=_driven))
 
 
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     """Read the same from a text; ``name`` stands for the stem of the file."""
     read = _of("planmethod.problem", "loads")
-    problem: Problem = read(text, name=name, variant=variant, train=_driven)
+    return _posed(read(text, name=name, variant=variant, train=_driven))
+
+
+def _posed(problem: Problem) -> Problem:
+    """Return a problem with the positions that its output tells."""
+    if problem.drive.posed is not None:
+        problem = _of("planmethod.solved.turn.posed", "pose")(problem)
     return problem
 
 

@@ -27,6 +27,7 @@ from planmethod.problem.fields import (
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
+from planmethod.problem.posed import is_place, is_posed, read_posed
 
 Span = tuple[float, ...]
 
@@ -44,7 +45,8 @@ def read_drive(
     given = read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
     if given is None:
         return None
-    given = read_keys(faults, "driver", given, keys.DRIVER)
+    posing = [key for key in given if is_posed(key)]
+    given = read_keys(faults, "driver", given, (*keys.DRIVER, *posing))
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = _read_link(faults, given, links)
@@ -68,7 +70,10 @@ def read_drive(
         if key in other:
             hint = f"Link {link.name} is {kind}: {listed(own)}."
             faults.add(f"driver.{key}", f"does not go with {kind}", hint)
-    required: tuple[str, ...] = ("phi",) if pivots else ("s", "v")
+    posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
+    required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
+    if not pivots:
+        required += ("v",)
     if pivots and not {"n", "train"} & {*given}:
         required += ("omega",)
     for key in required:
@@ -83,10 +88,13 @@ def read_drive(
         positions = _read_positions(faults, given, "s")
         rate = _read_rate(faults, given, "v", "a velocity in m/s")
         acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
+    if posed is not None:
+        positions = (math.nan,) * len(posed.values)  # found when the mechanism is assembled
     if len(faults) != before or positions is None or rate is None or acceleration is None:
         return None
-    pivot = pivots[0] if pivots else None
-    return Drive(link.name, pivot, positions, rate, acceleration, geared if pivots else None)
+    turns = rate * 30.0 / math.pi if "n" in given else None
+    pivot, geared = (pivots[0], geared) if pivots else (None, None)
+    return Drive(link.name, pivot, positions, rate, acceleration, geared, turns, posed)
 
 
 def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:

@@ -25,6 +25,7 @@ from planmethod.problem.fields import (
     show,
     unmask,
 )
+from planmethod.problem.model import PointForm
 from planmethod.problem.names import (
     NAME_LIMIT,
     fold,
@@ -34,6 +35,7 @@ from planmethod.problem.names import (
     looks_latin,
     near,
     segment,
+    split_names,
     split_pair,
 )
 
@@ -53,21 +55,16 @@ class Length:
 
 
 @dataclass(frozen=True, slots=True)
-class PointForm:
-    """How a third point is given (способ задания точки).
+class Angle:
+    """Angle key of a link: from one directed line of it to another, degrees, ccw positive.
 
-    ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
-    of, ``point`` its point; lengths in metres, ``angle`` in degrees.
+    ``AOD``: from OA to OD; ``ABCD``: from AB to CD.
     """
 
-    kind: str
-    line: tuple[str, str] = ("", "")
-    point: str = ""
-    left: bool = True
-    at: float = 0.0
-    across: float = 0.0
-    angle: float = 0.0
-    distance: float | None = None
+    key: str
+    one: tuple[str, str]
+    two: tuple[str, str]
+    value: float
 
 
 @dataclass(slots=True)
@@ -89,6 +86,7 @@ class LinkText:
     points: tuple[str, ...] = ()
     lengths: list[Length] = field(default_factory=list)
     forms: dict[str, PointForm] = field(default_factory=dict)
+    angles: list[Angle] = field(default_factory=list)
     slides: Table | None = None
     sound: bool = True
     whole: bool = True
@@ -172,8 +170,11 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
                 link.slides = {}  # the link stays a slider: fewer follow-up faults
                 link.whole = False
             continue
+        if key == "angle":
+            _read_angles(faults, where, value, link)
+            continue
         plain = unmask(faults, where, key)
-        if is_number(value):
+        if is_number(value) or (isinstance(value, str) and split_pair(plain) is not None):
             _read_length_key(faults, where, plain, value, link)
         elif isinstance(value, dict) and is_point_name(plain):
             before = len(faults)
@@ -247,6 +248,27 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
     length = read_length(faults, path, value)
     if length is not None:
         link.lengths.append(Length(key, *pair, length))
+
+
+def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> None:
+    """Read ``angle.AOD = 120``: angles between the lines of a link."""
+    entries = read_table(faults, path, value, "angle.AOD = 120, from OA to OD") or {}
+    for key, item in entries.items():
+        where = f"{path}.{segment(key)}"
+        names = split_names(unmask(faults, where, key))
+        lines = {3: (names[1::-1], names[1:]), 4: (names[:2], names[2:])}.get(len(names))
+        if lines is None or any(len(set(line)) < 2 for line in lines):
+            hint = "AOD is the angle from OA to OD, ABCD that from AB to CD."
+            faults.add(where, "expected the letters of an angle", hint)
+            continue
+        strangers = [point for point in dict.fromkeys(names) if point not in link.points]
+        if strangers and link.whole:
+            hint = f"Its points are {listed(link.points)}."
+            faults.add(where, f"link {link.name} has no point '{strangers[0]}'", hint)
+        angle = read_angle(faults, where, item)
+        if angle is not None and not strangers:
+            one, two = ((line[0], line[1]) for line in lines)
+            link.angles.append(Angle(key, one, two, angle))
 
 
 def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:

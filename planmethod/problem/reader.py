@@ -15,7 +15,7 @@ from planmethod.problem.bodies import place_points
 from planmethod.problem.cycle import read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.extras import read_heading, read_published, read_tables
-from planmethod.problem.fields import Faults, read_keys
+from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
@@ -146,6 +146,8 @@ def _read_parts(
     faults: Faults, table: Mapping[str, Any], name: str, train: TrainReader | None
 ) -> Problem | None:
     given = read_keys(faults, "", table, keys.TOP)
+    if "units" in given:
+        faults.unit = read_word(faults, "units", given["units"], keys.UNITS) or faults.unit
     title = read_heading(faults, given, "title")
     source = read_heading(faults, given, "source")
     stamp = read_stamp(faults, given.get("stamp", {}))
@@ -222,6 +224,8 @@ def _read_parts(
         name=name,
         title=title,
         source=source,
+        unit=faults.unit,
+        stated=dict(faults.stated),
         mechanism=mechanism,
         bodies=bodies,
         slides={link: slides[link] for link in links if link in slides},

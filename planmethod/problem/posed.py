@@ -1,0 +1,152 @@
+"""Positions told by the output: ``x_B``, ``phi_3``, a share of the stroke, an extreme."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
+
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    read_angle,
+    read_coordinate,
+    read_number,
+    report_unknown,
+    show,
+)
+from planmethod.problem.formula import FormulaError, work_out
+from planmethod.problem.links import LinkText
+from planmethod.problem.model import Posed, PosedBy
+
+_READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
+    "x": read_coordinate,
+    "y": read_coordinate,
+    "phi": read_angle,
+    "stroke": partial(read_number, what="a share of the stroke", low=0.0, high=1.0, hint=""),
+}
+_SIDE = "|".join(keys.EXTREMES)
+_AT = re.compile(rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z")
+_ROOT = 'For example: x_B = 0.12, root = "going right".'
+_WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30"'
+
+
+def is_posed(key: str) -> bool:
+    """Whether a key of the driver tells a position by a point or a link: ``x_B``, ``phi_3``."""
+    kind, line, name = key.partition("_")
+    return bool(line and name) and kind in keys.POSED
+
+
+def is_place(key: str) -> bool:
+    """Whether a key of the driver tells where it stands: of such keys one replaces the others."""
+    return key in keys.PLACES or is_posed(key)
+
+
+def read_posed(
+    faults: Faults,
+    given: Table,
+    link: LinkText,
+    links: Mapping[str, LinkText],
+    fixed: Collection[str],
+    *,
+    crank: bool,
+) -> Posed | None:
+    """Read what tells the positions, where that is not the driver's own coordinate.
+
+    None where there is no such key, or after a fault.
+    """
+    foreign = "s" if crank else "phi"  # reported as what does not go with the driver
+    first, *others = [key for key in given if is_place(key) and key != foreign] or [""]
+    for key in others:
+        said = f"{first} and {key} both tell the position"
+        faults.add(f"driver.{key}", said, "Keep one of them.")
+    found = None
+    if first and first not in ("phi", "s"):
+        kind, _, name = first.partition("_")
+        found = _read(faults, given, kind, name, links, fixed, crank=crank)
+        if kind == "phi" and name == link.name:
+            hint = f"Write phi = ..., the angle of link {name} itself."
+            faults.add(f"driver.{first}", f"link {name} drives", hint)
+    if "root" in given and first in ("", "phi", "s", "at"):
+        faults.add("driver.root", "goes only with a position that the output tells", _ROOT)
+    return None if others else found
+
+
+def _read(
+    faults: Faults,
+    given: Table,
+    kind: str,
+    name: str,
+    links: Mapping[str, LinkText],
+    fixed: Collection[str],
+    *,
+    crank: bool,
+) -> Posed | None:
+    path = f"driver.{kind}_{name}" if name else f"driver.{kind}"
+    moving = [p for one in links.values() for p in one.points if p not in fixed]
+    known, noun = (links, "link") if kind == "phi" else (dict.fromkeys(moving), "moving point")
+    if name and name not in known:
+        report_unknown(faults, path, name, known, noun=noun)
+        return None
+    if kind in ("stroke", "at") and not crank:
+        faults.add(path, "a driving slider has no turn", "Give x_B, y_B or phi_1 of a link.")
+        return None
+    value = given[f"{kind}_{name}" if name else kind]
+    items = value if isinstance(value, list) else [value]
+    if not items or len(items) > keys.POSITION_LIMIT:
+        faults.add(path, f"expected from 1 to {keys.POSITION_LIMIT} positions, got {len(items)}")
+        return None
+    values: list[float] = []
+    extremes: list[str] = []
+    for index, item in enumerate(items):
+        where = f"{path}[{index}]" if isinstance(value, list) else path
+        if kind == "at":
+            told = _read_extreme(faults, where, item)
+            number = None if told is None else told[1]
+            extremes += [] if told is None else [told[0]]
+        else:
+            number = _READERS[kind](faults, where, item)
+        values += [] if number is None else [number]
+    going, near = _read_root(faults, kind, given.get("root"), crank=crank)
+    if len(values) != len(items):
+        return None
+    return Posed(PosedBy(kind), name, tuple(values), tuple(extremes), going, near)
+
+
+def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float] | None:
+    """Read ``extreme left + 30``: which extreme, and how far after it, degrees."""
+    match = _AT.match(" ".join(value.split())) if isinstance(value, str) else None
+    if match is None or (match[1] and match[2]):
+        faults.add(path, f"expected an extreme position, got {show(value)}", f"Known: {_WAYS}.")
+        return None
+    after = 0.0
+    if match[3]:
+        try:
+            after = work_out(match[3].rstrip(" °"))
+        except FormulaError as error:
+            faults.add(path, f"expected degrees after the extreme, got {match[3]!r}: {error}")
+            return None
+    degrees = read_angle(faults, path, after)
+    return None if degrees is None else (match[1] or match[2] or "", degrees)
+
+
+def _read_root(
+    faults: Faults, kind: str, value: object, *, crank: bool
+) -> tuple[str, float | None]:
+    """Read which of several positions is meant: ``going right``, or ``near 40``."""
+    if value is None or kind == "at":
+        return "", None
+    words = value.split() if isinstance(value, str) else []
+    ways = keys.GOING[kind]
+    if len(words) == 2 and words[0] == "going" and words[1] in ways:
+        return words[1], None
+    if len(words) == 2 and words[0] == "near":
+        read = read_angle if crank else read_coordinate
+        try:
+            return "", read(faults, "driver.root", float(words[1]))
+        except ValueError:
+            pass
+    wanted = f'"going {ways[0]}", "going {ways[1]}" or "near {40 if crank else 0.1}"'
+    faults.add("driver.root", f"expected {wanted}, got {show(value)}")
+    return "", None
