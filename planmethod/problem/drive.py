@@ -253,6 +253,8 @@ _POINT_WORDS = {
     "left": Where.LEFT,
     "above": Where.ABOVE,
     "below": Where.BELOW,
+    "towards": Where.TOWARDS,
+    "away": Where.AWAY,
 }
 _LINE_WORDS = {"left": Where.LEFT_OF, "right": Where.RIGHT_OF}
 
@@ -295,12 +297,12 @@ def _read_rule(
 ) -> Rule | None:
     if isinstance(value, Mapping):
         return _read_rule_table(faults, path, point, value, known)
-    want = '"right of D", "left of CB", "above D" or { near = [x, y] }'
+    want = '"right of D", "left of CB", "above D", "towards D" or { near = [x, y] }'
     if not isinstance(value, str) or len(value) > 80:
         faults.add(path, f"expected {want}, got {show(value)}")
         return None
     words = [unmask(faults, path, word) for word in value.split()]
-    if len(words) == 3 and words[1] == "of":
+    if len(words) == 3 and words[1] == ("from" if words[0] == "away" else "of"):
         del words[1]
     if len(words) != 2 or words[0] not in _POINT_WORDS:
         guess = near(words[0], _POINT_WORDS) if words else None

@@ -111,6 +111,8 @@ class Where(Enum):
     BELOW = "below"
     LEFT_OF = "left of"
     RIGHT_OF = "right of"
+    TOWARDS = "towards"
+    AWAY = "away from"
     NEAR = "near"
     PARALLEL = "parallel"
 
@@ -121,6 +123,8 @@ class Rule:
 
     ``right|left|above|below`` compare with one point (``refs`` has one name), ``left of`` and
     ``right of`` with a directed line (two names), ``near`` with a place ``at`` in metres;
+    ``towards`` and ``away from`` (one name) tell which way from its group's outer joint on the same
+    link the point lies: a bar goes on through its block, or ends before it;
     ``parallel`` asks for a parallelogram. A rule that is ``continuous`` is true of the first
     position; in the others the motion goes on from there, through change points too.
     """

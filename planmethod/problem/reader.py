@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem import keys
 from planmethod.problem.answers import Scene, read_answers
 from planmethod.problem.bodies import place_points
@@ -161,6 +161,9 @@ def _read_parts(
     for key in ("frame", "driver"):
         if key not in given:
             faults.add(key, "missing", _MISSING[key])
+    drivers = _drivers(given)
+    if len(drivers) > 1:
+        given["driver"] = drivers[0]
     frame = read_frame(faults, given.get("frame", {}))
     links = read_links(faults, given["links"])
     if "frame" not in given:
@@ -184,6 +187,8 @@ def _read_parts(
         and all(link.whole for link in links.values())
     )
     mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
+    if len(drivers) > 1:
+        _refuse_drivers(faults, drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
     assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
@@ -282,6 +287,36 @@ def _read_geared(
         faults.add("driver.train", "trains are not read here", hint)
         return None
     return train(faults, given["gears"], driver["train"])
+
+
+def _drivers(given: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Return the drivers: several as a list of tables, or as a list of links."""
+    driver = given.get("driver")
+    listed_links = driver.get("link") if isinstance(driver, Mapping) else None
+    if isinstance(driver, Mapping) and isinstance(listed_links, list):
+        return [{**driver, "link": link} for link in listed_links]
+    return [one for one in driver if isinstance(one, Mapping)] if isinstance(driver, list) else []
+
+
+def _refuse_drivers(
+    faults: Faults, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism | None
+) -> None:
+    """Say why several drivers are refused: what they are, and how many the mechanism needs."""
+    count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
+    message = f"{count} drivers are given: links {names}"
+    hint = "Plans are made of mechanisms with one: keep one, and join the others to it."
+    if mechanism is not None:
+        n, pairs = len(mechanism.links), mechanism.lower_pairs
+        mobility = 3 * n - 2 * pairs
+        message += f"; W = 3n - 2p1 = 3·{n} - 2·{pairs} = {mobility}"
+        if mobility == 1:
+            hint = "One driver moves all links of this mechanism: keep one of them."
+        elif mobility == count:
+            hint = (
+                f"The mechanism needs {count}, and plans are made of mechanisms with W = 1: give a "
+                "pair that joins two of the drivers, or take one of them as fixed."
+            )
+    faults.add("driver", message, hint)
 
 
 def _driver_name(given: Mapping[str, Any]) -> object:
