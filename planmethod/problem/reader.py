@@ -23,6 +23,7 @@ from planmethod.problem.names import fold, listed, near
 from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
+from planmethod.problem.table import with_table
 from planmethod.problem.variants import apply_variant, read_variants
 
 TrainReader: TypeAlias = Callable[[Faults, Mapping[str, Any], object], Geared | None]
@@ -49,8 +50,14 @@ def load(
         With every fault of the file: path, what was expected, what was found, the next action.
     """
     path = Path(path)
-    table = parse(read_source(path), name=str(path))
-    return read_parsed(table, source=str(path), name=path.stem, variant=variant, train=train)
+    table, faults = _from_file(path)
+    return _read_parsed(faults, table, str(path), path.stem, variant, train)
+
+
+def _from_file(path: Path) -> tuple[Mapping[str, Any], Faults]:
+    """Return the table of a file, with the variants that may lie in a table beside it."""
+    faults = Faults()
+    return with_table(faults, parse(read_source(path), name=str(path)), path.parent), faults
 
 
 def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
@@ -61,8 +68,7 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
     ProblemError
         The file cannot be read, or has no such variant.
     """
-    table = parse(read_source(path), name=str(path))
-    faults = Faults()
+    table, faults = _from_file(path)
     variants = read_variants(faults, table)
     if variant is None:
         return table, faults
@@ -88,8 +94,7 @@ def variant_names(path: str | Path) -> tuple[str, ...]:
         The file cannot be read, or its variants are faulty.
     """
     path = Path(path)
-    table = parse(read_source(path), name=str(path))
-    faults = Faults()
+    table, faults = _from_file(path)
     names = tuple(read_variants(faults, table))
     if faults:
         raise ProblemError(str(path), faults.found)
@@ -120,6 +125,18 @@ def read_parsed(
     ProblemError
     """
     faults = Faults()
+    table = with_table(faults, table, None)
+    return _read_parsed(faults, table, source, name, variant, train)
+
+
+def _read_parsed(
+    faults: Faults,
+    table: Mapping[str, Any],
+    source: str,
+    name: str,
+    variant: str | None,
+    train: TrainReader | None,
+) -> Problem:
     variants = read_variants(faults, table)
     if variant is not None:
         if variant not in variants:
