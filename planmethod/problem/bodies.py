@@ -86,7 +86,8 @@ class _Placement:
         self._check_lengths(points)
         placed = {name: points[name] for name in link.points}
         angles = {angle.key: angle.value for angle in link.angles}
-        return Body(placed, self._axis_letters(), dict(link.forms), angles)
+        arc = link.arc[1] if link.arc else None
+        return Body(placed, self._axis_letters(), dict(link.forms), angles, arc)
 
     def _axis_letters(self) -> tuple[str, str] | None:
         if self.axis is not None:

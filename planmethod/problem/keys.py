@@ -34,7 +34,9 @@ UNITS: Mapping[str, float] = MappingProxyType({"m": 1.0, "cm": 100.0, "mm": 1000
 FRAME = ("guides",)
 GUIDE = ("through", "angle")
 LINK = ("points", "slides", "angle")
-SLIDES = ("on", "along", "through", "angle", "offset", "length")
+SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")
+ARC = ("on", "centre", "radius")
+"""Keys of a slide along a circle."""
 POINT_FORMS = {
     "side": ("side",),
     "on": ("on", "at", "across"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import permutations
 from typing import Any
@@ -21,6 +21,7 @@ from planmethod.problem.fields import (
     read_line_name,
     read_point_name,
     read_table,
+    read_text,
     report_unknown,
     show,
     unmask,
@@ -80,6 +81,8 @@ class LinkText:
         seems to be joined to.
     faulty : set of str
         Points whose tables could not be read.
+    arc : tuple of two str, or None
+        Host and centre of a circular slot: its stone is read as a link from the centre to the pin.
     """
 
     name: str
@@ -91,6 +94,7 @@ class LinkText:
     sound: bool = True
     whole: bool = True
     faulty: set[str] = field(default_factory=set)
+    arc: tuple[str, str] | None = None
 
     @property
     def path(self) -> str:
@@ -183,7 +187,53 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
                 link.faulty.add(plain)
         else:
             _report_odd_key(faults, where, plain, value, link)
+    if link.slides is not None and {"centre", "radius"} & link.slides.keys():
+        _read_arc(faults, f"{path}.slides", link)
     return link
+
+
+def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
+    """Read a slide along a circle: its stone moves as a link of that radius about its centre."""
+    before = len(faults)
+    given = read_keys(faults, path, link.slides or {}, keys.SLIDES)
+    link.slides = None
+    for key in given:
+        if key not in keys.ARC:
+            faults.add(f"{path}.{key}", "does not go with a circle", "Give on, centre, radius.")
+    for key in keys.ARC:
+        if key not in given and len(faults) == before:
+            hint = 'For example: slides = { on = "0", centre = "O2", radius = 0.2 }'
+            faults.add(f"{path}.{key}", "missing", hint)
+    centre = host = None
+    if "centre" in given:
+        centre = read_point_name(faults, f"{path}.centre", given["centre"])
+    if "on" in given:
+        host = read_text(faults, f"{path}.on", given["on"], limit=NAME_LIMIT)
+    radius = read_length(faults, f"{path}.radius", given["radius"]) if "radius" in given else None
+    if centre in link.points:
+        faults.add(f"{path}.centre", f"{centre} is a point of the stone itself")
+    if centre and host and radius and link.points and len(faults) == before:
+        pin = link.points[0]
+        link.arc, link.points = (host, centre), (centre, *link.points)
+        link.lengths.insert(0, Length(f"{centre}{pin}", centre, pin, radius))
+    link.whole = link.whole and link.arc is not None
+
+
+def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[str]) -> None:
+    """Refuse a circular slot whose centre is no point of the link that has it."""
+    for link in links.values():
+        host, centre = link.arc or (FRAME, "")
+        known = fixed if host == FRAME else links[host].points if host in links else None
+        if link.arc is None or (known is not None and centre in known):
+            continue
+        path = f"{link.path}.slides"
+        if known is None:
+            report_unknown(faults, f"{path}.on", host, [FRAME, *links], noun="link")
+        else:
+            owner = "the frame" if host == FRAME else f"link {host}"
+            hint = f"Its points are {listed(known)}."
+            faults.add(f"{path}.centre", f"{owner} has no point '{centre}'", hint)
+        link.whole = link.sound = False
 
 
 def _seen_points(table: Table) -> str:

@@ -38,12 +38,15 @@ class Body:
         How the file gives the third points that have a table of their own.
     angles : mapping of str to float, degrees
         Angles of the link by their letters: ``AOD``; of two lines ``ABCD``.
+    arc : str or None
+        Centre of the circular slot whose stone the link stands for (дуговая направляющая).
     """
 
     points: Mapping[str, complex]
     axis: tuple[str, str] | None
     forms: Mapping[str, PointForm] = field(default_factory=dict)
     angles: Mapping[str, float] = field(default_factory=dict)
+    arc: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

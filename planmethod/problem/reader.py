@@ -17,7 +17,7 @@ from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.extras import read_heading, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
-from planmethod.problem.links import LinkText, read_links
+from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import fold, listed, near
 from planmethod.problem.sheet import read_sheet, read_stamp
@@ -185,6 +185,7 @@ def _read_parts(
     links = read_links(faults, given["links"])
     if "frame" not in given:
         return None
+    check_arcs(faults, links, frame.points)
     for guide in frame.guides:
         if guide in links:
             hint = "Rename the guide, for instance x-x."

@@ -32,6 +32,14 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
     lines = [_position(text, asked)]
     named = {name for _, name, _ in problem.lengths}
     for link, name, metres in problem.lengths:
+        centre = problem.bodies[link].arc
+        if centre is not None and name == "".join(problem.bodies[link].axis or ()):
+            radius = text.metres(metres, _path(link, "slides.radius"))
+            said = words.note.given_arc.format(
+                link=link, radius=radius, line=_line(*split_names(name))
+            )
+            lines.append(said)
+            continue
         lines.append(f"l_{{{name}}} = {text.metres(metres, _path(link, name))}")
     for link, body in problem.bodies.items():
         if link != FRAME:

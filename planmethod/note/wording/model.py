@@ -44,6 +44,7 @@ class Wording:
     given_position: str
     given_extremes: Mapping[str, str]
     given_going: Mapping[str, str]
+    given_arc: str
     given_guide: str
     scales: str
     scales_text: str

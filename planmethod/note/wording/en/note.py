@@ -45,6 +45,7 @@ NOTE = Wording(
         "forth": " (forward stroke)",
         "back": " (return stroke)",
     },
+    given_arc="stone {link} in a circular slot R = {radius} (replaced by the link {line})",
     given_guide="∠(guide of link {link}, {line})",
     scales="Scales",
     scales_text="We take the scales {scales}.",

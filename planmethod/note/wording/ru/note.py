@@ -45,6 +45,7 @@ NOTE = Wording(
         "forth": " (прямой ход)",
         "back": " (обратный ход)",
     },
+    given_arc="камень {link} в дуговой направляющей R = {radius} (заменён звеном {line})",
     given_guide="∠(направляющая звена {link}, {line})",
     scales="Масштабы",
     scales_text="Принимаем масштабные коэффициенты: {scales}.",
