@@ -27,7 +27,7 @@ from planmethod.problem.fields import (
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
-from planmethod.problem.posed import is_place, is_posed, read_posed
+from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
 
 Span = tuple[float, ...]
 
@@ -72,10 +72,14 @@ def read_drive(
             faults.add(f"driver.{key}", f"does not go with {kind}", hint)
     posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
     required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
-    if not pivots:
+    acted = any(is_rate(key) or is_length(key) for key in given)
+    if not pivots and not acted:
         required += ("v",)
-    if pivots and not {"n", "train"} & {*given}:
+    if pivots and not acted and not {"n", "train"} & {*given}:
         required += ("omega",)
+    for key in given:
+        if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
+            faults.add(f"driver.{key}", "does not go with an actuator, whose rate drives")
     for key in required:
         if key not in given and whole:
             faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
@@ -228,6 +232,8 @@ def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | Non
 
 def _read_turning(faults: Faults, given: Table, geared: Geared | None) -> float | None:
     """Angular velocity, 1/s, from omega, n or the train."""
+    if any(map(is_length, given)):
+        return 0.0  # found with the position
     one, *others = [key for key in ("omega", "n", "train") if key in given] or ["omega"]
     for other in others:
         faults.add(f"driver.{other}", f"{one} and {other} are both given", "Keep one of them.")

@@ -209,6 +209,7 @@ class PosedBy(Enum):
     PHI = "phi"
     STROKE = "stroke"
     EXTREME = "at"
+    LENGTH = "length"
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,10 +220,11 @@ class Posed:
     ----------
     by : PosedBy
     of : str
-        The point, or the link of an angle; empty of a share of the stroke and of an extreme.
+        The point, the link of an angle, or two points of a length; empty of a share of the stroke
+        and of an extreme.
     values : tuple of float
-        Coordinates, m; angles, degrees; shares of the stroke from position zero of the cycle; or
-        degrees of the crank after an extreme.
+        Coordinates and lengths, m; angles, degrees; shares of the stroke from position zero of the
+        cycle; or degrees of the crank after an extreme.
     extremes : tuple of str
         Which extreme each is counted from: ``left``, ``right``, ``upper``, ``lower``, ``other``, or
         nothing for that of position zero.
@@ -231,6 +233,8 @@ class Posed:
         ``forth`` ...; empty where the file does not say it.
     near : float or None
         That nearest to this position of the driver, degrees or m.
+    rates : tuple of float
+        Of an actuator, which drives by the distance of two points: m/s, m/s².
     """
 
     by: PosedBy
@@ -239,10 +243,13 @@ class Posed:
     extremes: tuple[str, ...] = ()
     going: str = ""
     near: float | None = None
+    rates: tuple[float, float] = (0.0, 0.0)
 
     @property
     def key(self) -> str:
         """Its key in ``[driver]``."""
+        if self.by is PosedBy.LENGTH:
+            return self.of
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 

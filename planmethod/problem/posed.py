@@ -12,6 +12,8 @@ from planmethod.problem.fields import (
     Table,
     read_angle,
     read_coordinate,
+    read_length,
+    read_line_name,
     read_number,
     report_unknown,
     show,
@@ -19,6 +21,7 @@ from planmethod.problem.fields import (
 from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Posed, PosedBy
+from planmethod.problem.names import split_pair
 
 _READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
     "x": read_coordinate,
@@ -35,12 +38,24 @@ _WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30"'
 def is_posed(key: str) -> bool:
     """Whether a key of the driver tells a position by a point or a link: ``x_B``, ``phi_3``."""
     kind, line, name = key.partition("_")
-    return bool(line and name) and kind in keys.POSED
+    if not line:
+        return is_length(key)
+    return bool(name) and (kind in keys.POSED or is_rate(key))
+
+
+def is_length(key: str) -> bool:
+    """Whether a key of the driver is the length of an actuator: ``DE``."""
+    return key not in keys.DRIVER and split_pair(key) is not None
+
+
+def is_rate(key: str) -> bool:
+    """Whether a key of the driver is a rate of an actuator: ``v_DE``, ``a_DE``."""
+    return key[:2] in ("v_", "a_") and split_pair(key[2:]) is not None
 
 
 def is_place(key: str) -> bool:
     """Whether a key of the driver tells where it stands: of such keys one replaces the others."""
-    return key in keys.PLACES or is_posed(key)
+    return key in keys.PLACES or (is_posed(key) and not is_rate(key))
 
 
 def read_posed(
@@ -64,10 +79,17 @@ def read_posed(
     found = None
     if first and first not in ("phi", "s"):
         kind, _, name = first.partition("_")
-        found = _read(faults, given, kind, name, links, fixed, crank=crank)
+        if is_length(first):
+            found = _read_actuator(faults, given, first, links, fixed, crank=crank)
+        else:
+            found = _read(faults, given, kind, name, links, fixed, crank=crank)
         if kind == "phi" and name == link.name:
             hint = f"Write phi = ..., the angle of link {name} itself."
             faults.add(f"driver.{first}", f"link {name} drives", hint)
+    for key in given:
+        if is_rate(key) and key[2:] != first:
+            hint = f"Give the length itself: {key[2:]} = 0.4."
+            faults.add(f"driver.{key}", f"is the rate of {key[2:]}, which tells no position", hint)
     if "root" in given and first in ("", "phi", "s", "at"):
         faults.add("driver.root", "goes only with a position that the output tells", _ROOT)
     return None if others else found
@@ -114,6 +136,37 @@ def _read(
     return Posed(PosedBy(kind), name, tuple(values), tuple(extremes), going, near)
 
 
+def _read_actuator(
+    faults: Faults,
+    given: Table,
+    pair: str,
+    links: Mapping[str, LinkText],
+    fixed: Collection[str],
+    *,
+    crank: bool,
+) -> Posed | None:
+    """Read an actuator (гидроцилиндр): the distance of two points, and its rate."""
+    before = len(faults)
+    known = dict.fromkeys([*fixed, *(p for one in links.values() for p in one.points)])
+    ends = read_line_name(faults, f"driver.{pair}", pair, known, of="the mechanism")
+    if isinstance(given[pair], list):
+        hint = "Its rate makes another speed in each: write the others as variants."
+        faults.add(f"driver.{pair}", "an actuator has one position", hint)
+        return None
+    length = read_length(faults, f"driver.{pair}", given[pair])
+    rates = [
+        read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
+        for key, what in ((f"v_{pair}", "a velocity in m/s"), (f"a_{pair}", "an acceleration"))
+    ]
+    if f"v_{pair}" not in given:
+        faults.add(f"driver.v_{pair}", "missing", f"How fast {pair} grows, m/s.")
+    _, near = _read_root(faults, "length", given.get("root"), crank=crank)
+    if ends is None or length is None or len(faults) != before:
+        return None
+    speed, gain = (rate or 0.0 for rate in rates)
+    return Posed(PosedBy.LENGTH, pair, (length,), (), "", near, (speed, gain))
+
+
 def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float] | None:
     """Read ``extreme left + 30``: which extreme, and how far after it, degrees."""
     match = _AT.match(" ".join(value.split())) if isinstance(value, str) else None
@@ -138,7 +191,7 @@ def _read_root(
     if value is None or kind == "at":
         return "", None
     words = value.split() if isinstance(value, str) else []
-    ways = keys.GOING[kind]
+    ways = keys.GOING.get(kind, ())
     if len(words) == 2 and words[0] == "going" and words[1] in ways:
         return words[1], None
     if len(words) == 2 and words[0] == "near":
@@ -147,6 +200,6 @@ def _read_root(
             return "", read(faults, "driver.root", float(words[1]))
         except ValueError:
             pass
-    wanted = f'"going {ways[0]}", "going {ways[1]}" or "near {40 if crank else 0.1}"'
+    wanted = "".join(f'"going {way}" or ' for way in ways) + f'"near {40 if crank else 0.1}"'
     faults.add("driver.root", f"expected {wanted}, got {show(value)}")
     return "", None

@@ -61,6 +61,8 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
             name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
             offset = text.metres(slide.offset, _path(slide.slider, "slides.offset"))
             lines.append(f"e_{{{name}}} = {offset}")
+    if drive.posed is not None and drive.posed.by is PosedBy.LENGTH:
+        return lines
     if drive.is_crank:
         lines += [] if drive.geared is None else _through(drive.geared, words)
         constant = "" if drive.acceleration else " = const"
@@ -152,6 +154,14 @@ def _posed(posed: Posed, text: As) -> str:
             return text.number(value, "deg", path)
         return text.metres(value, path)
 
+    if posed.by is PosedBy.LENGTH:
+        pair, drive, say = posed.of, text.problem.drive, text.say
+        v, a = posed.rates
+        acted = f"l_{{{pair}}} = {said(values[0])}; "
+        acted += f"v_{{{pair}}} = {text.number(v, 'm/s', f'driver.v_{pair}')}; "
+        acted += f"a_{{{pair}}} = {text.number(a, 'm/s²', f'driver.a_{pair}')}"
+        letter, unit = (f"ω_{{{drive.link}}}", "1/s") if drive.is_crank else ("v", "m/s")
+        return f"{acted} ({letter} = {say.found(drive.rate)} {say.units[unit]})"
     letter = {PosedBy.PHI: "φ", PosedBy.STROKE: "s/H"}.get(posed.by, posed.by.value)
     symbol = f"{letter}_{{{posed.of}}}" if posed.of else letter
     way = note.given_going[posed.going] if posed.going else ""

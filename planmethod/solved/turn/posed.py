@@ -16,6 +16,7 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
 from planmethod.problem.keys import EXTREMES, GOING, UNITS
 from planmethod.problem.model import Posed, PosedBy, Problem, Zero
+from planmethod.problem.names import split_pair
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.solution import Solution
@@ -63,7 +64,37 @@ def pose(problem: Problem) -> Problem:
     for index in range(1, len(posed.values)):
         found = _roots(solution, posed, index)
         positions.append(_chosen(problem, posed, index, found, [solution]))
-    return replace(problem, drive=replace(problem.drive, positions=tuple(positions)))
+    drive = replace(problem.drive, positions=tuple(positions))
+    if posed.by is PosedBy.LENGTH:
+        rate, acceleration = _driven(solution, posed, chosen)
+        drive = replace(drive, rate=rate, acceleration=acceleration)
+    return replace(problem, drive=drive)
+
+
+def _driven(solution: Solution, posed: Posed, position: float) -> tuple[float, float]:
+    """Return the rates of the driver that give an actuator its own, by its analogues.
+
+    Of l(phi) with dl/dt = v and d²l/dt² = a: omega = v/l', epsilon = (a - l''·omega²)/l'.
+    """
+    drive = replace(solution.problem.drive, positions=(position,), rate=1.0, acceleration=0.0)
+    points = Solution(replace(solution.problem, drive=drive)).points
+    one, two = split_pair(posed.of) or ("", "")
+    place, velocity, acceleration = (
+        complex(getattr(points[two], part)[0] - getattr(points[one], part)[0])
+        for part in ("place", "velocity", "acceleration")
+    )
+    length = abs(place)
+    along = (velocity * place.conjugate()).real / length
+    curve = (acceleration * place.conjugate()).real / length
+    curve += (abs(velocity) ** 2 - along**2) / length
+    if abs(along) <= _OFF * abs(velocity):
+        raise AssemblyError(
+            f"{solution.problem.name}: at {posed.of} = {length:.5g} m the actuator is in a dead "
+            f"position: {posed.of} does not change while link {drive.link} moves. Give another "
+            "length."
+        )
+    speed, gain = posed.rates
+    return speed / along, (gain - curve * (speed / along) ** 2) / along
 
 
 def _closed(problem: Problem, position: float) -> Solution | None:
@@ -127,6 +158,12 @@ def _value(solution: Solution, posed: Posed) -> Callable[[Reals], Reals]:
         at = read(positions).point(PointName(posed.of)) + draft.origin
         return np.asarray(at.real if posed.by is PosedBy.X else at.imag)
 
+    def length(positions: Reals) -> Reals:
+        reading, (one, two) = read(positions), split_pair(posed.of) or ("", "")
+        return np.abs(reading.vector(PointName(one), PointName(two)))
+
+    if posed.by is PosedBy.LENGTH:
+        return length
     return angle if posed.by is PosedBy.PHI else place
 
 
@@ -231,7 +268,7 @@ def _chosen(
     senses = [going for _, going in kept]
     near = " or ".join(f'root = "near {place}"' for place in places)
     hint = f"Say {near}" if places else "Leave root out to see the positions"
-    if senses in ([1.0, -1.0], [-1.0, 1.0]):
+    if ways_of[0] and senses in ([1.0, -1.0], [-1.0, 1.0]):
         one, two = ways_of[:: 1 if senses[0] > 0 else -1]
         hint = f'Say root = "going {one}" for the first or root = "going {two}" for the second'
     message = f"{said} fits {told}, and one is meant"
@@ -245,6 +282,6 @@ def _apart(way: float, turn: float) -> float:
 
 def _told(posed: Posed, value: float, problem: Problem) -> str:
     """Return a value of the output as the file has it."""
-    if posed.by in (PosedBy.X, PosedBy.Y):
+    if posed.by in (PosedBy.X, PosedBy.Y, PosedBy.LENGTH):
         return f"{value * UNITS[problem.unit]:.5g} {problem.unit}"
     return f"{value:.5g}" + (" deg" if posed.by is PosedBy.PHI else "")
