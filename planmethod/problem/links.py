@@ -212,11 +212,11 @@ def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
     radius = read_length(faults, f"{path}.radius", given["radius"]) if "radius" in given else None
     if centre in link.points:
         faults.add(f"{path}.centre", f"{centre} is a point of the stone itself")
-    if centre and host and radius and link.points and len(faults) == before:
+    if centre and host and radius and link.points and centre not in link.points:
         pin = link.points[0]
         link.arc, link.points = (host, centre), (centre, *link.points)
         link.lengths.insert(0, Length(f"{centre}{pin}", centre, pin, radius))
-    link.whole = link.whole and link.arc is not None
+    link.whole = link.whole and len(faults) == before
 
 
 def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[str]) -> None:

@@ -148,6 +148,8 @@ def _posed(posed: Posed, text: As) -> str:
 
     def said(value: float) -> str:
         path = f"driver.{posed.key}"
+        if path not in text.problem.stated:
+            path += f"[{values.index(value)}]"
         if posed.by is PosedBy.STROKE:
             return text.plain(value, path)
         if posed.by is PosedBy.PHI:
