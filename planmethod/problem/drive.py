@@ -303,7 +303,7 @@ def _read_rule(
 ) -> Rule | None:
     if isinstance(value, Mapping):
         return _read_rule_table(faults, path, point, value, known)
-    want = '"right of D", "left of CB", "above D", "towards D" or { near = [x, y] }'
+    want = '"right of D", "left of CB", "above D" or { near = [x, y] }'
     if not isinstance(value, str) or len(value) > 80:
         faults.add(path, f"expected {want}, got {show(value)}")
         return None

@@ -45,7 +45,7 @@ def is_posed(key: str) -> bool:
 
 def is_length(key: str) -> bool:
     """Whether a key of the driver is the length of an actuator: ``DE``."""
-    return key not in keys.DRIVER and split_pair(key) is not None
+    return key[:1].isupper() and split_pair(key) is not None
 
 
 def is_rate(key: str) -> bool:

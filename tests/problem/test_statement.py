@@ -1,4 +1,4 @@
-"""Statements as textbooks print them, each beside a file of its faults (условие как в задачнике)."""
+"""Statements as textbooks print them, each beside a file of its faults."""
 
 from __future__ import annotations
 
