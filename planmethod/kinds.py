@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from planmethod.problem.fields import Faults
     from planmethod.problem.model import Geared, Problem, SheetSettings
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.solved.part import Part
+    from planmethod.solved.scaling import Views
 
 
 def load(path: str | Path, *, variant: str | None = None) -> Problem:
@@ -41,6 +43,27 @@ def _posed(problem: Problem) -> Problem:
     if problem.drive.posed is not None:
         problem = _of("planmethod.solved.turn.posed", "pose")(problem)
     return problem
+
+
+def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part]:
+    """Return the title of the file of a linkage, and as much of it as can be drawn.
+
+    Raises
+    ------
+    ProblemError
+        The file cannot be read at all.
+    """
+    text = read_source(path)
+    try:
+        table = parse(text, name=str(path))
+    except ProblemError as error:
+        part: Part = _of("planmethod.solved.part", "Part")(None, faults=error.faults, trouble=error)
+        return "", part
+    part = _of("planmethod.solved.part", "largest_part")(
+        table, source=str(path), name=path.stem, variant=variant, train=_driven, views=views
+    )
+    title = table.get("title")
+    return title if isinstance(title, str) else "", part
 
 
 def _driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:

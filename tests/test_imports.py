@@ -114,6 +114,8 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             (
                 ("structure", EX3, "--no-drawing"),
                 ("new", "four-bar"),
+                ("new", "levers-13", "--variant", "Б"),
+                ("tasks", "--search", "кулиса"),
                 ("layouts",),
                 ("--help",),
                 ("sheet", "--help"),

@@ -19,6 +19,7 @@ from planmethod.commands.problems import (
     tell_changes,
     warn,
 )
+from planmethod.commands.watch import watch_option
 from planmethod.errors import AssemblyError, ExitCode
 from planmethod.options import (
     MOST_POSITIONS,
@@ -102,6 +103,7 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
     help="Judge every result by a reading in so many digits (50), which needs mpmath.",
 )
 @lang_option
+@watch_option()
 @guarded
 def solve(
     problems: tuple[Path, ...],

@@ -42,15 +42,10 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         return degrees(phi if turn.range else round(phi % TURN, 2) % TURN, words)
 
     facts = [said.output[output.unit].format(name=output_name(output), link=output.link)]
-    if turn.range is None:
-        facts.append(said.full_turn)
-        if turn.tightest is not None:
-            links, at = turn.tightest
-            facts.append(said.tightest.format(links=", ".join(links), phi=place(at)))
-    else:
-        low, high = (degrees(limit, words) for limit in turn.range)
-        links = tuple(dict.fromkeys(link for end in turn.range for link in turn.stopping(end)))
-        facts.append(said.range.format(low=low, high=high, links=", ".join(links)))
+    facts.append(range_fact(turn, words))
+    if turn.range is None and turn.tightest is not None:
+        closest, at = turn.tightest
+        facts.append(said.tightest.format(links=", ".join(closest), phi=place(at)))
     facts.append(said.zero.format(phi=place(float(turn.positions[0]))))
     if turn.extremes:
         ends = (f"{place(one.phi)} ({size(one.value)})" for one in turn.extremes)
@@ -73,6 +68,15 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
             said.pressure.format(most=most, most_at=most_at, least=least, least_at=least_at)
         )
     return facts
+
+
+def range_fact(turn: Turn, words: Language) -> str:
+    """Return how far the crank turns."""
+    if turn.range is None:
+        return words.cycle.full_turn
+    low, high = (degrees(limit, words) for limit in turn.range)
+    links = tuple(dict.fromkeys(link for end in turn.range for link in turn.stopping(end)))
+    return words.cycle.range.format(low=low, high=high, links=", ".join(links))
 
 
 def _none(what: str, why: Why, words: Language) -> str:

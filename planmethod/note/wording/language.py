@@ -64,6 +64,8 @@ class Language:
         Names and comments of the shipped layouts, by the places of their files.
     families : mapping
         What the families of ready problem files are.
+    tasks : mapping
+        Of the list of shipped tasks.
     """
 
     lang: str
@@ -88,3 +90,4 @@ class Language:
     live: LiveWording
     layouts: Mapping[str, str]
     families: Mapping[str, str]
+    tasks: Mapping[str, str]

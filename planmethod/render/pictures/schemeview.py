@@ -90,7 +90,7 @@ def _letter_axes(view: _View, others: Sequence[complex] = ()) -> None:
                 )
 
 
-def _letter_links(view: _View, others: Sequence[Item] = ()) -> None:
+def _letter_links(view: _View, others: Sequence[Item] = (), *, senses: bool = True) -> None:
     """Put the links' numbers down, and circular arrows for the senses of omega and epsilon.
 
     Among the lines of ``others``, the other positions, only the driver has arrows.
@@ -98,7 +98,7 @@ def _letter_links(view: _View, others: Sequence[Item] = ()) -> None:
     scheme = view.scheme
     for link in scheme.solution.problem.mechanism.links:
         view.labels.append(scheme.link_label(link, 5.5 * scheme.factor))
-        if not others or link == scheme.solution.problem.drive.link:
+        if senses and (not others or link == scheme.solution.problem.drive.link):
             _senses(view, link, others)
 
 
@@ -208,12 +208,14 @@ def scheme_picture(
     letter_height: float = 5.0,
     overlay: tuple[int, ...] = (),
     errors: bool = False,
+    bare: bool = False,
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
     The positions of ``overlay`` are there in thin lines, their points lettered and numbered; the
     arrows of the links but the driver's, and its angle, are left to the single position.
-    ``errors`` draws the ellipses of the drafting error around the moving points.
+    ``errors`` draws the ellipses of the drafting error around the moving points. ``bare`` leaves
+    out what tells of the motion: arrows, the angle of the driver, letters of the axes.
     """
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
@@ -223,8 +225,12 @@ def scheme_picture(
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
     if many:
         return _many_picture(view, Positions(solution, index, overlay, letter_height), ellipses)
-    for write in (_letter_points, _letter_axes, _letter_links, _draw_angle):
-        write(view)
+    _letter_points(view)
+    if not bare:
+        _letter_axes(view)
+    _letter_links(view, senses=not bare)
+    if not bare:
+        _draw_angle(view)
     # The ellipses after the joints, whose white would cover them.
     items = [*view.items(), *ellipses.strokes]
     return lettered(items, view.labels, clear=ellipses.grounds)

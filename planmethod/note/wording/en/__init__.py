@@ -8,7 +8,7 @@ from planmethod.note.wording.en.forces import FORCES
 from planmethod.note.wording.en.form import FORM
 from planmethod.note.wording.en.frame import FRAME
 from planmethod.note.wording.en.gears import GEARS
-from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.en.layouts import FAMILIES, LAYOUTS, TASKS
 from planmethod.note.wording.en.live import LIVE
 from planmethod.note.wording.en.machine import MACHINE
 from planmethod.note.wording.en.meshing import MESHING
@@ -45,4 +45,5 @@ LANGUAGE = Language(
     live=LIVE,
     layouts=LAYOUTS,
     families=FAMILIES,
+    tasks=TASKS,
 )

@@ -9,7 +9,7 @@ from planmethod.note.wording.ru.forces import FORCES
 from planmethod.note.wording.ru.form import FORM
 from planmethod.note.wording.ru.frame import FRAME
 from planmethod.note.wording.ru.gears import GEARS
-from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS
+from planmethod.note.wording.ru.layouts import FAMILIES, LAYOUTS, TASKS
 from planmethod.note.wording.ru.live import LIVE
 from planmethod.note.wording.ru.machine import MACHINE
 from planmethod.note.wording.ru.meshing import MESHING
@@ -45,4 +45,5 @@ LANGUAGE = Language(
     live=LIVE,
     layouts=LAYOUTS,
     families=FAMILIES,
+    tasks=TASKS,
 )
