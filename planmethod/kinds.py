@@ -59,8 +59,15 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
     except ProblemError as error:
         part: Part = _of("planmethod.solved.part", "Part")(None, faults=error.faults, trouble=error)
         return "", part
+    faults = _of("planmethod.problem.fields", "Faults")()
     part = _of("planmethod.solved.part", "largest_part")(
-        table, source=str(path), name=path.stem, variant=variant, train=_driven, views=views
+        _of("planmethod.problem.table", "with_table")(faults, table, path.parent),
+        source=str(path),
+        name=path.stem,
+        variant=variant,
+        train=_driven,
+        views=views,
+        posed=_posed,
     )
     title = table.get("title")
     return title if isinstance(title, str) else "", part
