@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
@@ -204,7 +205,7 @@ class Kind:
         if not hasattr(import_module(self.package), name):
             what = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}[name]
             fault = Fault(
-                self.table, f"such a problem has no {what}; its numbers: planmethod solve"
+                self.table, say("such a problem has no {}; its numbers: planmethod solve", what)
             )
             raise ProblemError(problem.name, [fault])
         return self._function(name)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planmethod.problem.fields import Faults, is_number, show
+from planmethod.languages import say
+from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, Kind, Operation, Parser
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
 
@@ -43,13 +44,15 @@ def read_formula(
     if is_number(value):
         value = repr(value)
         if len(value) > LENGTH_LIMIT or value.strip("-") in ("inf", "nan"):
-            faults.add(path, f"expected a finite number, got {short(value)}")
+            faults.add(path, say("expected a finite number, got {}", short(value)))
             return None
     if not isinstance(value, str):
-        faults.add(path, f"expected a formula, got {show(value)}", 'For example: "3*t*exp(t/2)".')
+        faults.expected(path, "a formula", value, 'For example: "3*t*exp(t/2)".')
         return None
     if len(value) > LENGTH_LIMIT:
-        faults.add(path, f"the formula has {len(value)} characters, the limit is {LENGTH_LIMIT}")
+        faults.add(
+            path, say("the formula has {} characters, the limit is {}", len(value), LENGTH_LIMIT)
+        )
         return None
     if lookalikes(value):
         faults.add(path, describe_lookalikes(value), "Type formulas in the Latin layout.")

@@ -22,6 +22,7 @@ from decimal import Decimal
 from enum import Enum
 from types import MappingProxyType
 
+from planmethod.languages import say
 from planmethod.problem.names import listed, near, short
 
 LENGTH_LIMIT = 500
@@ -121,7 +122,7 @@ def work_out(text: str) -> float:
         It cannot be read, or has no value: a division by zero, the root of a negative number.
     """
     if len(text) > LENGTH_LIMIT:
-        raise FormulaError(f"it has {len(text)} characters, the limit is {LENGTH_LIMIT}")
+        raise FormulaError(say("it has {} characters, the limit is {}", len(text), LENGTH_LIMIT))
     stack: list[float] = []
     for operation in Parser(_COMMA.sub(".", text.translate(_AS_TYPED)), printed=True).parse():
         try:
@@ -176,11 +177,15 @@ class Parser:
         self._sum()
         kind, text, where = self.tokens[self.at]
         if text == ")":
-            raise FormulaError(f"character {where}: ')' closes no '('")
+            raise FormulaError(say("character {}: ')' closes no '('", where))
         if kind != "end":
             before = self.tokens[self.at - 1][1]
-            hint = f"Nothing is multiplied without a sign: write {before}*{short(text, 12)}."
-            raise FormulaError(f"character {where}: expected an operator before '{text}'", hint)
+            hint = say(
+                "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
+            )
+            raise FormulaError(
+                say("character {}: expected an operator before '{}'", where, text), hint
+            )
         return self.made
 
     def _sum(self) -> None:
@@ -222,7 +227,9 @@ class Parser:
         if kind == "number":
             number = float(text)
             if not math.isfinite(number):
-                raise FormulaError(f"character {where}: the number {short(text, 12)} is too large")
+                raise FormulaError(
+                    say("character {}: the number {} is too large", where, short(text, 12))
+                )
             self.at += 1
             self.made.append(Operation(Kind.NUMBER, value=number, is_exact=is_exact(text)))
         elif kind == "name":
@@ -241,16 +248,18 @@ class Parser:
             raise FormulaError("the formula ends where a number or a name is expected")
         else:
             hint = 'A bracket holds something: "(1 + t)".' if text == ")" else ""
-            raise FormulaError(f"character {where}: expected a number, got '{text}'", hint)
+            raise FormulaError(say("character {}: expected a number, got '{}'", where, text), hint)
 
     def _name(self, text: str, where: int) -> None:
         self.at += 1
         if text not in self.names:
             guess = near(text, self.names)
             hint = (
-                f"Did you mean '{guess}'?" if guess else f"Known: {listed(self.names, limit=30)}."
+                say("Did you mean '{}'?", guess)
+                if guess
+                else say("Known: {}.", listed(self.names, limit=30))
             )
-            raise FormulaError(f"character {where}: unknown name '{short(text)}'", hint)
+            raise FormulaError(say("character {}: unknown name '{}'", where, short(text)), hint)
         if text == TIME:
             self.made.append(Operation(Kind.TIME))
         elif text in CONSTANTS:
@@ -258,7 +267,7 @@ class Parser:
         else:
             if self._text != "(":
                 hint = f"Write {text}({TIME if TIME in self.names else 2})."
-                raise FormulaError(f"character {where}: expected '(' after {text}", hint)
+                raise FormulaError(say("character {}: expected '(' after {}", where, text), hint)
             self._bracket()
             self.made.append(Operation(Kind.CALL, FUNCTIONS[text]))
 
@@ -270,9 +279,13 @@ class Parser:
             _, text, place = self.tokens[self.at]
             if text:
                 before = self.tokens[self.at - 1][1]
-                hint = f"Nothing is multiplied without a sign: write {before}*{short(text, 12)}."
-                raise FormulaError(f"character {place}: expected an operator before '{text}'", hint)
-            raise FormulaError(f"character {where}: '(' is not closed", "Add ')'.")
+                hint = say(
+                    "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
+                )
+                raise FormulaError(
+                    say("character {}: expected an operator before '{}'", place, text), hint
+                )
+            raise FormulaError(say("character {}: '(' is not closed", where), "Add ')'.")
         self.at += 1
         self.depth -= 1
 
@@ -280,7 +293,7 @@ class Parser:
         self.at += 1
         self.depth += 1
         if self.depth > DEPTH_LIMIT:
-            raise FormulaError(f"the formula is nested deeper than {DEPTH_LIMIT} levels")
+            raise FormulaError(say("the formula is nested deeper than {} levels", DEPTH_LIMIT))
 
     @property
     def _text(self) -> str:
@@ -299,7 +312,7 @@ def _tokens(text: str, pattern: re.Pattern[str]) -> list[tuple[str, str, int]]:
         if match is None:
             char = text[at]
             shown = f"'{char}'" if char.isprintable() else f"U+{ord(char):04X}"
-            message = f"character {at + 1}: {shown} has no meaning in a formula"
+            message = say("character {}: {} has no meaning in a formula", at + 1, shown)
             raise FormulaError(message, _INSTEAD.get(char, ""))
         found.append((str(match.lastgroup), match[0], at + 1))
         at = match.end()

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from enum import Enum
 from typing import Any, TypeVar
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -61,7 +62,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
     body = read_keys(faults, "machine", table, keys.MACHINE)
     if drive is not None and not drive.is_crank:
         hint = "The cycle of a machine is that of a driving crank: give it phi and n."
-        faults.add("machine", f"link {drive.link} slides and has no turn", hint)
+        faults.add("machine", say("link {} slides and has no turn", drive.link), hint)
     elif drive is not None and not drive.rate:
         faults.add("machine", "the crank stands", "Give its mean speed: [driver] n or omega.")
     if not given.get("loads"):
@@ -70,7 +71,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
     cycle = body.get("cycle_deg", 360)
     if not is_number(cycle) or cycle not in (360, 720):
         hint = "720 is for a four-stroke engine."
-        faults.add("machine.cycle_deg", f"expected 360 or 720, got {show(cycle)}", hint)
+        faults.expected("machine.cycle_deg", "360 or 720", cycle, hint)
         cycle = 360
     count = read_whole(faults, "machine.count", body.get("count", round(cycle / 30)), 4, _MOST)
     start = read_angle(faults, "machine.phi_0", body["phi_0"]) if "phi_0" in body else None
@@ -86,7 +87,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
         return read_member(faults, f"machine.{key}", body[key], type(default)) or default
 
     def scale(key: str, unit: str) -> float | None:
-        return number(key, 1.0, f"a scale in {unit}", 1e-12, 1e12) if key in body else None
+        return number(key, 1.0, say("a scale in {}", unit), 1e-12, 1e12) if key in body else None
 
     made = Machine(
         delta=delta or 0.5,
@@ -122,12 +123,12 @@ def _read_delta(faults: Faults, body: Table, *, whole: bool) -> float | None:
         except (ValueError, ZeroDivisionError):
             value = math.nan
     if not is_number(value) or not math.isfinite(value):
-        message = f'expected a number or a fraction such as "1/18", got {show(body["delta"])}'
+        message = say('expected a number or a fraction such as "1/18", got {}', show(body["delta"]))
         faults.add(path, message, "A decimal fraction has a point: 0.05.")
         return None
     if not 0.0 < value < 1.0:
         hint = "delta = (omega_max - omega_min)/omega_mean: from 1/5 (pumps) to 1/300 (generators)."
-        faults.add(path, f"expected an irregularity between 0 and 1, got {value:g}", hint)
+        faults.add(path, say("expected an irregularity between 0 and 1, got {:g}", value), hint)
         return None
     return float(value)
 

@@ -13,6 +13,7 @@ from fractions import Fraction
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
@@ -156,7 +157,7 @@ class Coordinate:
 
     def told(self, value: str) -> str:
         """Return a value for a message: ``phi = 20 deg``."""
-        return f"{self.name} = {value} {self.unit}"
+        return f"{self.name} = {value} {say(self.unit)}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -16,7 +17,6 @@ from planmethod.problem.fields import (
     read_line_name,
     read_number,
     report_unknown,
-    show,
 )
 from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.links import LinkText
@@ -74,7 +74,7 @@ def read_posed(
     foreign = "s" if crank else "phi"  # reported as what does not go with the driver
     first, *others = [key for key in given if is_place(key) and key != foreign] or [""]
     for key in others:
-        said = f"{first} and {key} both tell the position"
+        said = say("{} and {} both tell the position", first, key)
         faults.add(f"driver.{key}", said, "Keep one of them.")
     found = None
     if first and first not in ("phi", "s"):
@@ -84,12 +84,14 @@ def read_posed(
         else:
             found = _read(faults, given, kind, name, links, fixed, crank=crank)
         if kind == "phi" and name == link.name:
-            hint = f"Write phi = ..., the angle of link {name} itself."
-            faults.add(f"driver.{first}", f"link {name} drives", hint)
+            hint = say("Write phi = ..., the angle of link {} itself.", name)
+            faults.add(f"driver.{first}", say("link {} drives", name), hint)
     for key in given:
         if is_rate(key) and key[2:] != first:
-            hint = f"Give the length itself: {key[2:]} = 0.4."
-            faults.add(f"driver.{key}", f"is the rate of {key[2:]}, which tells no position", hint)
+            hint = say("Give the length itself: {} = 0.4.", key[2:])
+            faults.add(
+                f"driver.{key}", say("is the rate of {}, which tells no position", key[2:]), hint
+            )
     if "root" in given and first in ("", "phi", "s", "at"):
         faults.add("driver.root", "goes only with a position that the output tells", _ROOT)
     return None if others else found
@@ -107,9 +109,10 @@ def _read(
 ) -> Posed | None:
     path = f"driver.{kind}_{name}" if name else f"driver.{kind}"
     moving = [p for one in links.values() for p in one.points if p not in fixed]
-    known, noun = (links, "link") if kind == "phi" else (dict.fromkeys(moving), "moving point")
+    known: Collection[str] = links if kind == "phi" else dict.fromkeys(moving)
+    said = "unknown link '{}'" if kind == "phi" else "unknown moving point '{}'"
     if name and name not in known:
-        report_unknown(faults, path, name, known, noun=noun)
+        report_unknown(faults, path, name, known, said=said)
         return None
     if kind in ("stroke", "at") and not crank:
         faults.add(path, "a driving slider has no turn", "Give x_B, y_B or phi_1 of a link.")
@@ -117,7 +120,9 @@ def _read(
     value = given[f"{kind}_{name}" if name else kind]
     items = value if isinstance(value, list) else [value]
     if not items or len(items) > keys.POSITION_LIMIT:
-        faults.add(path, f"expected from 1 to {keys.POSITION_LIMIT} positions, got {len(items)}")
+        faults.add(
+            path, say("expected from 1 to {} positions, got {}", keys.POSITION_LIMIT, len(items))
+        )
         return None
     values: list[float] = []
     extremes: list[str] = []
@@ -156,10 +161,13 @@ def _read_actuator(
     length = read_length(faults, f"driver.{pair}", given[pair])
     rates = [
         read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
-        for key, what in ((f"v_{pair}", "a velocity in m/s"), (f"a_{pair}", "an acceleration"))
+        for key, what in (
+            (f"v_{pair}", "a velocity in m/s"),
+            (f"a_{pair}", "an acceleration in m/s²"),
+        )
     ]
     if f"v_{pair}" not in given:
-        faults.add(f"driver.v_{pair}", "missing", f"How fast {pair} grows, m/s.")
+        faults.add(f"driver.v_{pair}", "missing", say("How fast {} grows, m/s.", pair))
     _, near = _read_root(faults, "length", given.get("root"), crank=crank)
     if ends is None or length is None or len(faults) != before:
         return None
@@ -171,14 +179,16 @@ def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float]
     """Read ``extreme left + 30``: which extreme, and how far after it, degrees."""
     match = _AT.match(" ".join(value.split())) if isinstance(value, str) else None
     if match is None or (match[1] and match[2]):
-        faults.add(path, f"expected an extreme position, got {show(value)}", f"Known: {_WAYS}.")
+        faults.expected(path, "an extreme position", value, say("Known: {}.", _WAYS))
         return None
     after = 0.0
     if match[3]:
         try:
             after = work_out(match[3].rstrip(" °"))
         except FormulaError as error:
-            faults.add(path, f"expected degrees after the extreme, got {match[3]!r}: {error}")
+            faults.add(
+                path, say("expected degrees after the extreme, got {!r}: {}", match[3], error)
+            )
             return None
     degrees = read_angle(faults, path, after)
     return None if degrees is None else (match[1] or match[2] or "", degrees)
@@ -200,6 +210,8 @@ def _read_root(
             return "", read(faults, "driver.root", float(words[1]))
         except ValueError:
             pass
-    wanted = "".join(f'"going {way}" or ' for way in ways) + f'"near {40 if crank else 0.1}"'
-    faults.add("driver.root", f"expected {wanted}, got {show(value)}")
+    example = f'"near {40 if crank else 0.1}"'
+    if ways:
+        example = say('"going {}", "going {}" or {}', *ways, example)
+    faults.expected("driver.root", example, value)
     return "", None

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem import keys
 from planmethod.problem.answers import Scene, read_answers
@@ -151,12 +152,14 @@ def _read_parsed(
 def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     """Return the fault of a variant that a file has not, with the nearest name."""
     if not known:
-        return Fault("variants", f"there is no variant '{variant}'", "The file has no variants.")
+        return Fault(
+            "variants", say("there is no variant '{}'", variant), "The file has no variants."
+        )
     guess = near(variant, known) or next((k for k in known if fold(k) == fold(variant)), None)
-    hint = f"Did you mean '{guess}'?" if guess else f"There are {listed(known)}."
+    hint = say("Did you mean '{}'?", guess) if guess else say("There are {}.", listed(known))
     if guess and fold(guess) == fold(variant):
-        hint = f"Did you mean '{guess}' in the other layout (Russian or Latin)?"
-    return Fault("variants", f"there is no variant '{variant}'", hint)
+        hint = say("Did you mean '{}' in the other layout (Russian or Latin)?", guess)
+    return Fault("variants", say("there is no variant '{}'", variant), hint)
 
 
 def _read_parts(
@@ -189,7 +192,7 @@ def _read_parts(
     for guide in frame.guides:
         if guide in links:
             hint = "Rename the guide, for instance x-x."
-            faults.add(f"frame.guides.{guide}", f"link {guide} has the same name", hint)
+            faults.add(f"frame.guides.{guide}", say("link {} has the same name", guide), hint)
     hosts, guides = _find_hosts(faults, links, frame)
     bodies = _place(faults, links, frame, hosts)
     slides = _read_slides(faults, links, frame, hosts, guides, bodies)
@@ -283,7 +286,7 @@ def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
         if key in given:
             faults.add(
                 "links",
-                f"missing: the file describes {what} ([{key}]), not a linkage",
+                say("missing: the file describes {} ([{}]), not a linkage", what, key),
                 "Plans of a linkage need [frame], [links] and [driver].",
             )
             return
@@ -321,7 +324,7 @@ def _refuse_drivers(
 ) -> None:
     """Say why several drivers are refused: what they are, and how many the mechanism needs."""
     count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
-    message = f"{count} drivers are given: links {names}"
+    message = say("{} drivers are given: links {}", count, names)
     hint = "Plans are made of mechanisms with one: keep one, and join the others to it."
     if mechanism is not None:
         n, pairs = len(mechanism.links), mechanism.lower_pairs
@@ -330,9 +333,10 @@ def _refuse_drivers(
         if mobility == 1:
             hint = "One driver moves all links of this mechanism: keep one of them."
         elif mobility == count:
-            hint = (
-                f"The mechanism needs {count}, and plans are made of mechanisms with W = 1: give a "
-                "pair that joins two of the drivers, or take one of them as fixed."
+            hint = say(
+                "The mechanism needs {}, and plans are made of mechanisms with W = 1: "
+                "give a pair that joins two of the drivers, or take one of them as fixed.",
+                count,
             )
     faults.add("driver", message, hint)
 
@@ -369,7 +373,7 @@ def _place(
         if alone and name not in carriers and link.sound:
             faults.add(
                 link.path,
-                f"link {name} has one point and neither slides nor carries a slide",
+                say("link {} has one point and neither slides nor carries a slide", name),
                 "List its second point, or give slides = { on = ... }.",
             )
             link.sound = link.whole = False

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.names import fold, listed, near, short, split_names
@@ -42,16 +43,18 @@ def with_table(faults: Faults, table: Mapping[str, Any], folder: Path | None) ->
     path = None if folder is None else folder / name
     example = 'For example: variants = "variants.csv", beside the problem file.'
     if path is None or Path(name).name != name or not name.lower().endswith((".csv", ".txt")):
-        faults.add("variants", f"expected the name of a CSV file, got '{short(name)}'", example)
+        faults.add(
+            "variants", say("expected the name of a CSV file, got '{}'", short(name)), example
+        )
         return {**table, "variants": {}}
     try:
         with path.open("rb") as stream:
             data = stream.read(SIZE_LIMIT + 1)
     except OSError as error:
-        faults.add("variants", f"{name} cannot be read: {error.strerror}", example)
+        faults.add("variants", say("{} cannot be read: {}", name, error.strerror), example)
         data = b""
     if len(data) > SIZE_LIMIT:
-        faults.add("variants", f"{name} is larger than {SIZE_LIMIT} bytes")
+        faults.add("variants", say("{} is larger than {} bytes", name, SIZE_LIMIT))
         data = b""
     return {**table, "variants": _variants(faults, table, table_text(data), name) if data else {}}
 
@@ -68,21 +71,25 @@ def _variants(
             if any(cell.strip() for cell in row)
         ]
     except csv.Error as error:
-        faults.add("variants", f"{name} is no CSV: {error}", "Is a quote left open?")
+        faults.add("variants", say("{} is no CSV: {}", name, error), "Is a quote left open?")
         return {}
     if not rows:
-        faults.add("variants", f"{name} has no rows", "The first row names the columns.")
+        faults.add("variants", say("{} has no rows", name), "The first row names the columns.")
         return {}
     columns = [_column(faults, table, head, name) for head in rows[0][1:]]
     found: dict[str, dict[str, Any]] = {}
     for number, row in enumerate(rows[1:], 2):
         variant = row[0]
         if variant in found or not variant:
-            what = f"variant '{variant}' is there twice" if variant else "the variant has no name"
-            faults.add("variants", f"{name}, row {number}: {what}", "Its name is the first cell.")
+            what = "the variant has no name"
+            if variant:
+                what = say("variant '{}' is there twice", variant)
+            said = say("{}, row {}: {}", name, number, what)
+            faults.add("variants", said, "Its name is the first cell.")
             continue
         if len(row) > len(columns) + 1:
-            said = f"{name}, row {number}: {len(row)} cells, {len(columns) + 1} columns"
+            cells = say("{} cells, {} columns", len(row), len(columns) + 1)
+            said = say("{}, row {}: {}", name, number, cells)
             faults.add("variants", said, "Is a decimal comma read as a separator? Use ';'.")
             continue
         found[variant] = {}
@@ -123,14 +130,18 @@ def _column(
         key = names.get(_plain(written)) or names.get(_plain(written).removeprefix("l"))
     if key is None:
         guess = near(_plain(written), names)
-        hint = f"Did you mean '{guess}'?" if guess else f"Known: {listed(names)}, and dotted keys."
-        faults.add("variants", f"{name}: no column is called '{short(head)}'", hint)
+        hint = (
+            say("Did you mean '{}'?", guess)
+            if guess
+            else say("Known: {}, and dotted keys.", listed(names))
+        )
+        faults.add("variants", say("{}: no column is called '{}'", name, short(head)), hint)
         return None
     unit = (match["unit"] or "").strip() if match else ""
     if not unit or _SI.match(unit):
         return key, 1.0
     if unit not in _UNITS or not _is_length(key):
-        faults.add("variants", f"{name}: '{short(head)}' is not in the unit of the file")
+        faults.add("variants", say("{}: '{}' is not in the unit of the file", name, short(head)))
         return None
     own = keys.UNITS.get(str(table.get("units", "m")), 1.0)
     return key, own / keys.UNITS[_UNITS[unit]]

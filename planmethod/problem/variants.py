@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import FAULT_LIMIT, Faults, read_table
 from planmethod.problem.links import read_label
@@ -46,11 +47,13 @@ def read_variants(faults: Faults, table: Mapping[str, Any]) -> dict[str, dict[Pa
     entries = read_table(faults, "variants", table.get("variants", {})) or {}
     found: dict[str, dict[Path, Any]] = {}
     if len(entries) > keys.VARIANT_LIMIT:
-        faults.add("variants", f"{len(entries)} variants, the limit is {keys.VARIANT_LIMIT}")
+        faults.add(
+            "variants", say("{} variants, the limit is {}", len(entries), keys.VARIANT_LIMIT)
+        )
         return found
     for name, body in entries.items():
         path = f"variants.{segment(name)}"
-        if not read_label(faults, path, name, "variant"):
+        if not read_label(faults, path, name, "a variant"):
             continue
         found[name] = {}
         inner: set[Path] = set()
@@ -180,8 +183,8 @@ def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: Path)
         names = [*_names_in(table), *known]
         guess = near(part[-1], names) if faults.count < FAULT_LIMIT else None
         dotted = ".".join(where[:depth])
-        hint = f"Did you mean '{'.'.join((*parent, guess))}'?" if guess else ""
-        faults.add(shown, f"the file has no '{dotted}' to override", hint)
+        hint = say("Did you mean '{}'?", ".".join((*parent, guess))) if guess else ""
+        faults.add(shown, say("the file has no '{}' to override", dotted), hint)
         return False
     return True
 

@@ -21,6 +21,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
@@ -108,8 +109,12 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
             faults += [
                 Fault(
                     f"assembly.{rule.point}",
-                    f"'{_said(rule)}' and '{_said(mine[0])}' ask for different closings of links "
-                    f"{', '.join(group.links)}",
+                    say(
+                        "'{}' and '{}' ask for different closings of links {}",
+                        _said(rule),
+                        _said(mine[0]),
+                        ", ".join(group.links),
+                    ),
                     "Keep the one that is meant",
                 )
                 for rule, closing in zip(mine, judged, strict=True)
@@ -124,7 +129,10 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
             faults.append(
                 Fault(
                     f"assembly.{rule.point}",
-                    f"{rule.point} belongs to the frame or to the driving link: it has one place",
+                    say(
+                        "{} belongs to the frame or to the driving link: it has one place",
+                        rule.point,
+                    ),
                     "Delete the rule, or name a point that a group places",
                 )
             )
@@ -140,7 +148,11 @@ def _late(rule: Rule, draft: Draft) -> Fault | None:
         return None
     return Fault(
         f"assembly.{rule.point}",
-        f"{' and '.join(missing)} is placed after {rule.point}, so it cannot tell its place",
+        say(
+            "{} is placed after {}, so it cannot tell its place",
+            say(" and ").join(missing),
+            rule.point,
+        ),
         "Compare with a fixed point or with one that an earlier group places",
     )
 
@@ -151,7 +163,7 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     if rule.continuous and group.signature == "RPR":
         return Fault(
             path,
-            f"links {links} close by a slotted link, which keeps its side",
+            say("links {} close by a slotted link, which keeps its side", links),
             'Leave keep = "continuous" out',
         )
     if rule.where is not Where.PARALLEL:
@@ -160,7 +172,7 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     if found is None:
         return Fault(
             path,
-            f"links {links} are no two sides of a quadrilateral of four joints",
+            say("links {} are no two sides of a quadrilateral of four joints", links),
             'Leave keep = "parallel" out, and say which closing is meant',
         )
     if found.is_one:
@@ -171,7 +183,7 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     )
     return Fault(
         path,
-        f"the opposite sides of a parallelogram are equal, and here {said}",
+        say("the opposite sides of a parallelogram are equal, and here {}", said),
         'Correct the lengths, or say keep = "continuous" with the closing that is meant',
     )
 
@@ -240,9 +252,9 @@ def _said(rule: Rule) -> str:
     """Return a rule in the words of the file: ``C right of B``, ``C left of AD``."""
     match rule.where:
         case Where.NEAR:
-            return f"{rule.point} near [{rule.at.real:g}, {rule.at.imag:g}]"
+            return say("{} near [{:g}, {:g}]", rule.point, rule.at.real, rule.at.imag)
         case Where.PARALLEL:
-            return f"{rule.point} keep parallel"
+            return say("{} keep parallel", rule.point)
         case Where.TOWARDS | Where.AWAY:
             return f"{rule.point} {rule.where.value} {rule.refs[0]}"
         case Where.ABOVE | Where.BELOW:
@@ -283,8 +295,12 @@ def _judge(
             [
                 Fault(
                     f"assembly.{rule.point}",
-                    f"'{said}' does not tell the two closings apart at {where}: both give "
-                    f"{plus:.6g} m",
+                    say(
+                        "'{}' does not tell the two closings apart at {}: both give {:.6g} m",
+                        said,
+                        where,
+                        plus,
+                    ),
                     "Compare with another point or with a directed line",
                 )
             ],
@@ -329,9 +345,15 @@ def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
     _, *words = max(told, key=lambda pair: pair[0], default=(0.0, *near))
     return Fault(
         f"assembly.{rule.point}",
-        f"'{_said(rule)}' holds for both closings at {where}: with {rule.point} at {places[0]} and "
-        f"at {places[1]} m",
-        f"Say '{words[0]}' for the first or '{words[1]}' for the second",
+        say(
+            "'{}' holds for both closings at {}: with {} at {} and at {} m",
+            _said(rule),
+            where,
+            rule.point,
+            places[0],
+            places[1],
+        ),
+        say("Say '{}' for the first or '{}' for the second", words[0], words[1]),
     )
 
 
@@ -361,7 +383,7 @@ def _from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
     joint = _outer(problem, group, rule.point)
     if joint is None or joint in (rule.point, *rule.refs):
         hint = "Compare with another point: right of, left of, above, below"
-        message = f"'{_said(rule)}': there is no way from the joint {joint or ''} to tell"
+        message = say("'{}': there is no way from the joint {} to tell", _said(rule), joint or "")
         raise ProblemError(problem.name, [Fault(f"assembly.{rule.point}", message, hint)])
     return replace(rule, refs=(*rule.refs, joint))
 
@@ -395,15 +417,23 @@ def _missing(group: AssurGroup, both: list[_Tried], untold: Rule | None = None) 
         values = reading.point(PointName(c)) + draft.origin
         able = values[np.isfinite(values)]
         places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})" if able.size else "nowhere")
-    hint = f'Add {c} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) '
+    hint = say(
+        'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) to [assembly]',
+        c,
+    )
     if untold is not None:
         ahead = [_score(untold, draft, reading) for draft, _, reading in both]
         words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]
         one, two = words if np.nansum(ahead[0]) > 0 else words[::-1]
-        hint = f'Add {c} = "{one}" for the first or "{two}" for the second '
+        hint = say('Add {} = "{}" for the first or "{}" for the second to [assembly]', c, one, two)
     return Fault(
         f"assembly.{c}",
-        f"links {', '.join(group.links)} close in two ways, with {c} at {places[0]} or at "
-        f"{places[1]} m, and no rule says which",
-        f"{hint}to [assembly]",
+        say(
+            "links {} close in two ways, with {} at {} or at {} m, and no rule says which",
+            ", ".join(group.links),
+            c,
+            places[0],
+            places[1],
+        ),
+        hint,
     )

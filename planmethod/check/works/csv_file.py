@@ -37,12 +37,14 @@ def read_csv(data: bytes, path: Path) -> list[Work]:
     try:
         rows = list(_rows(text, separator or _separator(text, path), path))
     except csv.Error as error:
-        raise WorksError(f"{path}: this is not CSV: {error}. Is a quote left open?") from None
+        raise WorksError("{}: this is not CSV: {}. Is a quote left open?", path, error) from None
     gathering = Gathering(str(path))
     if not read_table(rows, gathering, path.stem, closed=True):
         raise WorksError(
-            f"{path}: none of the first {HEAD_ROWS} rows is a head. Name the columns: student, "
-            "what, value, unit, mm, sense; or student and the quantities."
+            "{}: none of the first {} rows is a head. Name the columns: student, what, "
+            "value, unit, mm, sense; or student and the quantities.",
+            path,
+            HEAD_ROWS,
         )
     return gathering.works()
 
@@ -56,7 +58,9 @@ def decoded(data: bytes, path: Path) -> str:
     """
     text = table_text(data)
     if "\0" in text:
-        raise WorksError(f"{path}: this is not a text. Save the table as CSV in UTF-8, or as XLSX.")
+        raise WorksError(
+            "{}: this is not a text. Save the table as CSV in UTF-8, or as XLSX.", path
+        )
     return text
 
 
@@ -78,7 +82,11 @@ def _rows(text: str, separator: str, path: Path) -> Iterator[Row]:
     for count, row in enumerate(reader, 1):
         if count > ROW_LIMIT or len(row) > COLUMN_LIMIT:
             raise WorksError(
-                f"{path}: over {ROW_LIMIT} rows, or over {COLUMN_LIMIT} columns in row {count}."
+                "{}: over {} rows, or over {} columns in row {}.",
+                path,
+                ROW_LIMIT,
+                COLUMN_LIMIT,
+                count,
             )
         where = f"{path.name}:{reader.line_num}"
         yield [Cell(cut(field), where) for field in row]

@@ -14,6 +14,7 @@ from planmethod.gears.involute.blocking import HIGH, LOW, LimitKind, choose, is_
 from planmethod.gears.involute.model import MeshingProblem, Rack
 from planmethod.gears.involute.profile import Tooth
 from planmethod.gears.involute.sizes import Pair, involute
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.extras import read_heading
 from planmethod.problem.fields import (
@@ -22,7 +23,6 @@ from planmethod.problem.fields import (
     read_number,
     read_table,
     read_whole,
-    show,
 )
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_sheet, read_stamp
@@ -95,7 +95,7 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
             number[key] = read
     for key in ("z", "m"):
         if key not in given:
-            faults.add(f"meshing.{key}", "missing", f"For example: {_EXAMPLE}")
+            faults.add(f"meshing.{key}", "missing", say("For example: {}", _EXAMPLE))
     z = _read_teeth(faults, given["z"]) if "z" in given else None
     x = _read_shifts(faults, given)
     if faults or z is None:
@@ -108,8 +108,12 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
         most = (np.pi / 4) / np.tan(rack.alpha)
         faults.add(
             "meshing",
-            f"the rack's tooth ends before its tip: ha + c = {ha + c:g}, at {alpha:g}° at most "
-            f"{most:.3f}",
+            say(
+                "the rack's tooth ends before its tip: ha + c = {:g}, at {:g}° at most {:.3f}",
+                ha + c,
+                alpha,
+                most,
+            ),
             "The standard rack has alpha = 20, ha = 1, c = 0.25.",
         )
         return None
@@ -129,7 +133,7 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
 
 def _read_teeth(faults: Faults, value: object) -> tuple[int, int] | None:
     if not isinstance(value, list) or len(value) != 2:
-        faults.add("meshing.z", f"expected two numbers of teeth, got {show(value)}", "z = [12, 30]")
+        faults.expected("meshing.z", "two numbers of teeth", value, "z = [12, 30]")
         return None
     if any(isinstance(one, int) and one < 0 for one in value):
         hint = "Its wheel is cut by a pinion cutter, not by a rack; give two external wheels."
@@ -146,7 +150,7 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
     value = given.get("x")
     if isinstance(value, list):
         if len(value) != 2:
-            faults.add("meshing.x", f"expected two shifts, got {show(value)}", "x = [0.5, 0.3]")
+            faults.expected("meshing.x", "two shifts", value, "x = [0.5, 0.3]")
             return None
         for key in (*alone, *(["a_w"] if "a_w" in given else [])):
             faults.add(f"meshing.{key}", "both shifts are given in x", "Keep one of them.")
@@ -158,7 +162,7 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
         one, two = found
         return None if one is None or two is None else (one, two)
     if "x" in given and value != BLOCKING:
-        faults.add("meshing.x", f"expected two shifts or 'blocking', got {show(value)}", _WAYS)
+        faults.expected("meshing.x", "two shifts or 'blocking'", value, _WAYS)
     elif "x" in given:
         for key in alone:
             faults.add(f"meshing.{key}", 'both shifts are chosen by x = "blocking"', _WAYS)
@@ -185,8 +189,8 @@ def _settle(
     if a_w is not None:
         least = pair.a * cos(pair.rack.alpha)
         if a_w <= least:
-            what = f"{a_w:g} mm, the base circles meet at a·cos α = {least:.3f} mm"
-            faults.add("meshing.a_w", what, f"Without shifts it is a = {pair.a:g} mm.")
+            what = say("{:g} mm, the base circles meet at a·cos α = {:.3f} mm", a_w, least)
+            faults.add("meshing.a_w", what, say("Without shifts it is a = {:g} mm.", pair.a))
             return None
         alpha_w = float(np.arccos(least / a_w))
         grown = float(involute(alpha_w) - involute(pair.rack.alpha))
@@ -210,15 +214,15 @@ def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tu
         asked = limits(tip, overlap)
         others = tuple(one for one in asked if one.kind is not LimitKind.OVERLAP)
         most = np.max(np.where(is_kept(every, others), every.epsilon, 0.0))
-    what = f"no shifts from {LOW:g} to {HIGH:g} keep all limits"
-    if total is not None:
-        what += f", x1 + x2 being {total:.4f} by a_w"
+    fixed = "" if total is None else say(", x1 + x2 being {:.4f} by a_w", total)
+    what = say("no shifts from {:g} to {:g} keep all limits{}", LOW, HIGH, fixed)
     if most >= 1:
-        return what, (
-            f"Where the others are kept ε_α is at most {most:.3f}: give a smaller epsilon_min "
-            f"than {overlap:g}, or x."
+        hint = (
+            "Where the others are kept ε_α is at most {:.3f}: give a smaller epsilon_min than "
+            "{:g}, or x."
         )
-    return what, f"Give a smaller s_a_min than {tip:g}, other teeth, or x = [.., ..]."
+        return what, say(hint, most, overlap)
+    return what, say("Give a smaller s_a_min than {:g}, other teeth, or x = [.., ..].", tip)
 
 
 def _check_teeth(faults: Faults, pair: Pair) -> None:
@@ -226,20 +230,21 @@ def _check_teeth(faults: Faults, pair: Pair) -> None:
     total = float(pair.x_sum)
     if not float(pair.inv_alpha_w) >= 0:
         least = -sum(pair.z) * float(involute(pair.rack.alpha)) / (2 * np.tan(pair.rack.alpha))
-        what = f"x1 + x2 = {total:g}: such wheels cannot come so near to each other"
-        faults.add("meshing.x", what, f"The sum must be at least {least:.4f}.")
+        what = say("x1 + x2 = {:g}: such wheels cannot come so near to each other", total)
+        faults.add("meshing.x", what, say("The sum must be at least {:.4f}.", least))
         return
     for k in (0, 1):
         tooth = Tooth(pair, k)
         sizes = {name: tooth.size(name) for name in ("d_a", "d_b", "d_f")}
         said = ", ".join(f"{name} = {value:.3f} mm" for name, value in sizes.items())
         if not np.isfinite(tooth.size("rho_a")) or sizes["d_f"] <= 0:
-            what = f"wheel {k + 1} has no involute teeth: {said}"
-            faults.add("meshing.x", what, f"Take a larger x{k + 1}.")
+            what = say("wheel {} has no involute teeth: {}", k + 1, said)
+            faults.add("meshing.x", what, say("Take a larger x{}.", k + 1))
         elif not tooth.stands and not tooth.is_cut:
-            what = f"the tooth of wheel {k + 1} is pointed below its involute: x{k + 1} = "
-            faults.add("meshing.x", f"{what}{pair.x[k]:g}", f"Take a smaller x{k + 1}.")
+            what = "the tooth of wheel {0} is pointed below its involute: x{0} = {1:g}"
+            what = say(what, k + 1, pair.x[k])
+            faults.add("meshing.x", what, say("Take a smaller x{}.", k + 1))
         elif not tooth.stands:
-            what = f"the rack cuts the tooth of wheel {k + 1} off: x{k + 1} = {pair.x[k]:g}"
-            hint = f"Without undercut x{k + 1} is at least {tooth.size('x_min'):.3f}."
+            what = say("the rack cuts the tooth of wheel {0} off: x{0} = {1:g}", k + 1, pair.x[k])
+            hint = say("Without undercut x{} is at least {:.3f}.", k + 1, tooth.size("x_min"))
             faults.add("meshing.x", what, hint)

@@ -14,6 +14,7 @@ import numpy as np
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
+from planmethod.languages import say
 from planmethod.problem.keys import EXTREMES, GOING, UNITS
 from planmethod.problem.model import Posed, PosedBy, Problem, Zero
 from planmethod.problem.names import split_pair
@@ -28,6 +29,8 @@ _SLIDER_TRIES = 120
 _ASIDE = 0.0931  # degrees off round numbers, where singular places like to be
 _SAME = 1e-7  # degrees, or share of the way of a slider, within which two roots are one
 _OFF = 1e-6  # share of the range of the output that a root may miss it by
+
+_UNITS = {"m": "{:.5g} m", "cm": "{:.5g} cm", "mm": "{:.5g} mm", "deg": "{:.5g} deg"}
 
 Found = list[tuple[float, float]]
 """Positions of the driver, each with the sense in which the output goes there: 1, -1 or 0."""
@@ -89,9 +92,15 @@ def _driven(solution: Solution, posed: Posed, position: float) -> tuple[float, f
     curve += (abs(velocity) ** 2 - along**2) / length
     if abs(along) <= _OFF * abs(velocity):
         raise AssemblyError(
-            f"{solution.problem.name}: at {posed.of} = {length:.5g} m the actuator is in a dead "
-            f"position: {posed.of} does not change while link {drive.link} moves. Give another "
-            "length."
+            say(
+                "{}: at {} = {:.5g} m the actuator is in a dead position: "
+                "{} does not change while link {} moves. Give another length.",
+                solution.problem.name,
+                posed.of,
+                length,
+                posed.of,
+                drive.link,
+            )
         )
     speed, gain = posed.rates
     return speed / along, (gain - curve * (speed / along) ** 2) / along
@@ -208,7 +217,7 @@ def _ends(turn: Turn) -> tuple[Extreme, Extreme]:
     """Return the extreme of position zero and the other one."""
     if turn.ends is None:
         why = turn.why_no_stroke
-        raise _unknown(turn.solution, f"the output has no stroke: {why.value if why else ''}")
+        raise _unknown(turn.solution, say("the output has no stroke: {}", why.value if why else ""))
     start, end = turn.ends
     return (end, start) if turn.task.zero is Zero.OTHER else (start, end)
 
@@ -248,10 +257,17 @@ def _chosen(
         if posed.of:
             every = np.concatenate([_value(way, posed)(_grid(problem, LOOKS)) for way in ways])
             ends = [_told(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)]
-            reached = f": {posed.key} goes from {ends[0]} to {ends[1]} as the groups are closed"
+            reached = say(
+                ": {} goes from {} to {} as the groups are closed", posed.key, ends[0], ends[1]
+            )
         raise AssemblyError(
-            f"{problem.name}: {said} is not reached{reached}. Check driver.{posed.key}, the "
-            "lengths and [assembly]."
+            say(
+                "{}: {} is not reached{}. Check driver.{}, the lengths and [assembly].",
+                problem.name,
+                said,
+                reached,
+                posed.key,
+            )
         )
     if posed.near is not None:
         turn = drive.coordinate.turn
@@ -259,19 +275,22 @@ def _chosen(
     ways_of = GOING.get(posed.by.value, ("", ""))
     if posed.going:
         kept = [one for one in kept if one[1] == (1.0 if posed.going == ways_of[0] else -1.0)]
-        said += f", going {posed.going},"
+        said = say("{}, going {},", said, posed.going)
     if len(kept) == 1:
         return kept[0][0]
     per = 1.0 if drive.is_crank else unit
     places = [f"{p * per:.5g}" for p, _ in kept]
-    told = " and ".join(f"{drive.coordinate.name} = {place}" for place in places) or "no position"
+    name = drive.coordinate.name
+    told = ", ".join(f"{name} = {place}" for place in places) or say("no position")
     senses = [going for _, going in kept]
-    near = " or ".join(f'root = "near {place}"' for place in places)
-    hint = f"Say {near}" if places else "Leave root out to see the positions"
+    near = ", ".join(f'root = "near {place}"' for place in places)
+    hint = say("Say one of {}", near) if places else "Leave root out to see the positions"
     if ways_of[0] and senses in ([1.0, -1.0], [-1.0, 1.0]):
         one, two = ways_of[:: 1 if senses[0] > 0 else -1]
-        hint = f'Say root = "going {one}" for the first or root = "going {two}" for the second'
-    message = f"{said} fits {told}, and one is meant"
+        hint = say(
+            'Say root = "going {}" for the first or root = "going {}" for the second', one, two
+        )
+    message = say("{} fits {}, and one is meant", said, told)
     raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
 
 
@@ -283,5 +302,5 @@ def _apart(way: float, turn: float) -> float:
 def _told(posed: Posed, value: float, problem: Problem) -> str:
     """Return a value of the output as the file has it."""
     if posed.by in (PosedBy.X, PosedBy.Y, PosedBy.LENGTH):
-        return f"{value * UNITS[problem.unit]:.5g} {problem.unit}"
-    return f"{value:.5g}" + (" deg" if posed.by is PosedBy.PHI else "")
+        return say(_UNITS[problem.unit], value * UNITS[problem.unit])
+    return say(_UNITS["deg"] if posed.by is PosedBy.PHI else "{:.5g}", value)
