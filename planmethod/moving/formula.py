@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planmethod.languages import say
 from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, Kind, Operation, Parser
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
+
+
+ANGULAR = ("sin", "cos", "tg", "ctg")
+"""Those of angles."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +33,15 @@ class Formula:
     def is_constant(self) -> bool:
         """Whether time does not stand in it."""
         return all(operation.kind is not Kind.TIME for operation in self.operations)
+
+    @property
+    def in_degrees(self) -> Formula:
+        """The same as it is read off a calculator that takes its arguments for degrees."""
+        told = (
+            replace(one, name=f"{one.name} deg") if one.name in ANGULAR else one
+            for one in self.operations
+        )
+        return replace(self, operations=tuple(told))
 
 
 def read_formula(
