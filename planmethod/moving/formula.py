@@ -9,7 +9,6 @@ from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, Kind, Operation, Parser
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
 
-
 ANGULAR = ("sin", "cos", "tg", "ctg")
 """Those of angles."""
 
