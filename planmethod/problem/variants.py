@@ -16,6 +16,7 @@ from planmethod.problem.names import (
     joined,
     near,
     segment,
+    split_names,
     split_pair,
 )
 from planmethod.problem.posed import is_place, is_posed
@@ -154,6 +155,8 @@ def _may_add(path: Path) -> bool:
         return is_point_name(key) or split_pair(key) is not None
     if parent in (("frame",), ("assembly",)):
         return is_point_name(key)
+    if parent[:1] == ("links",) and parent[2:] == ("angle",):
+        return len(split_names(key)) in (3, 4)
     if parent == ("driver",):
         return is_posed(path[-1])
     return parent in (("frame", "guides"), ("published",), ("dynamics", "links"))

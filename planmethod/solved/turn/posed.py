@@ -250,6 +250,8 @@ def _chosen(
     """Return the one position that is meant."""
     drive, unit = problem.drive, UNITS[problem.unit]
     said = f"{posed.key} = {_told(posed, posed.values[index], problem)}"
+    if posed.by is PosedBy.EXTREME:
+        said = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}".replace(" +0", "")
     found = sorted(found)
     kept = [one for k, one in enumerate(found) if not k or one[0] - found[k - 1][0] > _SAME]
     if not kept:
@@ -261,13 +263,12 @@ def _chosen(
                 ": {} goes from {} to {} as the groups are closed", posed.key, ends[0], ends[1]
             )
         raise AssemblyError(
-            say(
-                "{}: {} is not reached{}. Check driver.{}, the lengths and [assembly].",
-                problem.name,
-                said,
-                reached,
-                posed.key,
-            )
+            "{}: {} is not reached{}. Check driver.{}, the lengths, and that the rules of "
+            "[assembly] hold in this position.",
+            problem.name,
+            said,
+            reached,
+            posed.key,
         )
     if posed.near is not None:
         turn = drive.coordinate.turn
