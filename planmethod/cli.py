@@ -26,6 +26,7 @@ COMMANDS = (
     "structure",
     "protocol",
     "live",
+    "animate",
     "sketch",
     "audit",
     "lint",

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.audit.audit import Audited
     from planmethod.problem.fields import Faults
-    from planmethod.problem.model import Geared, Problem, SheetSettings
+    from planmethod.problem.figures import Figures
+    from planmethod.problem.model import AskedAnswer, Geared, Problem, SheetSettings
     from planmethod.render.ink.drawing import Drawing
     from planmethod.solved.part import Part
     from planmethod.solved.scaling import Views
@@ -108,6 +109,10 @@ class KindProblem(Protocol):
         """Texts of the title block."""
 
     @property
+    def answers(self) -> tuple[AskedAnswer, ...]:
+        """What students are asked for."""
+
+    @property
     def sheet(self) -> SheetSettings:
         """Paper, lettering and language of its sheets."""
 
@@ -125,11 +130,16 @@ class Kind:
         ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
         ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
         before, total)`` and ``protocol_text(problem, lang, profile)``; of printed values
-        ``audited(problem, ruler)``. It is imported when one of them is called.
+        ``audited(problem, ruler)``;
+        of what students are asked for ``asked_of(problem)``. It is imported when one of them is
+        called.
+    scales : str
+        Where its file has the scales.
     """
 
     table: str
     package: str
+    scales: str = "[scales]"
 
     def load(self, path: Path, variant: str | None) -> KindProblem:
         """Read a problem file."""
@@ -200,10 +210,22 @@ class Kind:
         told: list[Audited] = self._asked("audited", problem)(problem, ruler)
         return told
 
+    def figures(self, problem: KindProblem) -> Figures:
+        """Return what students can be asked for.
+
+        Raises
+        ------
+        ProblemError
+            Answers to such problems are not checked.
+        """
+        asked: Figures = self._asked("asked_of", problem)(problem)
+        return asked
+
     def _asked(self, name: str, problem: KindProblem) -> Any:
         """Return a function that not every kind has."""
         if not hasattr(import_module(self.package), name):
-            what = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}[name]
+            called = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}
+            what = called.get(name, "checking of answers")
             fault = Fault(
                 self.table, say("such a problem has no {}; its numbers: planmethod solve", what)
             )
@@ -215,7 +237,7 @@ class Kind:
 
 
 KINDS = (
-    Kind("gears", "planmethod.gears"),
+    Kind("gears", "planmethod.gears", "gears.picture.mu_l"),
     Kind("point", "planmethod.moving"),
     Kind("meshing", "planmethod.gears.involute"),
 )

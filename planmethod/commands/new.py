@@ -63,6 +63,7 @@ def new(
         refuse_unknown(said, family, names, "planmethod new --list, planmethod tasks")
         return
     if variant is not None:
-        refuse_unknown("no variant {!r}", variant, task.variants, "" if task.variants else "none")
+        none = "" if task.variants else say("none")
+        refuse_unknown("no variant {!r}", variant, task.variants, none)
     stem = task.name if variant is None else f"{task.name}-{variant}"
     write_new(file or Path(f"{stem}.toml"), text_for(task, variant), force=force)

@@ -43,18 +43,14 @@ def put_parts(parts: Iterable[str], file: str) -> None:
 
 
 def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -> None:
-    """Refuse a name that is none of those known, as ``no layout {!r}``, and tell the nearest.
-
-    ``told`` stands for the known ones where there are too many.
-    """
+    """Refuse a name (``no layout {!r}``), and tell the nearest; ``told`` if they are too many."""
     if name not in known:
         from difflib import get_close_matches
 
         near = get_close_matches(name, known, 1)
         hint = say("; did you mean {!r}?", near[0]) if near else "."
-        raise click.UsageError(
-            say("{}{} Known: {}.", say(said, name), hint, told or ", ".join(known))
-        )
+        listed = told or ", ".join(known)
+        raise click.UsageError(say("{}{} Known: {}.", say(said, name), hint, listed))
 
 
 def write_new(path: Path, text: str, *, force: bool) -> None:

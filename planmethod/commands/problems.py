@@ -211,7 +211,7 @@ def solution_of(
     except AssemblyError as error:
         if len(solution.positions) < 2:
             raise
-        raise AssemblyError(f"{error}{hint}") from error
+        raise AssemblyError(f"{error}{say(hint)}") from error
     for doubt in warnings(solution):
         warn(problem, doubt)
     return solution

@@ -104,6 +104,13 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
     metavar="[DIGITS]",
     help="Judge every result by a reading in so many digits (50), which needs mpmath.",
 )
+@click.option(
+    "--compare",
+    "work",
+    metavar="WORK",
+    type=click.Path(path_type=Path),
+    help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads them.",
+)
 @lang_option
 @watch_option()
 @guarded
@@ -122,9 +129,20 @@ def solve(
     sigma: bool,
     covariance_file: str | None,
     referee: int | None,
+    work: Path | None,
     lang: str,
 ) -> None:
     """Compute positions, velocities, accelerations and the plans' segments."""
+    if work is not None:
+        from planmethod.commands.compared import compare
+
+        others = (all_variants, phi is not None, as_json, csv_file, npz_file, ask, covariance_file)
+        if any(others) or len(problems) > 1:
+            raise click.UsageError(
+                say("--compare goes with one PROBLEM, --variant and --lang alone")
+            )
+        compare(problems[0], work, variant, lang)
+        return
     swept = npz_file is not None or ask is not None
     _refuse_contradictions(as_json, csv_file, npz_file, ask)
     told = swept or csv_file is not None
@@ -140,7 +158,6 @@ def solve(
         raise click.UsageError(
             say("--covariance would write over {}; put it last", covariance_file)
         )
-    hand = drawn_by(profile, ruler)
     if referee is not None:
         _need_mpmath()
     drawn: list[Solution] = []
@@ -155,6 +172,7 @@ def solve(
     sweeps: list[GappedSweep] = []
 
     def compute(problem: Problem) -> None:
+        hand = drawn_by(profile, ruler)  # a train needs no arrays
         if swept:
             tell_changes(problem, phi)
             if csv_file is None and npz_file is None:
@@ -290,7 +308,7 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
 def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:
     """Refuse or report positions without results; report the doubts about the others."""
     if gaps.count and not partial:
-        raise AssemblyError(gaps.refusal() + (HINT if len(gaps.reason) > 1 else ""))
+        raise AssemblyError(gaps.refusal() + (say(HINT) if len(gaps.reason) > 1 else ""))
     if gaps.count:
         warn(problem, gaps.warning())
     for said in doubts:

@@ -44,7 +44,11 @@ class Place:
         return f"{self.coordinate.name} = {self.value:.12g}"
 
     def __str__(self) -> str:
-        return say("position {} ({} {})", self.number, self.driver, say(self.coordinate.unit))
+        return self.said("position {} ({} {})")
+
+    def said(self, sentence: str) -> str:
+        """Return a sentence of the number, the driver and its unit."""
+        return say(sentence, self.number, self.driver, say(self.coordinate.unit))
 
 
 class Cause(Enum):
@@ -177,7 +181,10 @@ class Failure:
 
     def __str__(self) -> str:
         more = "" if self.cause in (Cause.SPOILT, Cause.SPOILT_NEAR) else self._more()
-        return self._sentence(say(" at {}", self.place), str(self.place), whole=True) + more
+        return (
+            self._sentence(self.place.said(" at position {} ({} {})"), str(self.place), whole=True)
+            + more
+        )
 
     def _more(self) -> str:
         text = same_at(self.alike, self.count)
