@@ -6,8 +6,6 @@ code in English, and in the folders of the other languages by that.
 
 from __future__ import annotations
 
-import json
-import locale
 import os
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -91,6 +89,8 @@ def translated(sentence: str) -> str:
 @cache
 def _messages(lang: str) -> Mapping[str, str]:
     """Return the sentences of a language by the English ones, of all rooms."""
+    import json
+
     found: dict[str, str] = {}
     for room in sorted((_WORDING / lang / "messages").glob("*.json")):
         found |= json.loads(room.read_text(encoding="utf-8"))
@@ -112,6 +112,8 @@ def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> s
     asked += [after for word, after in pairwise(args) if word == "--lang"]
     asked += [environ.get(name, "") for name in VARIABLES]
     if sys.platform == "win32":
+        import locale
+
         asked.append(locale.getlocale()[0] or "")  # Russian_Russia, English_United States
     codes = (name.replace("-", "_").split("_")[0].split(".")[0].lower() for name in asked)
     known = {lang: lang for lang in LANGUAGES} | {"russian": "ru", "english": "en"}
