@@ -424,7 +424,9 @@ def _missing(group: AssurGroup, both: list[_Tried], untold: Rule | None = None) 
     if untold is not None:
         ahead = [_score(untold, draft, reading) for draft, _, reading in both]
         words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]
-        one, two = words if np.nansum(ahead[0]) > 0 else words[::-1]
+        sides = [float(np.nansum(score)) for score in ahead]
+        one, two = words if sides[0] > 0 else words[::-1]
+    if untold is not None and sides[0] * sides[1] < 0:  # both lie to one side if far off the line
         hint = say('Add {} = "{}" for the first or "{}" for the second to [assembly]', c, one, two)
     return Fault(
         f"assembly.{c}",
