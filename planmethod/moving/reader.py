@@ -13,7 +13,7 @@ import numpy as np
 from planmethod.errors import ProblemError
 from planmethod.languages import say
 from planmethod.moving.bounded import ROUNDOFF
-from planmethod.moving.formula import Formula, is_exact, read_formula
+from planmethod.moving.formula import Formula, read_formula
 from planmethod.moving.model import FORMULAS, Law, PointProblem, Wheel
 from planmethod.moving.series import evaluate
 from planmethod.problem import keys
@@ -30,6 +30,7 @@ from planmethod.problem.fields import (
     read_table,
     unmask,
 )
+from planmethod.problem.formula import is_exact
 from planmethod.problem.model import Published
 from planmethod.problem.names import listed, near, segment, short
 from planmethod.problem.reader import unknown_variant

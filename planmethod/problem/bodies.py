@@ -7,8 +7,8 @@ import math
 
 from planmethod.languages import say
 from planmethod.problem.fields import Faults
-from planmethod.problem.links import Length, LinkText, PointForm
-from planmethod.problem.model import Body
+from planmethod.problem.links import Length, LinkText
+from planmethod.problem.model import Body, PointForm
 from planmethod.problem.names import listed
 
 COLLINEAR = 1e-9
@@ -85,7 +85,10 @@ class _Placement:
             return None
         points = self._in_own_axes()
         self._check_lengths(points)
-        return Body({name: points[name] for name in link.points}, self._axis_letters())
+        placed = {name: points[name] for name in link.points}
+        angles = {angle.key: angle.value for angle in link.angles}
+        arc = link.arc[1] if link.arc else None
+        return Body(placed, self._axis_letters(), dict(link.forms), angles, arc)
 
     def _axis_letters(self) -> tuple[str, str] | None:
         if self.axis is not None:
@@ -155,7 +158,8 @@ class _Placement:
         """Place of a point, or None while what it depends on is not placed."""
         form = self.link.forms.get(point)
         if form is None or form.kind == "side":
-            return self._by_distances(point, form)
+            place = self._by_angle(point, form)
+            return self._by_distances(point, form) if place is None else place
         if form.kind == "from":
             direction, start = self._direction(), self.placed.get(form.point)
             if direction is None or start is None:
@@ -182,6 +186,25 @@ class _Placement:
                 )
             distance = given[0].value
         return start + distance * _unit(end - start) * rotation(form.angle)
+
+    def _by_angle(self, point: str, form: PointForm | None) -> complex | None:
+        """Place a point by its distance from a point and the angle of the line to it."""
+        for angle in self.link.angles:
+            for line, other, degrees in (
+                (angle.two, angle.one, angle.value),
+                (angle.one, angle.two, -angle.value),
+            ):
+                vertex = line[0] if line[1] == point else line[1]
+                start, end = (self.placed.get(name) for name in other)
+                known = [length for at, length in self._distances(point) if at == vertex]
+                if point not in line or not known or start is None or end is None or start == end:
+                    continue
+                if form is not None:  # a side tells which way the angle opens
+                    degrees = abs(degrees) if form.left else -abs(degrees)
+                sense = 1.0 if line[1] == point else -1.0
+                turned = _unit(end - start) * rotation(degrees)
+                return self.placed[vertex] + sense * known[0].value * turned
+        return None
 
     def _by_distances(self, point: str, form: PointForm | None) -> complex | None:
         known = self._distances(point)
@@ -293,6 +316,22 @@ class _Placement:
         return turned
 
     def _check_lengths(self, points: dict[str, complex]) -> None:
+        for angle in self.link.angles:
+            one, two = (points[line[1]] - points[line[0]] for line in (angle.one, angle.two))
+            got = heading(two / one) if one and two else math.nan
+            sided = any(form.kind == "side" for form in self.link.forms.values())
+            missed = abs(got) - abs(angle.value) if sided else got - angle.value
+            if not abs((missed + 180.0) % 360.0 - 180.0) <= AGREE * 180.0:
+                self.faults.add(
+                    f"{self.link.path}.angle.{angle.key}",
+                    say(
+                        "{} = {:g} degrees, but the other data of the link make it {:g}",
+                        angle.key,
+                        angle.value,
+                        got,
+                    ),
+                    "Angles count counter-clockwise from the first line: correct one of them.",
+                )
         for length in self.link.lengths:
             got = abs(points[length.a] - points[length.b])
             if abs(got - length.value) > AGREE * max(got, length.value):

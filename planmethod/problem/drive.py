@@ -27,6 +27,7 @@ from planmethod.problem.fields import (
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
+from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
 
 Span = tuple[float, ...]
 
@@ -44,7 +45,8 @@ def read_drive(
     given = read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
     if given is None:
         return None
-    given = read_keys(faults, "driver", given, keys.DRIVER)
+    posing = [key for key in given if is_posed(key)]
+    given = read_keys(faults, "driver", given, (*keys.DRIVER, *posing))
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = _read_link(faults, given, links)
@@ -70,9 +72,16 @@ def read_drive(
         if key in other:
             hint = say("Link {} is {}: {}.", link.name, kind, listed(own))
             faults.add(f"driver.{key}", say("does not go with {}", kind), hint)
-    required: tuple[str, ...] = ("phi",) if pivots else ("s", "v")
-    if pivots and not {"n", "train"} & {*given}:
+    posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
+    required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
+    acted = any(is_rate(key) or is_length(key) for key in given)
+    if not pivots and not acted:
+        required += ("v",)
+    if pivots and not acted and not {"n", "train"} & {*given}:
         required += ("omega",)
+    for key in given:
+        if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
+            faults.add(f"driver.{key}", "does not go with an actuator, whose rate drives")
     for key in required:
         if key not in given and whole:
             faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
@@ -85,10 +94,13 @@ def read_drive(
         positions = _read_positions(faults, given, "s")
         rate = _read_rate(faults, given, "v", "a velocity in m/s")
         acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
+    if posed is not None:
+        positions = (math.nan,) * len(posed.values)  # found when the mechanism is assembled
     if len(faults) != before or positions is None or rate is None or acceleration is None:
         return None
-    pivot = pivots[0] if pivots else None
-    return Drive(link.name, pivot, positions, rate, acceleration, geared if pivots else None)
+    turns = rate * 30.0 / math.pi if "n" in given else None
+    pivot, geared = (pivots[0], geared) if pivots else (None, None)
+    return Drive(link.name, pivot, positions, rate, acceleration, geared, turns, posed)
 
 
 def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:
@@ -228,6 +240,8 @@ def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | Non
 
 def _read_turning(faults: Faults, given: Table, geared: Geared | None) -> float | None:
     """Angular velocity, 1/s, from omega, n or the train."""
+    if any(map(is_length, given)):
+        return 0.0  # found with the position
     one, *others = [key for key in ("omega", "n", "train") if key in given] or ["omega"]
     for other in others:
         faults.add(
@@ -255,6 +269,8 @@ _POINT_WORDS = {
     "left": Where.LEFT,
     "above": Where.ABOVE,
     "below": Where.BELOW,
+    "towards": Where.TOWARDS,
+    "away": Where.AWAY,
 }
 _LINE_WORDS = {"left": Where.LEFT_OF, "right": Where.RIGHT_OF}
 
@@ -302,7 +318,7 @@ def _read_rule(
         faults.expected(path, want, value)
         return None
     words = [unmask(faults, path, word) for word in value.split()]
-    if len(words) == 3 and words[1] == "of":
+    if len(words) == 3 and words[1] == ("from" if words[0] == "away" else "of"):
         del words[1]
     if len(words) != 2 or words[0] not in _POINT_WORDS:
         guess = near(words[0], _POINT_WORDS) if words else None

@@ -9,6 +9,8 @@ from typing import Any, TypeGuard, TypeVar
 
 from planmethod.errors import Fault
 from planmethod.languages import say
+from planmethod.problem import keys
+from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.names import (
     describe_lookalikes,
     fold,
@@ -30,9 +32,19 @@ M = TypeVar("M", bound=Enum)
 
 
 class Faults:
-    """Collect the faults of a file, so that all are reported at once (сбор ошибок)."""
+    """Collect the faults of a file, so that all are reported at once (сбор ошибок).
+
+    Attributes
+    ----------
+    unit : str
+        Unit of the lengths of the file, a key of `keys.UNITS`.
+    stated : dict of str to str
+        Arithmetic that stands for a number, as written, by path.
+    """
 
     def __init__(self) -> None:
+        self.unit = "m"
+        self.stated: dict[str, str] = {}
         self._found: list[Fault] = []
         self.count = 0
 
@@ -120,6 +132,14 @@ def read_number(
     hint : str
         What to do about a number that is out of bounds.
     """
+    if isinstance(value, str) and not _unquoted(value) and any(map(str.isdecimal, value)):
+        try:
+            number = work_out(value)
+        except FormulaError as error:
+            said = say("expected {}, got {}: {}", what, show(value), str(error))
+            faults.add(path, said, error.hint)
+            return None
+        faults.stated[path], value = value, number
     if not is_number(value):
         faults.expected(path, what, value, _unquoted(value))
         return None
@@ -158,16 +178,49 @@ def read_flag(faults: Faults, path: str, value: object) -> bool | None:
     return None
 
 
+_SAID: Mapping[str, Mapping[str, str]] = {
+    "m": {
+        "length": "a length in metres",
+        "distance": "a distance in metres",
+        "coordinate": "a coordinate in metres",
+        "place": "[x, y] in metres",
+    },
+    "cm": {
+        "length": "a length in centimetres",
+        "distance": "a distance in centimetres",
+        "coordinate": "a coordinate in centimetres",
+        "place": "[x, y] in centimetres",
+    },
+    "mm": {
+        "length": "a length in millimetres",
+        "distance": "a distance in millimetres",
+        "coordinate": "a coordinate in millimetres",
+        "place": "[x, y] in millimetres",
+    },
+}
+"""What is expected of a length, by the unit of the file."""
+
+
 def read_length(faults: Faults, path: str, value: object) -> float | None:
-    """Read a length of a link, m."""
-    return read_number(faults, path, value, "a length in metres", low=1e-9, high=1e6, positive=True)
+    """Read a length of a link in the unit of the file; it is returned in m."""
+    return _read_metres(faults, path, value, "length", low=1e-9, positive=True)
 
 
 def read_coordinate(
-    faults: Faults, path: str, value: object, what: str = "a distance in metres"
+    faults: Faults, path: str, value: object, kind: str = "distance"
 ) -> float | None:
-    """Read a coordinate or a signed distance, m."""
-    return read_number(faults, path, value, what, low=-1e6, high=1e6)
+    """Read a coordinate or a signed distance in the unit of the file; it is returned in m."""
+    return _read_metres(faults, path, value, kind, low=-1e6)
+
+
+def _read_metres(
+    faults: Faults, path: str, value: object, kind: str, *, low: float, positive: bool = False
+) -> float | None:
+    per, what = keys.UNITS[faults.unit], _SAID[faults.unit][kind]
+    number = read_number(
+        faults, path, value, what, low=low * per, high=1e6 * per, positive=positive
+    )
+    return None if number is None else number / per
 
 
 def read_angle(faults: Faults, path: str, value: object) -> float | None:
@@ -213,10 +266,10 @@ def read_table(faults: Faults, path: str, value: object, example: str = "") -> T
 def read_place(faults: Faults, path: str, value: object) -> complex | None:
     """Read ``[x, y]``, m."""
     if not isinstance(value, list) or len(value) != 2:
-        faults.expected(path, "[x, y] in metres", value)
+        faults.expected(path, _SAID[faults.unit]["place"], value)
         return None
-    x = read_coordinate(faults, f"{path}[0]", value[0], "a coordinate in metres")
-    y = read_coordinate(faults, f"{path}[1]", value[1], "a coordinate in metres")
+    x = read_coordinate(faults, f"{path}[0]", value[0], "coordinate")
+    y = read_coordinate(faults, f"{path}[1]", value[1], "coordinate")
     return None if x is None or y is None else complex(x, y)
 
 

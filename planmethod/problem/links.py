@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import permutations
 from typing import Any
@@ -22,9 +22,11 @@ from planmethod.problem.fields import (
     read_line_name,
     read_point_name,
     read_table,
+    read_text,
     report_unknown,
     unmask,
 )
+from planmethod.problem.model import PointForm
 from planmethod.problem.names import (
     NAME_LIMIT,
     fold,
@@ -34,6 +36,7 @@ from planmethod.problem.names import (
     looks_latin,
     near,
     segment,
+    split_names,
     split_pair,
 )
 
@@ -53,21 +56,16 @@ class Length:
 
 
 @dataclass(frozen=True, slots=True)
-class PointForm:
-    """How a third point is given (способ задания точки).
+class Angle:
+    """Angle key of a link: from one directed line of it to another, degrees, ccw positive.
 
-    ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
-    of, ``point`` its point; lengths in metres, ``angle`` in degrees.
+    ``AOD``: from OA to OD; ``ABCD``: from AB to CD.
     """
 
-    kind: str
-    line: tuple[str, str] = ("", "")
-    point: str = ""
-    left: bool = True
-    at: float = 0.0
-    across: float = 0.0
-    angle: float = 0.0
-    distance: float | None = None
+    key: str
+    one: tuple[str, str]
+    two: tuple[str, str]
+    value: float
 
 
 @dataclass(slots=True)
@@ -83,16 +81,20 @@ class LinkText:
         seems to be joined to.
     faulty : set of str
         Points whose tables could not be read.
+    arc : tuple of two str, or None
+        Host and centre of a circular slot: its stone is read as a link from the centre to the pin.
     """
 
     name: str
     points: tuple[str, ...] = ()
     lengths: list[Length] = field(default_factory=list)
     forms: dict[str, PointForm] = field(default_factory=dict)
+    angles: list[Angle] = field(default_factory=list)
     slides: Table | None = None
     sound: bool = True
     whole: bool = True
     faulty: set[str] = field(default_factory=set)
+    arc: tuple[str, str] | None = None
 
     @property
     def path(self) -> str:
@@ -172,8 +174,11 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
                 link.slides = {}  # the link stays a slider: fewer follow-up faults
                 link.whole = False
             continue
+        if key == "angle":
+            _read_angles(faults, where, value, link)
+            continue
         plain = unmask(faults, where, key)
-        if is_number(value):
+        if is_number(value) or (isinstance(value, str) and split_pair(plain) is not None):
             _read_length_key(faults, where, plain, value, link)
         elif isinstance(value, dict) and is_point_name(plain):
             before = len(faults)
@@ -182,7 +187,53 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
                 link.faulty.add(plain)
         else:
             _report_odd_key(faults, where, plain, value, link)
+    if link.slides is not None and {"centre", "radius"} & link.slides.keys():
+        _read_arc(faults, f"{path}.slides", link)
     return link
+
+
+def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
+    """Read a slide along a circle: its stone moves as a link of that radius about its centre."""
+    before = len(faults)
+    given = read_keys(faults, path, link.slides or {}, keys.SLIDES)
+    link.slides = None
+    for key in given:
+        if key not in keys.ARC:
+            faults.add(f"{path}.{key}", "does not go with a circle", "Give on, centre, radius.")
+    for key in keys.ARC:
+        if key not in given and len(faults) == before:
+            hint = 'For example: slides = { on = "0", centre = "O2", radius = 0.2 }'
+            faults.add(f"{path}.{key}", "missing", hint)
+    centre = host = None
+    if "centre" in given:
+        centre = read_point_name(faults, f"{path}.centre", given["centre"])
+    if "on" in given:
+        host = read_text(faults, f"{path}.on", given["on"], limit=NAME_LIMIT)
+    radius = read_length(faults, f"{path}.radius", given["radius"]) if "radius" in given else None
+    if centre in link.points:
+        faults.add(f"{path}.centre", say("{} is a point of the stone itself", centre))
+    if centre and host and radius and link.points and centre not in link.points:
+        pin = link.points[0]
+        link.arc, link.points = (host, centre), (centre, *link.points)
+        link.lengths.insert(0, Length(f"{centre}{pin}", centre, pin, radius))
+    link.whole = link.whole and len(faults) == before
+
+
+def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[str]) -> None:
+    """Refuse a circular slot whose centre is no point of the link that has it."""
+    for link in links.values():
+        host, centre = link.arc or (FRAME, "")
+        known = fixed if host == FRAME else links[host].points if host in links else None
+        if link.arc is None or (known is not None and centre in known):
+            continue
+        path = f"{link.path}.slides"
+        if known is None:
+            report_unknown(faults, f"{path}.on", host, [FRAME, *links], said="unknown link '{}'")
+        else:
+            owner = "the frame" if host == FRAME else f"link {host}"
+            hint = say("Its points are {}.", listed(known))
+            faults.add(f"{path}.centre", say("{} has no point '{}'", owner, centre), hint)
+        link.whole = link.sound = False
 
 
 def _seen_points(table: Table) -> str:
@@ -253,6 +304,27 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
     length = read_length(faults, path, value)
     if length is not None:
         link.lengths.append(Length(key, *pair, length))
+
+
+def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> None:
+    """Read ``angle.AOD = 120``: angles between the lines of a link."""
+    entries = read_table(faults, path, value, "angle.AOD = 120, from OA to OD") or {}
+    for key, item in entries.items():
+        where = f"{path}.{segment(key)}"
+        names = split_names(unmask(faults, where, key))
+        lines = {3: (names[1::-1], names[1:]), 4: (names[:2], names[2:])}.get(len(names))
+        if lines is None or any(len(set(line)) < 2 for line in lines):
+            hint = "AOD is the angle from OA to OD, ABCD that from AB to CD."
+            faults.add(where, "expected the letters of an angle", hint)
+            continue
+        strangers = [point for point in dict.fromkeys(names) if point not in link.points]
+        if strangers and link.whole:
+            hint = say("Its points are {}.", listed(link.points))
+            faults.add(where, say("link {} has no point '{}'", link.name, strangers[0]), hint)
+        angle = read_angle(faults, where, item)
+        if angle is not None and not strangers:
+            one, two = ((line[0], line[1]) for line in lines)
+            link.angles.append(Angle(key, one, two, angle))
 
 
 def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:

@@ -29,6 +29,7 @@ _FOLD = str.maketrans(LOOKALIKES)
 _LETTER = r"[A-Za-zΓΔΘΛΞΠΣΦΨΩα-νξπ-ω]"
 _POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
 _POINT_RE = re.compile(rf"{_POINT}\Z")
+_POINT_FIND, _POINTS_RE = re.compile(_POINT), re.compile(rf"(?:{_POINT})+\Z")
 _PAIR_RE = re.compile(rf"({_POINT})({_POINT})\Z")
 _LABEL_RE = re.compile(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
 
@@ -76,6 +77,17 @@ def split_pair(text: str) -> tuple[str, str] | None:
     """
     match = _PAIR_RE.match(text)
     return (match.group(1), match.group(2)) if match else None
+
+
+def split_names(text: str) -> tuple[str, ...]:
+    """Split any number of point names written together; nothing if they are not.
+
+    Examples
+    --------
+    >>> split_names("AO3D")
+    ('A', 'O3', 'D')
+    """
+    return tuple(_POINT_FIND.findall(text)) if _POINTS_RE.match(text) else ()
 
 
 def is_label(text: str) -> bool:

@@ -273,7 +273,7 @@ def _read_slide_angle(
         )
         return None
     # the file counts from +x where the host cannot turn: that is what the figure shows
-    return angle if turn is None else _principal(angle - turn)
+    return _principal(angle - turn) if turn else angle
 
 
 def _principal(angle: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 import stat
 import tomllib
@@ -69,6 +70,16 @@ def read_source(path: Path) -> str:
             say("line {}: byte 0x{:02X} is not UTF-8", line, data[error.start]),
             "Save the file as UTF-8; Russian text is often saved as Windows-1251 by mistake.",
         ) from None
+
+
+def table_text(data: bytes) -> str:
+    """Return the text of a table in UTF-8, UTF-16 with its mark, or cp1251."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data.decode("utf-16", "replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1251", "replace")
 
 
 def parse(text: str, *, name: str) -> dict[str, Any]:

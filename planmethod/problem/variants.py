@@ -16,8 +16,10 @@ from planmethod.problem.names import (
     joined,
     near,
     segment,
+    split_names,
     split_pair,
 )
+from planmethod.problem.posed import is_place, is_posed
 from planmethod.problem.selector import SelectorError, is_force, parse_selector
 
 Path = tuple[str, ...]
@@ -153,6 +155,10 @@ def _may_add(path: Path) -> bool:
         return is_point_name(key) or split_pair(key) is not None
     if parent in (("frame",), ("assembly",)):
         return is_point_name(key)
+    if parent[:1] == ("links",) and parent[2:] == ("angle",):
+        return len(split_names(key)) in (3, 4)
+    if parent == ("driver",):
+        return is_posed(path[-1])
     return parent in (("frame", "guides"), ("published",), ("dynamics", "links"))
 
 
@@ -204,10 +210,18 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> di
         for part, after in pairwise(path):
             level = _opened(level, part, after)
         level[_key(level, path[-1])] = value
-        if path[:-1] == ("driver",) and path[-1] in TURNING:
-            for other in {*TURNING} - {path[-1]}:
-                level.pop(other, None)
+        if path[:-1] == ("driver",):
+            for other in [key for key in level if _instead(path[-1], key)]:
+                if (*path[:-1], other) not in overrides:
+                    del level[other]
     return result
+
+
+def _instead(one: str, other: str) -> bool:
+    """Whether a key of the driver replaces another one: its speed, where it stands."""
+    if one in TURNING:
+        return other in TURNING
+    return is_place(one) and (is_place(other) or other == "root")
 
 
 def _of_forces(entry: object) -> bool:

@@ -23,11 +23,17 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import draw_positions
 from planmethod.plans.closing import Closing
-from planmethod.plans.draft import Draft
-from planmethod.plans.motion.position import has_two_closings, inner_point, parallelogram
+from planmethod.plans.draft import Draft, cis
+from planmethod.plans.motion.position import (
+    has_two_closings,
+    inner_point,
+    lead_point,
+    parallelogram,
+)
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
@@ -74,7 +80,11 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
     for group in structure.groups:
         placed = draw_positions(problem, done, choice).points()
         own = {point: None for link in group.links for point in problem.bodies[link].points}
-        mine = [rules[point] for point in own if point in rules and point not in placed]
+        mine = [
+            _from_joint(problem, group, rules[point])
+            for point in own
+            if point in rules and point not in placed
+        ]
         used.update(rule.point for rule in mine)
         done.append(group)
         if not has_two_closings(group):
@@ -112,6 +122,8 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
             ]
         elif group.signature != "RPR":
             faults.append(_missing(group, both))
+        elif (untold := _untold(problem, group)) is not None:
+            faults.append(_missing(group, both, untold))
     for rule in problem.assembly:
         if rule.point not in used:
             faults.append(
@@ -224,6 +236,10 @@ def _score(rule: Rule, draft: Draft, reading: Reading) -> Reals:
             start, end = at(rule.refs[0]), at(rule.refs[1])
             left = ((end - start).conjugate() * (p - start)).imag / abs(end - start)
             return np.asarray(left if rule.where is Where.LEFT_OF else -left)
+        case Where.TOWARDS | Where.AWAY:
+            end, start = at(rule.refs[0]), at(rule.refs[1])
+            ahead = ((end - start).conjugate() * (p - start)).real / abs(end - start)
+            return np.asarray(ahead if rule.where is Where.TOWARDS else -ahead)
         case Where.NEAR:
             return np.asarray(-abs(p - (rule.at - draft.origin)))
         case Where.PARALLEL:
@@ -239,6 +255,8 @@ def _said(rule: Rule) -> str:
             return say("{} near [{:g}, {:g}]", rule.point, rule.at.real, rule.at.imag)
         case Where.PARALLEL:
             return say("{} keep parallel", rule.point)
+        case Where.TOWARDS | Where.AWAY:
+            return f"{rule.point} {rule.where.value} {rule.refs[0]}"
         case Where.ABOVE | Where.BELOW:
             words = rule.where.value
         case _:
@@ -350,14 +368,66 @@ def _places(problem: Problem, both: list[_Tried], at: int) -> Iterator[complex]:
     yield 1e-300 + 0j
 
 
-def _missing(group: AssurGroup, both: list[_Tried]) -> Fault:
+def _outer(problem: Problem, group: AssurGroup, point: str) -> str | None:
+    """Return the outer joint of a group on the link that a point belongs to."""
+    for lead in group.leads:
+        if isinstance(lead.joint, Revolute) and point in problem.bodies[lead.link].points:
+            return lead.joint.point
+    return None
+
+
+def _from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
+    """Return a rule that tells the way from a joint with that joint beside its point."""
+    if rule.where not in (Where.TOWARDS, Where.AWAY):
+        return rule
+    joint = _outer(problem, group, rule.point)
+    if joint is None or joint in (rule.point, *rule.refs):
+        hint = "Compare with another point: right of, left of, above, below"
+        message = say("'{}': there is no way from the joint {} to tell", _said(rule), joint or "")
+        raise ProblemError(problem.name, [Fault(f"assembly.{rule.point}", message, hint)])
+    return replace(rule, refs=(*rule.refs, joint))
+
+
+def _untold(problem: Problem, group: AssurGroup) -> Rule | None:
+    """Return what a slotted link does not tell: whether a point of it lies towards the other joint.
+
+    None where the line runs on from the joint of its link, so that the stone is on that ray, and
+    where nothing could lie on the other side: of a block and of a stone alone.
+    """
+    inner = group.inner[0]
+    assert isinstance(inner, Prismatic)
+    slide = problem.slides[inner.slider]
+    ends = {lead.link: lead_point(lead) for lead in group.leads}
+    host = problem.bodies[slide.host].points
+    runs_on = ((slide.base - host[ends[slide.host]]) / cis(slide.angle)).real >= 0.0
+    for link, other in ((slide.host, slide.slider), (slide.slider, slide.host)):
+        joint, body = ends[link], problem.bodies[link].points
+        if runs_on and (link == slide.host or len(host) > 1):
+            continue
+        for point in (point for point, at in body.items() if at != body[joint]):
+            return Rule(point, Where.TOWARDS, (ends[other], joint))
+    return None
+
+
+def _missing(group: AssurGroup, both: list[_Tried], untold: Rule | None = None) -> Fault:
     """Return the fault of a group whose closing nobody chose, with both ways to say it."""
-    c = inner_point(group)
+    c = inner_point(group) if untold is None else untold.point
     places = []
     for draft, _, reading in both:
         values = reading.point(PointName(c)) + draft.origin
         able = values[np.isfinite(values)]
         places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})" if able.size else "nowhere")
+    hint = say(
+        'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) to [assembly]',
+        c,
+    )
+    if untold is not None:
+        ahead = [_score(untold, draft, reading) for draft, _, reading in both]
+        words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]
+        sides = [float(np.nansum(score)) for score in ahead]
+        one, two = words if sides[0] > 0 else words[::-1]
+    if untold is not None and sides[0] * sides[1] < 0:  # both lie to one side if far off the line
+        hint = say('Add {} = "{}" for the first or "{}" for the second to [assembly]', c, one, two)
     return Fault(
         f"assembly.{c}",
         say(
@@ -367,9 +437,5 @@ def _missing(group: AssurGroup, both: list[_Tried]) -> Fault:
             places[0],
             places[1],
         ),
-        say(
-            'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) '
-            "to [assembly]",
-            c,
-        ),
+        hint,
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import csv
 import io
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
 from planmethod.check.works.table import HEAD_ROWS, Row, head_row, read_table
+from planmethod.problem.source import table_text
 
 ROW_LIMIT = 20_000
 COLUMN_LIMIT = 400
@@ -56,13 +56,7 @@ def decoded(data: bytes, path: Path) -> str:
     ------
     WorksError
     """
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        text = data.decode("utf-16", "replace")
-    else:
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("cp1251", "replace")
+    text = table_text(data)
     if "\0" in text:
         raise WorksError(
             "{}: this is not a text. Save the table as CSV in UTF-8, or as XLSX.", path
