@@ -33,6 +33,8 @@ LATE_OF = {
     "planmethod.problem.dynamics": "forces",
     "planmethod.problem.machine": "machines",
     "planmethod.solved": "forces, drafting errors, the trust in float64",
+    "planmethod.construct.compiled.csource": "machine code",
+    "planmethod.construct.compiled.native": "machine code",
     "planmethod.construct.drafting": "the hand",
     "planmethod.moving.audit": "printed values",
     "planmethod.moving.protocol": "what is drawn",

@@ -27,16 +27,6 @@ _HEAD = """#include <math.h>
 #else
 #define INDEPENDENT _Pragma("GCC ivdep")
 #endif
-/* a / b, given r = 1 / b: rounded as the division is, a few times quicker. */
-static inline double over(double a, double b, double r)
-{
-#ifdef __FP_FAST_FMA
-    const double q = a * r;
-    return __builtin_fma(__builtin_fma(-q, b, a), r, q);
-#else
-    return a / b;
-#endif
-}
 static inline double least(double a, double b) { return a < b || a != a ? a : b; }
 static inline double most(double a, double b) { return a > b || a != a ? a : b; }
 /* Cosine and sine of degrees: the rest of a quarter turn, exact, by the polynomials of fdlibm. */
@@ -173,11 +163,12 @@ class _Lines:
             self._said[number] = f"{kind[0]}{self._turned[names[0]]}"
             return
         said = _expression(kind, names)
+        # One division for all by the same divisor; constants are divided by before the loop.
         if kind == "div" and (type(refs[1]) is float or self.divisors[refs[1]] > 1):
             if names[1] not in self._inverse:
                 self._inverse[names[1]] = f"r{len(self._inverse)}"
                 self.text.append(f"const double {self._inverse[names[1]]} = 1.0 / {names[1]};")
-            said = f"over({names[0]}, {names[1]}, {self._inverse[names[1]]})"
+            said = f"{names[0]} * {self._inverse[names[1]]}"
         self.text.append(f"const double t{number} = {said};")
 
 

@@ -243,7 +243,7 @@ class Sweep:
         runner = self._runner(math.prod(shape), out, failed)
         if len(shape) == 1:
             columns = [np.broadcast_to(value, shape) if value.ndim else value for value in extra]
-            here = np.broadcast_to(angle, shape)
+            here = angle if angle.shape == shape else np.broadcast_to(angle, shape)
             runner.run([here, *columns, *self._loaded(here)], out, failed)
             return out
         if runner is self._native and not (self.branches or self.loads):
