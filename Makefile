@@ -4,13 +4,14 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-LINKAGES = $(sort $(filter-out problems/point/% problems/gears/% problems/meshing/%,$(wildcard problems/*/*.toml)))
+TASKS = problems/levers/task-% problems/linkages/2.%
+LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% problems/meshing/%,$(wildcard problems/*/*.toml)))
 
 # A file of tests is run by one worker, which solves and draws what they share once. Bytecode is kept, and out of the
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-thorough lint format tables gallery group bench clean
+.PHONY: demo test test-thorough lint format tables tasks gallery group bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -19,7 +20,7 @@ $(VENV)/.ready: pyproject.toml
 	touch $@
 
 demo: $(VENV)/.ready
-	$(BIN)/planmethod sheet --format svg,pdf -o out problems/linkages/*.toml problems/levers/*.toml problems/press/*.toml
+	$(BIN)/planmethod sheet --format svg,pdf -o out $(filter-out problems/machines/%,$(LINKAGES))
 	$(BIN)/planmethod solve problems/gears/*.toml
 	$(BIN)/planmethod sheet --format svg,pdf -o out problems/meshing/*.toml
 	$(BIN)/planmethod check --key problems/linkages/ex3-variants.toml -o out
@@ -45,6 +46,10 @@ format: $(VENV)/.ready
 # Files in byte order, as the test of the document has them.
 tables: $(VENV)/.ready
 	$(BIN)/planmethod audit --lang en -o docs/published.md $(LINKAGES)
+
+# The index of the shipped problems, docs/tasks.md and its pictures.
+tasks: $(VENV)/.ready
+	$(BIN)/python -m benchmarks.tasks
 
 # The pictures of the documentation; the resolutions keep each below 150 kB.
 gallery: $(VENV)/.ready

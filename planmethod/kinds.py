@@ -16,8 +16,11 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.audit.audit import Audited
     from planmethod.problem.fields import Faults
-    from planmethod.problem.model import Geared, Problem, SheetSettings
+    from planmethod.problem.figures import Figures
+    from planmethod.problem.model import AskedAnswer, Geared, Problem, SheetSettings
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.solved.part import Part
+    from planmethod.solved.scaling import Views
 
 
 def load(path: str | Path, *, variant: str | None = None) -> Problem:
@@ -36,6 +39,27 @@ def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     read = _of("planmethod.problem", "loads")
     problem: Problem = read(text, name=name, variant=variant, train=_driven)
     return problem
+
+
+def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part]:
+    """Return the title of the file of a linkage, and as much of it as can be drawn.
+
+    Raises
+    ------
+    ProblemError
+        The file cannot be read at all.
+    """
+    text = read_source(path)
+    try:
+        table = parse(text, name=str(path))
+    except ProblemError as error:
+        part: Part = _of("planmethod.solved.part", "Part")(None, faults=error.faults, trouble=error)
+        return "", part
+    part = _of("planmethod.solved.part", "largest_part")(
+        table, source=str(path), name=path.stem, variant=variant, train=_driven, views=views
+    )
+    title = table.get("title")
+    return title if isinstance(title, str) else "", part
 
 
 def _driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
@@ -72,6 +96,10 @@ class KindProblem(Protocol):
         """Texts of the title block."""
 
     @property
+    def answers(self) -> tuple[AskedAnswer, ...]:
+        """What students are asked for."""
+
+    @property
     def sheet(self) -> SheetSettings:
         """Paper, lettering and language of its sheets."""
 
@@ -89,11 +117,16 @@ class Kind:
         ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
         ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
         before, total)`` and ``protocol_text(problem, lang, profile)``; of printed values
-        ``audited(problem, ruler)``. It is imported when one of them is called.
+        ``audited(problem, ruler)``;
+        of what students are asked for ``asked_of(problem)``. It is imported when one of them is
+        called.
+    scales : str
+        Where its file has the scales.
     """
 
     table: str
     package: str
+    scales: str = "[scales]"
 
     def load(self, path: Path, variant: str | None) -> KindProblem:
         """Read a problem file."""
@@ -164,10 +197,22 @@ class Kind:
         told: list[Audited] = self._asked("audited", problem)(problem, ruler)
         return told
 
+    def figures(self, problem: KindProblem) -> Figures:
+        """Return what students can be asked for.
+
+        Raises
+        ------
+        ProblemError
+            Answers to such problems are not checked.
+        """
+        asked: Figures = self._asked("asked_of", problem)(problem)
+        return asked
+
     def _asked(self, name: str, problem: KindProblem) -> Any:
         """Return a function that not every kind has."""
         if not hasattr(import_module(self.package), name):
-            what = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}[name]
+            called = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}
+            what = called.get(name, "checking of answers")
             fault = Fault(
                 self.table, f"such a problem has no {what}; its numbers: planmethod solve"
             )
@@ -179,7 +224,7 @@ class Kind:
 
 
 KINDS = (
-    Kind("gears", "planmethod.gears"),
+    Kind("gears", "planmethod.gears", "gears.picture.mu_l"),
     Kind("point", "planmethod.moving"),
     Kind("meshing", "planmethod.gears.involute"),
 )

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from cases import thinned
 from click.testing import CliRunner, Result
 from worked import ROOT, path_of
 
@@ -203,7 +204,8 @@ def test_what_cannot_be_assembled_is_code_4(command: str, open_chain: str) -> No
     assert refused.exit_code == 4
     assert (
         "Error: Cannot place C at position 1 (phi = 60 deg): arcs from B (0.2 m) and D (0.05 m) do "
-        "not meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.1106 m.\n"
+        "not meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.1106 m, "
+        "by 0.25 m at the most over a turn (at phi = 180 deg).\n"
     ) in refused.output
     assert not Path("out").exists()
 
@@ -447,7 +449,7 @@ def test_a_new_train_or_point_is_ready_to_solve(family: str) -> None:
     assert run("solve", "mine.toml", "--variant", "Б").exit_code == 0
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("family", thinned(FAMILIES, 3))
 def test_a_new_problem_is_ready_to_solve(family: str) -> None:
     done = run("new", family, "mine.toml")
     assert done.exit_code == 0

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from planmethod.check.group import Variants
     from planmethod.check.marks import Settings
     from planmethod.check.model import Checked, Work
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
 
 POLICIES = ("construction", "department", "wider", "stricter")
@@ -218,7 +219,8 @@ def _write_keys(
     out: Path,
     lang: str,
 ) -> None:
-    from planmethod.check.key import Key, key_of
+    from planmethod.check.calculation import Calculation
+    from planmethod.check.key import Key, key_of, key_of_task
     from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
     from planmethod.note.wording import language
     from planmethod.problem import variant_names
@@ -233,11 +235,14 @@ def _write_keys(
         def solve(problem: Problem, into: list[Key] = keys) -> None:
             into.append(key_of(Solution(problem), settings))
 
+        def compute(kind: Kind, problem: KindProblem, into: list[Key] = keys) -> None:
+            into.append(key_of_task(Calculation(kind, problem, settings)))
+
         try:
             every = all_variants or (variant is None and bool(variant_names(path)))
         except OSError:
             every = False
-        code = each((path,), variant, every, solve) or code
+        code = each((path,), variant, every, solve, compute) or code
         if not keys:
             continue
         click.echo(key_text(keys, words), nl=False)

@@ -11,6 +11,7 @@ from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
 
 MOST_STUDENTS = 500
@@ -46,8 +47,10 @@ def form(
     The cells of the answers alone can be written in; senses and units are chosen from lists, and
     mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
     """
+    from planmethod.check.calculation import Calculation
     from planmethod.check.form import fingerprint_of, form_of
-    from planmethod.check.key import key_of
+    from planmethod.check.key import Key, key_of, key_of_task
+    from planmethod.check.marks import DEFAULT
     from planmethod.render.backends.output import write
     from planmethod.solved.solution import Solution
 
@@ -57,8 +60,13 @@ def form(
     if names is not None:
         who = _read_names(names)
 
+    def make_other(kind: Kind, problem: KindProblem) -> None:
+        write_forms(problem, key_of_task(Calculation(kind, problem, DEFAULT)))
+
     def make(problem: Problem) -> None:
-        key = key_of(Solution(problem))
+        write_forms(problem, key_of(Solution(problem)))
+
+    def write_forms(problem: Problem | KindProblem, key: Key) -> None:
         fingerprint = fingerprint_of(problem)
         for number, student in enumerate(who or [""], 1):
             tail = f"-{number:0{len(str(len(who)))}}" if who else ""
@@ -75,7 +83,7 @@ def form(
             write(path, data)
             click.echo(str(path))
 
-    finish(each(problems, variant, all_variants, make))
+    finish(each(problems, variant, all_variants, make, make_other))
 
 
 def _read_names(path: Path) -> list[str]:

@@ -105,7 +105,12 @@ def lint(
         )  # fmt: skip
         problem = settled(problem)
         drawings = kind.drawings(problem, fields=asked.fields, profile=drawn_by(profile, ruler))
-        tell(problem, kind.table, looked_over(drawings), problem.sheet.lang or LANGUAGES[0])
+        tell(
+            problem,
+            kind.table,
+            looked_over(drawings, kind.scales),
+            problem.sheet.lang or LANGUAGES[0],
+        )
 
     def tell(
         problem: Problem | KindProblem, kind: str, sheets: list[Controlled], lang: str

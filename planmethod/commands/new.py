@@ -12,14 +12,25 @@ from planmethod.options import lang_option
 
 
 @click.command()
-@click.argument("family", required=False)
+@click.argument("family", required=False, metavar="[FAMILY|TASK]")
 @click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
 @click.option("--force", is_flag=True, help="Write over an existing file.")
+@click.option("--variant", metavar="NAME", help="Of a task: with the values of this variant.")
 @lang_option
 @guarded
-def new(family: str | None, file: Path | None, show: bool, force: bool, lang: str) -> None:
-    """Write a commented problem file of a FAMILY, ready to edit."""
+def new(
+    family: str | None,
+    file: Path | None,
+    show: bool,
+    force: bool,
+    variant: str | None,
+    lang: str,
+) -> None:
+    """Write a commented problem file of a FAMILY, or a shipped TASK, ready to edit.
+
+    Families: planmethod new --list. Tasks: planmethod tasks.
+    """
     from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
 
     known = (*FAMILIES, *OTHER_FAMILIES)
@@ -32,5 +43,26 @@ def new(family: str | None, file: Path | None, show: bool, force: bool, lang: st
         if not show:
             raise click.UsageError("give one of these families: planmethod new FAMILY [FILE]")
         return
-    refuse_unknown("family", family, known)
-    write_new(file or Path(f"{family}.toml"), template(family), force=force)
+    wanted = "-".join(family.casefold().split())
+    template_name = next((one for one in known if one.casefold() == wanted), None)
+    if template_name is not None:
+        if variant is not None:
+            raise click.UsageError(
+                f"{template_name} is a template and has no variants: leave out --variant"
+            )
+        write_new(file or Path(f"{template_name}.toml"), template(template_name), force=force)
+        return
+    from planmethod.problem.tasks import tasks, text_for
+
+    task = next((task for task in tasks() if task.name.casefold() == wanted), None)
+    if task is None:
+        names = (*known, *(task.name for task in tasks()))
+        noun = "task" if any(map(str.isdigit, family)) else "family"
+        refuse_unknown(noun, family, names, "planmethod new --list, planmethod tasks")
+        return
+    if variant is not None:
+        refuse_unknown(
+            f"variant of {task.name}", variant, task.variants, "" if task.variants else "none"
+        )
+    stem = task.name if variant is None else f"{task.name}-{variant}"
+    write_new(file or Path(f"{stem}.toml"), text_for(task, variant), force=force)

@@ -40,14 +40,14 @@ def put_parts(parts: Iterable[str], file: str) -> None:
     click.echo(file)
 
 
-def refuse_unknown(noun: str, name: str, known: Sequence[str]) -> None:
-    """Refuse a name that is none of those known, and tell the nearest."""
+def refuse_unknown(noun: str, name: str, known: Sequence[str], told: str = "") -> None:
+    """Refuse a name that is not known, and tell the nearest; ``told`` if there are too many."""
     if name not in known:
         from difflib import get_close_matches
 
         near = get_close_matches(name, known, 1)
         hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise click.UsageError(f"no {noun} {name!r}{hint} Known: {', '.join(known)}.")
+        raise click.UsageError(f"no {noun} {name!r}{hint} Known: {told or ', '.join(known)}.")
 
 
 def write_new(path: Path, text: str, *, force: bool) -> None:

@@ -50,17 +50,24 @@ def guarded(command: F) -> F:
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
     """Read a problem file: one problem, or one for each variant."""
-    return [load_linkage(path, variant=name) for name in _variants(path, variant, all_variants)]
+    from planmethod.problem.unlikely import unlikely
+
+    found = []
+    for name in variants_of(path, variant, all_variants):
+        found.append(load_linkage(path, variant=name))
+        for said in unlikely(found[-1]):
+            warn(found[-1], said)
+    return found
 
 
 def _load_other(
     kind: Kind, path: Path, variant: str | None, all_variants: bool
 ) -> list[KindProblem]:
     """Read the same of a problem that is no linkage."""
-    return [kind.load(path, name) for name in _variants(path, variant, all_variants)]
+    return [kind.load(path, name) for name in variants_of(path, variant, all_variants)]
 
 
-def _variants(path: Path, variant: str | None, all_variants: bool) -> Sequence[str | None]:
+def variants_of(path: Path, variant: str | None, all_variants: bool) -> Sequence[str | None]:
     """Return the variants that are meant; None for the main part."""
     from planmethod.problem import variant_names
 

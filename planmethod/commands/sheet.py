@@ -11,6 +11,7 @@ import click
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.output import write_drawings, write_set
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem, tell_changes
+from planmethod.commands.watch import watch_option
 from planmethod.options import (
     Positions,
     drawn_by,
@@ -60,6 +61,7 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 @click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @dxf_text_option
+@watch_option(draws=True)
 @guarded
 def sheet(
     problems: tuple[Path, ...],

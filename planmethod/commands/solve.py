@@ -19,6 +19,7 @@ from planmethod.commands.problems import (
     tell_changes,
     warn,
 )
+from planmethod.commands.watch import watch_option
 from planmethod.errors import AssemblyError, ExitCode
 from planmethod.options import (
     MOST_POSITIONS,
@@ -101,7 +102,15 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
     metavar="[DIGITS]",
     help="Judge every result by a reading in so many digits (50), which needs mpmath.",
 )
+@click.option(
+    "--compare",
+    "work",
+    metavar="WORK",
+    type=click.Path(path_type=Path),
+    help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads them.",
+)
 @lang_option
+@watch_option()
 @guarded
 def solve(
     problems: tuple[Path, ...],
@@ -118,9 +127,18 @@ def solve(
     sigma: bool,
     covariance_file: str | None,
     referee: int | None,
+    work: Path | None,
     lang: str,
 ) -> None:
     """Compute positions, velocities, accelerations and the plans' segments."""
+    if work is not None:
+        from planmethod.commands.compared import compare
+
+        others = (all_variants, phi is not None, as_json, csv_file, npz_file, ask, covariance_file)
+        if any(others) or len(problems) > 1:
+            raise click.UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
+        compare(problems[0], work, variant, lang)
+        return
     swept = npz_file is not None or ask is not None
     _refuse_contradictions(as_json, csv_file, npz_file, ask)
     told = swept or csv_file is not None
@@ -130,7 +148,6 @@ def solve(
         raise click.UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
     if covariance_file is not None and covariance_file.lower().endswith(".toml"):
         raise click.UsageError(f"--covariance would write over {covariance_file}; put it last")
-    hand = drawn_by(profile, ruler)
     if referee is not None:
         _need_mpmath()
     drawn: list[Solution] = []
@@ -145,6 +162,7 @@ def solve(
     sweeps: list[GappedSweep] = []
 
     def compute(problem: Problem) -> None:
+        hand = drawn_by(profile, ruler)  # a train needs no arrays
         if swept:
             tell_changes(problem, phi)
             if csv_file is None and npz_file is None:

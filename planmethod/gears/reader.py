@@ -19,6 +19,7 @@ from planmethod.gears.meshes import (
 )
 from planmethod.gears.model import GearProblem, PictureSettings, Train
 from planmethod.problem import keys
+from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.extras import NOTE_LIMIT, read_heading
 from planmethod.problem.fields import (
     Faults,
@@ -36,8 +37,10 @@ from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_sheet, read_stamp
 
 ASK_LIMIT = 100
+TURNS = ("n", "omega")
+_NAMES = "For example: W, U_1_5, U_1_4^H, n_5, omega_H, z_5, a_w_1_2."
 GROUP_LIMIT = 60
-TOP = ("title", "source", "stamp", "sheet", "published", "variants", "gears")
+TOP = ("title", "source", "stamp", "sheet", "published", "answers", "compare", "variants", "gears")
 """Tables of the file that a gear train may have."""
 
 
@@ -58,10 +61,11 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     body = read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
     train = None if body is None else read_train(faults, body)
     published = _read_published(faults, given.get("published", {}), train)
+    answers = read_answers(faults, given, _scene(train))
     if faults or train is None:
         raise ProblemError(str(path), faults.found)
     return GearProblem(
-        path.stem, str(path), title, source, stamp, sheet, train, published, variant=variant
+        path.stem, str(path), title, source, stamp, sheet, train, published, answers, variant
     )
 
 
@@ -214,12 +218,26 @@ def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[st
 
 
 def _can_be_asked(faults: Faults, path: str, text: str, known: tuple[str, ...]) -> bool:
+    said = _fault_of(text, known)
+    if said:
+        faults.add(path, said, _NAMES)
+    return not said
+
+
+def _fault_of(text: str, known: tuple[str, ...]) -> str:
     try:
         parse(text, known)
     except AskedError as error:
-        faults.add(path, str(error), "For example: W, U_1_5, U_1_4^H, n_5, omega_H, z_5, a_w_1_2.")
-        return False
-    return True
+        return str(error)
+    return ""
+
+
+def _scene(train: Train | None) -> Plain:
+    """Return what answers may name; anything where the train is faulty itself."""
+    if train is None:
+        return Plain(lambda name: "", lambda name: False, _NAMES)
+    known = tuple(train.body_of)
+    return Plain(lambda n: _fault_of(n, known), lambda n: parse(n, known).kind in TURNS, _NAMES)
 
 
 def _read_published(faults: Faults, value: object, train: Train | None) -> tuple[Published, ...]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from enum import Enum
 from types import MappingProxyType
@@ -40,6 +40,9 @@ FUNCTIONS: Mapping[str, str] = MappingProxyType(
     }
 )
 """Names that a function may be written with, and the one it is known by."""
+
+ANGULAR = ("sin", "cos", "tg", "ctg")
+"""Those of angles."""
 
 CONSTANTS: Mapping[str, float] = MappingProxyType({"pi": math.pi, "e": math.e})
 TIME = "t"
@@ -111,6 +114,15 @@ class Formula:
     def is_constant(self) -> bool:
         """Whether time does not stand in it."""
         return all(operation.kind is not Kind.TIME for operation in self.operations)
+
+    @property
+    def in_degrees(self) -> Formula:
+        """The same as it is read off a calculator that takes its arguments for degrees."""
+        told = (
+            replace(one, name=f"{one.name} deg") if one.name in ANGULAR else one
+            for one in self.operations
+        )
+        return replace(self, operations=tuple(told))
 
 
 class _FormulaError(Exception):

@@ -16,6 +16,7 @@ from planmethod.moving.formula import Formula, is_exact, read_formula
 from planmethod.moving.model import FORMULAS, Law, PointProblem, Wheel
 from planmethod.moving.series import evaluate
 from planmethod.problem import keys
+from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.drive import read_scales, spread, too_many
 from planmethod.problem.extras import read_heading, read_published
 from planmethod.problem.fields import (
@@ -36,7 +37,10 @@ from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.variants import apply_variant, read_variants
 
-TOP = ("title", "source", "point", "scales", "stamp", "sheet", "published", "variants")
+TOP = (
+    "title", "source", "point", "scales", "stamp", "sheet", "published", "answers", "compare",
+    "variants",
+)  # fmt: skip
 """Keys of a file with a moving point."""
 
 WHAT: Mapping[str, str] = {
@@ -46,7 +50,16 @@ WHAT: Mapping[str, str] = {
 }
 """Words of ``what`` in ``[published]``, and the columns of the record that they name."""
 
+_LETTERS = {"ρ": "rho", "a_τ": "a_tau", "aτ": "a_tau", "a^τ": "a_tau", "at": "a_tau", "an": "a_n"}
+
 _EXAMPLE = '[point] x = "3*t*exp(t/2)", y = "4*t*(1 + t/2)", t = 0'
+
+
+def column_of(name: str) -> str | None:
+    """Return the column of the record that a name means, as people write it; None of no such."""
+    bare = "".join(name.split()).translate(str.maketrans("ₓᵧₙ", "xyn", "{}"))
+    bare = _LETTERS.get(bare, bare)
+    return WHAT.get(bare) or WHAT.get(bare.replace("_", ""))
 
 
 def load(path: str | Path, *, variant: str | None = None) -> PointProblem:
@@ -127,6 +140,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         stamp=read_stamp(faults, given.get("stamp", {})),
         sheet=read_sheet(faults, given.get("sheet", {})),
         published=_read_published(faults, given.get("published", {}), len(times)),
+        answers=read_answers(faults, given, _scene(len(times))),
     )
     return None if faults else problem
 
@@ -284,6 +298,13 @@ def _read_published(faults: Faults, table: object, moments: int) -> tuple[Publis
                 faults.add(f"{path}.position", "missing", f"There are {moments} moments: from 0.")
         told.append(replace(item, what=what))
     return tuple(told)
+
+
+def _scene(moments: int) -> Plain:
+    def fault(name: str) -> str:
+        return "" if column_of(name) else f"a moving point has no '{short(name)}'"
+
+    return Plain(fault, lambda name: False, f"Known here: {listed(WHAT, limit=20)}.", moments)
 
 
 def _read_what(faults: Faults, path: str, value: object) -> str:

@@ -49,7 +49,7 @@ def evaluate(formula: Formula, times: Reals, *, blur: Reals | float = 0.0) -> Je
                     stack.append((-jet, is_constant))
                 case Kind.CALL:
                     jet, is_constant = stack.pop()
-                    stack.append((CALLS[operation.name](jet), is_constant))
+                    stack.append(({**CALLS, **DEGREES}[operation.name](jet), is_constant))
                 case _:
                     (right, of_right), (left, of_left) = stack.pop(), stack.pop()
                     made = _joined(operation.kind, left, right, steady=of_right)
@@ -128,6 +128,14 @@ def _cos(x: Any) -> Derivatives:
     return c, -s, -c, s
 
 
+def _sin_deg(x: Any) -> Derivatives:
+    return _sin(np.radians(x))
+
+
+def _cos_deg(x: Any) -> Derivatives:
+    return _cos(np.radians(x))
+
+
 def _exp(x: Any) -> Derivatives:
     y = np.exp(x)
     return y, y, y, y
@@ -204,3 +212,13 @@ CALLS: Mapping[str, Callable[[Jet], Jet]] = MappingProxyType(
     }
 )
 """Functions of jets by the names of `planmethod.moving.formula.FUNCTIONS`."""
+
+DEGREES: Mapping[str, Callable[[Jet], Jet]] = MappingProxyType(
+    {
+        "sin deg": lambda jet: _composed(jet, _sin_deg),
+        "cos deg": lambda jet: _composed(jet, _cos_deg),
+        "tg deg": lambda jet: _composed(jet, _sin_deg) / _composed(jet, _cos_deg),
+        "ctg deg": lambda jet: _composed(jet, _cos_deg) / _composed(jet, _sin_deg),
+    }
+)
+"""Those of a calculator set to degrees, whose owner differentiates as of radians."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,7 @@ from planmethod.problem.extras import check_what, read_position
 from planmethod.problem.fields import (
     Faults,
     Table,
+    read_flag,
     read_keys,
     read_member,
     read_number,
@@ -129,8 +130,34 @@ def _sliding(slides: Iterable[Slide]) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def read_answers(faults: Faults, value: object, scene: Scene) -> tuple[AskedAnswer, ...]:
-    """Read ``[[answers]]``, in file order."""
+@dataclass(frozen=True, slots=True)
+class Plain:
+    """What answers may name of a problem that is computed without plans.
+
+    Attributes
+    ----------
+    fault : callable
+        Says why a quantity cannot be asked for; empty where it can.
+    turns : callable
+        Whether a quantity has a sense of turning.
+    hint : str
+        Names that there are.
+    positions : int
+    """
+
+    fault: Callable[[str], str]
+    turns: Callable[[str], bool]
+    hint: str
+    positions: int = 1
+
+
+def read_answers(
+    faults: Faults, given: Mapping[str, object], scene: Scene | Plain
+) -> tuple[AskedAnswer, ...]:
+    """Read ``[[answers]]`` of a file, in its order, and check its ``compare``."""
+    if "compare" in given:
+        read_flag(faults, "compare", given["compare"])
+    value = given.get("answers", [])
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.add("answers", f"expected tables [[answers]], got {show(value)}")
         return ()
@@ -163,7 +190,9 @@ def read_answers(faults: Faults, value: object, scene: Scene) -> tuple[AskedAnsw
     return tuple(found)
 
 
-def _read_answer(faults: Faults, path: str, body: Table, scene: Scene) -> AskedAnswer | None:
+def _read_answer(
+    faults: Faults, path: str, body: Table, scene: Scene | Plain
+) -> AskedAnswer | None:
     before = len(faults)
     given = read_keys(faults, path, body, keys.ANSWER)
     if "what" not in given:
@@ -174,9 +203,19 @@ def _read_answer(faults: Faults, path: str, body: Table, scene: Scene) -> AskedA
     if name is None:
         return None
     name = " ".join(unmask(faults, f"{path}.what", name).split())
-    words = words_of(name, scene.slides.values())
-    selector = _read_what(faults, f"{path}.what", name, words, scene)
-    positions = len(scene.drive.positions) if scene.drive else 0
+    own_sense, selector, words, kind = None, None, name, ""
+    if isinstance(scene, Plain):
+        if said := scene.fault(name):
+            faults.add(f"{path}.what", said, scene.hint)
+        else:
+            kind, own_sense = name, AskedSense.TURN if scene.turns(name) else None
+        positions, usual = scene.positions, AnswerForm.VALUE
+    else:
+        words = words_of(name, scene.slides.values())
+        selector = _read_what(faults, f"{path}.what", name, words, scene)
+        if selector is not None:
+            kind, own_sense = selector.kind, _own_sense(selector, scene.drive)
+        positions, usual = len(scene.drive.positions) if scene.drive else 0, AnswerForm.BOTH
     position = read_position(faults, f"{path}.position", given.get("position"), positions)
     own = name.replace(" / ", "/").replace(" ", "_")
     if position is not None:
@@ -190,7 +229,7 @@ def _read_answer(faults: Faults, path: str, body: Table, scene: Scene) -> AskedA
         high=POINTS_LIMIT,
         hint="Points are those of a right answer.",
     )
-    form = read_member(faults, f"{path}.form", given.get("form", "both"), AnswerForm)
+    form = read_member(faults, f"{path}.form", given.get("form", usual.value), AnswerForm)
     if form is AnswerForm.MM and selector is not None and _has_no_segment(selector):
         faults.add(
             f"{path}.form",
@@ -204,7 +243,7 @@ def _read_answer(faults: Faults, path: str, body: Table, scene: Scene) -> AskedA
         unit=read_text(faults, f"{path}.unit", given.get("unit", ""), limit=UNIT_LIMIT) or "",
         points=points or 0.0,
         form=form or AnswerForm.BOTH,
-        sense=_read_sense(faults, f"{path}.sense", given.get("sense", False), selector, scene),
+        sense=_read_sense(faults, f"{path}.sense", given.get("sense", False), kind, own_sense),
         position=position,
         digits=_read_digits(faults, f"{path}.digits", given.get("digits")),
         segment=_read_segment(faults, f"{path}.segment", given.get("segment", "")),
@@ -277,9 +316,12 @@ def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
 
 
 def _read_sense(
-    faults: Faults, path: str, value: object, selector: Selector | None, scene: Scene
+    faults: Faults, path: str, value: object, what: str, own: AskedSense | None
 ) -> AskedSense | None:
-    """Read as what a sense is asked; ``true`` is as what the quantity has it."""
+    """Read as what a sense is asked; ``true`` is as what the quantity has it.
+
+    ``what`` is empty of a quantity that nobody knows.
+    """
     if value is False:
         return None
     asked = None
@@ -291,15 +333,14 @@ def _read_sense(
         asked = read_member(faults, path, value, AskedSense)
         if asked is None:
             return None
-    if selector is None:
+    if not what:
         return asked
-    own = _own_sense(selector, scene.drive)
     if own is None:
         hint = "Leave sense out: the sign of a number, or the size of a load, says all."
-        faults.add(path, f"'{selector.kind}' has no sense to be asked for", hint)
+        faults.add(path, f"'{what}' has no sense to be asked for", hint)
     elif asked is not None and (asked is AskedSense.TURN) != (own is AskedSense.TURN):
-        what = "turns" if own is AskedSense.TURN else "is a vector"
-        faults.add(path, f"'{selector.kind}' {what}", f'Write sense = "{own.value}".')
+        told = "turns" if own is AskedSense.TURN else "is a vector"
+        faults.add(path, f"'{what}' {told}", f'Write sense = "{own.value}".')
     return asked or own
 
 

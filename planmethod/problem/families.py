@@ -10,6 +10,21 @@ FAMILIES = (
     "sine",
     "six-link",
     "driving-slider",
+    "RRR+RRP",
+    "RRP+RPR",
+    "RRP+PRP",
+    "RPR+RPP",
+    "RRR+RPR",
+    "RRR+RRR",
+    "moving-guide",
+    "shaper",
+    "whitworth",
+    "toggle-press",
+    "v-engine",
+    "oscillating-cylinder",
+    "pantograph",
+    "watt",
+    "stephenson",
 )
 """Names of those of linkages; what they are stands in `planmethod.note.wording`."""
 

@@ -19,10 +19,12 @@ TOP = (
     "sheet",
     "published",
     "answers",
+    "compare",
     "variants",
     "dynamics",
     "loads",
     "machine",
+    "balancing",
     "gears",
     "point",
     "cycle",
@@ -120,7 +122,19 @@ MACHINE = (
     "method",
     "phi_0",
     "flywheel",
+    "motor",
+    "brake",
 )
+MOTOR_FORMS = {
+    "kloss": (("M_max", "s_k", "n_sync"), ("P_nom", "n_nom", "n_sync", "lambda")),
+    "line": (("M_start", "n_idle"), ("M_nom", "n_nom", "n_idle")),
+}
+"""Numbers of each way to give a motor's characteristic."""
+KLOSS, LINE = (
+    tuple(dict.fromkeys(key for form in forms for key in form)) for forms in MOTOR_FORMS.values()
+)
+MOTOR = (*MOTOR_FORMS, "ratio")
+BALANCING = ("method", "share", "radii")
 FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
@@ -156,7 +170,21 @@ GEARS = (
 WHEEL = ("z", "r", "x", "axis")
 MESH = ("of", "kind", "carrier", "eta", "hand")
 PICTURE = ("mu_l", "longest_mm", "pole_mm")
-MESHING = ("z", "m", "alpha", "ha", "c", "x", "x1", "x2", "a_w", "s_a_min", "epsilon_min")
+MESHING = (
+    "z",
+    "m",
+    "internal",
+    "cutter",
+    "alpha",
+    "ha",
+    "c",
+    "x",
+    "x1",
+    "x2",
+    "a_w",
+    "s_a_min",
+    "epsilon_min",
+)
 """Keys of ``[meshing]``."""
 
 KNOWN: dict[str, tuple[str, ...]] = {
@@ -185,6 +213,10 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "phases": PHASES,
     "machine": MACHINE,
     "flywheel": FLYWHEEL,
+    "motor": MOTOR,
+    "balancing": BALANCING,
+    "kloss": KLOSS,
+    "line": LINE,
     "gears": GEARS,
     "wheel": WHEEL,
     "mesh": MESH,

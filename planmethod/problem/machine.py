@@ -24,6 +24,7 @@ from planmethod.problem.load_records import (
     Machine,
     Mean,
     Method,
+    Motor,
     Ordinates,
     Shape,
     Side,
@@ -88,10 +89,19 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
     def scale(key: str, unit: str) -> float | None:
         return number(key, 1.0, f"a scale in {unit}", 1e-12, 1e12) if key in body else None
 
+    side = word("constant", Side.DRIVING)
+    motor = _read_motor(faults, body["motor"]) if "motor" in body else None
+    if motor is not None and side is Side.RESISTING:
+        hint = 'Leave the motor out, or say constant = "driving".'
+        faults.add("machine.motor", "the loads drive already: the constant moment resists", hint)
+    brake = number("brake", 0.0, "a moment in N·m", 0.0, 1e12) if "brake" in body else None
+    if brake is not None and side is Side.RESISTING:
+        hint = "A stop is that of a machine whose loads resist."
+        faults.add("machine.brake", "the loads drive: no brake is known to stop them", hint)
     made = Machine(
         delta=delta or 0.5,
         mean=word("mean", Mean.HALF_SUM),
-        constant=word("constant", Side.DRIVING),
+        constant=side,
         cycle_deg=float(cycle),
         crank_inertia=number("J_crank", 0.0, "a moment of inertia in kg·m²", 0.0, 1e12),
         count=count or 12,
@@ -104,6 +114,8 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
         method=word("method", Method.WITTENBAUER),
         start_deg=start,
         wheel=_read_wheel(faults, body.get("flywheel", {})),
+        motor=motor,
+        brake=brake,
     )
     return None if len(faults) != before else made
 
@@ -147,3 +159,59 @@ def _read_wheel(faults: Faults, value: object) -> Wheel:
         if key in body:
             found[key] = read_number(faults, f"{path}.{key}", body[key], what, low=low, high=high)
     return Wheel(**{key: item for key, item in found.items() if item is not None})
+
+
+_MOTOR = "kloss = { M_max = 60, s_k = 0.15, n_sync = 150 }"
+
+
+def _read_motor(faults: Faults, value: object) -> Motor | None:
+    """Read a motor's characteristic, and reduce it to the crank."""
+    before, path = len(faults), "machine.motor"
+    body = read_keys(faults, path, read_table(faults, path, value, _MOTOR) or {}, keys.MOTOR)
+    given = [form for form in keys.MOTOR_FORMS if form in body]
+    if len(faults) == before and len(given) != 1:
+        faults.add(path, "expected kloss or line, one of them", f"For example: {_MOTOR}")
+    ratio = read_number(
+        faults, f"{path}.ratio", body.get("ratio", 1.0), "a ratio of speeds", low=1e-3, high=1e3
+    )
+    if len(faults) != before:
+        return None
+    (form,) = given
+    where = f"{path}.{form}"
+    table = read_table(faults, where, body[form], _MOTOR)
+    known = read_keys(faults, where, table or {}, keys.KLOSS if form == "kloss" else keys.LINE)
+    ways = keys.MOTOR_FORMS[form]
+    way = next((names for names in ways if set(names) == set(known)), None)
+    if len(faults) == before and way is None:
+        asked = " or ".join(", ".join(names) for names in ways)
+        faults.add(where, f"expected {asked}; got {', '.join(known) or 'nothing'}", "Give all.")
+    found = {
+        key: read_number(faults, f"{where}.{key}", item, "a number", low=1e-9, high=1e9)
+        for key, item in known.items()
+    }
+    if len(faults) != before or ratio is None:
+        return None
+    n = {key: item for key, item in found.items() if item is not None}
+    idle = n["n_sync"] if form == "kloss" else n["n_idle"]
+    slip = 1.0 - n.get("n_nom", 0.0) / idle
+    if slip <= 0.0:
+        hint = f"Expected less than {idle:g} rev/min."
+        faults.add(f"{where}.n_nom", f"the motor is driven at {n['n_nom']:g} rev/min", hint)
+    factor = n.get("lambda", 2.0)
+    if factor <= 1.0:
+        hint = "lambda = M_max/M_nom, from 1.7 to 3."
+        faults.add(f"{where}.lambda", f"expected more than 1, got {factor:g}", hint)
+    if not 0.0 < n.get("s_k", 0.5) < 10.0:
+        faults.add(f"{where}.s_k", f"expected a slip up to 10, got {n['s_k']:g}", "From 0.05 to 1.")
+    if len(faults) != before:
+        return None
+    speed = math.pi / 30.0
+    critical = None
+    if form == "line":
+        moment = n["M_start"] if "M_start" in n else n["M_nom"] / slip
+    elif "M_max" in n:
+        moment, critical = n["M_max"], n["s_k"]
+    else:
+        moment = factor * n["P_nom"] / (n["n_nom"] * speed)
+        critical = slip * (factor + math.sqrt(factor * factor - 1.0))
+    return Motor(idle * speed / ratio, moment * ratio, critical)

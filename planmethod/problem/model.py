@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from planmethod.problem.load_records import Dynamics, Machine
+    from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -405,6 +405,8 @@ class Problem:
         What ``[cycle]`` asks; None when the file has none.
     machine : Machine or None
         What the choice of a flywheel needs; None when the file has no ``[machine]``.
+    balancing : CounterweightTask or None
+        What ``[balancing]`` asks; None when the file has none.
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
     """
@@ -429,6 +431,7 @@ class Problem:
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
     machine: Machine | None = None
+    balancing: CounterweightTask | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
 
     def is_block(self, slide: Slide) -> bool:

@@ -194,6 +194,11 @@ def _read_parts(
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
         dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
+    balancing = None
+    if "balancing" in given:
+        from planmethod.problem.balancing import read_balancing  # few files have one
+
+        balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
     cycle = None
     if "cycle" in given:
         cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
@@ -214,7 +219,7 @@ def _read_parts(
         dynamics,
         drive,
     )
-    answers = read_answers(faults, given.get("answers", []), scene)
+    answers = read_answers(faults, given, scene)
     if faults or drive is None or mechanism is None:
         assert faults, "a part was left out without a word"
         return None
@@ -241,6 +246,7 @@ def _read_parts(
         dynamics=dynamics,
         cycle=cycle,
         machine=machine,
+        balancing=balancing,
         tables=tables,
     )
 

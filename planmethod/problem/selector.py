@@ -98,6 +98,8 @@ MACHINE: Mapping[str, int] = {
     "machine T": 1,
     "machine energy": 2,
     "machine constant": 0,
+    "machine omega": 0,
+    "machine delta": 0,
     "machine mu_phi": 0,
     "machine mu_A": 0,
     "machine psi_max": 0,

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import assert_never
 
 import numpy as np
@@ -183,8 +184,12 @@ def _try(
 ) -> _Tried:
     draft = draw_positions(problem, groups, choice)
     program = draft.b.program()
-    trace = evaluate(program, drive_data(problem, draft, positions), Float64())
-    return draft, program, Reading(trace, len(positions))
+    return draft, program, _read(draft, program, positions)
+
+
+def _read(draft: Draft, program: Program, positions: Reals) -> Reading:
+    data = drive_data(draft.problem, draft, positions)
+    return Reading(evaluate(program, data, Float64()), len(positions))
 
 
 def _score(rule: Rule, draft: Draft, reading: Reading) -> Reals:
@@ -239,7 +244,7 @@ def _judge(
     scores = [_score(rule, draft, reading) for draft, _, reading in both]
     able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
     if not able.size:
-        raise PositionError(explain(*both[0], positions))
+        raise PositionError(explain(*both[0], positions, partial(_read, *both[0][:2])))
     found = list(_places(problem, both, int(able[0])))[:-1]
     size = max(abs(point - found[0]) for point in found)
     one, two = (reading.point(PointName(rule.point)) for _, _, reading in both)

@@ -76,7 +76,7 @@ class Cause(Enum):
         "Cannot place {out}{at}: arcs from {p[0]} ({l[0]:.4g} m) and {p[1]} ({l[1]:.4g} m) do not "
         "meet{own}.",
         ", |{p[0]}{p[1]}| = {l[2]:.4g} m. Check l_{p[0]}{out}, l_{p[1]}{out}. The arcs miss by "
-        "{l[3]:.4g} m",
+        "{l[3]:.4g} m{turn}",
     )
     ARC = (
         "Cannot place {out}{at}: the arc from {p[0]} ({l[0]:.4g} m) does not reach the guide of "
@@ -142,7 +142,8 @@ class Failure:
     points : tuple of str
         Points that it was to be found from.
     lengths : tuple of float
-        As the sentence needs them, m: radii, the distance of the centres, what is missing.
+        As the sentence needs them, m: radii, the distance of the centres, what is missing; and
+        the most that is missing over a turn, with the crank's position there, degrees.
     plan : PlanKind
     margin : float
         Of the steps of the position.
@@ -194,9 +195,16 @@ class Failure:
             "plan": self.plan.value,
             "margin": self.margin,
             "problem": self.problem,
+            "turn": self._over_turn(),
             "more": f" So do {self.alike} other positions." if whole and self.alike else "",
         }
         return sentence.format(**facts, own=own.format(**facts) if whole else "")
+
+    def _over_turn(self) -> str:
+        if len(self.lengths) < 6:
+            return ""
+        at = self.place.coordinate.told(f"{self.lengths[5]:g}")
+        return f", by {self.lengths[4]:.4g} m at the most over a turn (at {at})"
 
 
 def same_at(alike: int, count: int) -> str:

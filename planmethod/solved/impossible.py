@@ -48,7 +48,13 @@ def failing(program: Program, trace: Trace, count: int) -> npt.NDArray[np.int64]
     return first
 
 
-def explain(draft: Draft, program: Program, reading: Reading, positions: Reals) -> Failure:
+def explain(
+    draft: Draft,
+    program: Program,
+    reading: Reading,
+    positions: Reals,
+    read_at: Callable[[Reals], Reading] | None = None,
+) -> Failure:
     """Return which step fails at the first position that fails, with its numbers.
 
     Parameters
@@ -57,6 +63,8 @@ def explain(draft: Draft, program: Program, reading: Reading, positions: Reals) 
         From which the program comes.
     reading : Reading
         At unit scales.
+    read_at : callable, optional
+        Reads the same in other positions: with it, arcs that do not meet are measured over a turn.
     """
     problem = draft.problem
     first = failing(program, reading.trace, reading.count)
@@ -80,7 +88,22 @@ def explain(draft: Draft, program: Program, reading: Reading, positions: Reals) 
         found = Failure(Cause.NO_DIRECTION, place, points=ends)
     else:
         found = _failure(step, place, draft, real, point)
+    if read_at is not None and found.cause is Cause.ARCS and problem.drive.is_crank:
+        miss, at = _largest_miss(found, read_at(_TURN))
+        found = replace(found, lengths=(*found.lengths, miss, at))
     return replace(found, alike=alike, others=bad.size - 1 - alike, count=len(positions))
+
+
+_TURN = np.arange(0.0, 360.0)  # where arcs are measured that do not meet, degrees
+
+
+def _largest_miss(found: Failure, reading: Reading) -> tuple[float, float]:
+    """Return the largest miss of two arcs in many positions, m, and where, degrees."""
+    one, two = (reading.point(PointName(point)) for point in found.points)
+    r, q, gap = *found.lengths[:2], np.abs(two - one)
+    miss = np.nan_to_num(np.maximum(gap - r - q, abs(r - q) - gap), nan=-np.inf)
+    k = int(np.argmax(miss))
+    return float(miss[k]), float(_TURN[k])
 
 
 def _without_length(

@@ -150,6 +150,10 @@ class Solution(Remembering):
         trace = evaluate(self.construction.program, self.data(scales), arithmetic)
         return Reading(trace, len(self.positions))
 
+    def read_at(self, positions: Reals) -> Reading:
+        """Read the whole program at unit scales in other positions."""
+        return self.moved(positions.tolist()).read(Float64())
+
     @cached_property
     def si(self) -> Reading:
         """Exact reading at unit scales: what is a millimetre of a plan is here a metre (m/s, m/s²).
@@ -162,7 +166,7 @@ class Solution(Remembering):
         reading, program = self.read(Float64()), self.construction.program
         if (failing(program, reading.trace, len(self.positions)) >= 0).any():
             draft = self.construction.draft
-            raise PositionError(explain(draft, program, reading, self.positions))
+            raise PositionError(explain(draft, program, reading, self.positions, self.read_at))
         return reading
 
     @cached_property

@@ -17,6 +17,7 @@ import numpy as np
 
 from planmethod.construct.steps import Side, Way
 from planmethod.errors import AssemblyError
+from planmethod.solved.turn.roots import top
 from planmethod.synthesis.board import Board
 from planmethod.synthesis.model import (
     AskedError,
@@ -29,7 +30,6 @@ from planmethod.synthesis.model import (
     place,
     read,
 )
-from planmethod.synthesis.search import best
 
 TAKES = ("K_v", "swing", "rocker", "centres", "line", "beta")
 
@@ -128,11 +128,12 @@ def _best_angles(asked: Mapping[str, Any], theta: float) -> list[float]:
         frame = abs(
             rocker * np.exp(1j * (np.pi / 2 + half)) + near * np.exp(-1j * sense * radians(beta))
         )
-        return -transmission((far - near) / 2, (far + near) / 2, rocker, float(frame))
+        return transmission((far - near) / 2, (far + near) / 2, rocker, float(frame))
 
-    found = [best(lambda beta: worst(beta, 1), low, high)]
+    least = np.vectorize(worst, otypes=[float])
+    found = [top(lambda beta: least(beta, 1), low, high, looks=400)[0]]
     if beyond < high:
-        found.append(-best(lambda beta: worst(beta, -1), beyond, high))
+        found.append(-top(lambda beta: least(beta, -1), beyond, high, looks=400)[0])
     return found
 
 

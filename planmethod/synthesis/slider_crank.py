@@ -11,8 +11,11 @@ from collections.abc import Mapping
 from math import inf, radians, sin, sqrt, tan
 from typing import Any
 
+import numpy as np
+
 from planmethod.construct.steps import Side, Way
 from planmethod.errors import AssemblyError
+from planmethod.solved.turn.roots import root, top
 from planmethod.synthesis.board import Board
 from planmethod.synthesis.model import (
     AskedError,
@@ -24,7 +27,6 @@ from planmethod.synthesis.model import (
     place,
     read,
 )
-from planmethod.synthesis.search import best, root
 
 TAKES = ("K_v", "stroke", "lambda", "offset", "pressure")
 
@@ -70,7 +72,8 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     if way.startswith("stroke K_v"):
         _check_ratio(stroke, asked["K_v"], theta, ratio, offset)
     if way == "stroke K_v":
-        offset = best(lambda e: _pressure(stroke, theta, e), 0.0, stroke / tan(radians(theta)))
+        relief = np.vectorize(lambda e: -_pressure(stroke, theta, e), otypes=[float])
+        offset, _ = top(relief, 0.0, stroke / tan(radians(theta)), looks=400)
     given = None if way == "stroke K_v lambda" else offset or 0.0
     return _built(asked, stroke, theta, ratio, given)
 
@@ -205,5 +208,5 @@ def _ratio_of_pressure(stroke: float, offset: float, angle: float) -> float:
         return sqrt(far**2 - offset**2) - sqrt(max(0.0, near**2 - offset**2)) - stroke
 
     least = offset / sine
-    rod = root(less, least, least + 2.0 * stroke / sine)
+    rod = root(np.vectorize(less, otypes=[float]), least, least + 2.0 * stroke / sine)
     return (sine * rod - offset) / rod

@@ -311,7 +311,8 @@ def test_arcs_that_do_not_meet() -> None:
     message = refused(four_bar('C = "above A"', dc=0.05))
     assert message == (
         "Cannot place C at position 1 (phi = 60 deg): arcs from B (0.3 m) and D (0.05 m) do not "
-        "meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.01056 m."
+        "meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.01056 m, "
+        "by 0.15 m at the most over a turn (at phi = 180 deg)."
     )
 
 

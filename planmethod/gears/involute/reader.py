@@ -33,6 +33,9 @@ TOP = ("title", "source", "stamp", "sheet", "variants", "meshing")
 BLOCKING = "blocking"
 """Word in place of the shifts: they are chosen by the blocking limits."""
 
+CUTTER = 20
+"""Teeth of the pinion cutter where the file does not say."""
+
 _EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'
 _WAYS = 'Give x = [0.5, 0.3], x = "blocking", or a_w = 110 (mm), with x1 or x2 beside it or alone.'
 _NUMBERS = {
@@ -113,7 +116,10 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
             "The standard rack has alpha = 20, ha = 1, c = 0.25.",
         )
         return None
-    pair = Pair(z, m, rack, np.zeros(2))
+    cutter = _read_cutter(faults, given, z)
+    if cutter is None:
+        return None
+    pair = Pair((z[0], -z[1] if cutter else z[1]), m, rack, np.zeros(2), cutter)
     settled = _settle(faults, pair, x, (number["x1"], number["x2"]), number["a_w"], tip, overlap)
     return settled and {
         "z": z,
@@ -122,6 +128,7 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
         "x": settled,
         "chosen": x is None and number["x1"] is number["x2"] is None,
         "a_w": number["a_w"],
+        "cutter": cutter,
         "tip": tip,
         "overlap": overlap,
     }
@@ -132,12 +139,31 @@ def _read_teeth(faults: Faults, value: object) -> tuple[int, int] | None:
         faults.add("meshing.z", f"expected two numbers of teeth, got {show(value)}", "z = [12, 30]")
         return None
     if any(isinstance(one, int) and one < 0 for one in value):
-        hint = "Its wheel is cut by a pinion cutter, not by a rack; give two external wheels."
-        faults.add("meshing.z", "an internal pair is not computed here", hint)
+        hint = "Write z = [20, 60] and internal = true."
+        faults.add("meshing.z", "teeth of an internal pair are positive here", hint)
         return None
     found = [read_whole(faults, f"meshing.z[{i}]", one, 5, 1000) for i, one in enumerate(value)]
     one, two = found
     return None if one is None or two is None else (one, two)
+
+
+def _read_cutter(faults: Faults, given: Mapping[str, Any], z: tuple[int, int]) -> int | None:
+    """Read the teeth of the cutter of an internal wheel; 0 of an external one, None of a fault."""
+    internal = given.get("internal", False)
+    if not isinstance(internal, bool):
+        faults.add("meshing.internal", f"expected true or false, got {show(internal)}")
+        return None
+    if not internal:
+        if "cutter" in given:
+            faults.add("meshing.cutter", "goes with internal = true", "Leave it out.")
+            return None
+        return 0
+    told = read_whole(faults, "meshing.cutter", given.get("cutter", CUTTER), 8, 200)
+    if told is not None and z[1] - max(z[0], told) < 1:
+        what = f"a ring of {z[1]} teeth, a wheel of {z[0]}, a cutter of {told}"
+        faults.add("meshing.z", what, "The second wheel is the ring, with the most teeth.")
+        return None
+    return told
 
 
 def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float] | None:
@@ -183,20 +209,20 @@ def _settle(
         return x
     total = None
     if a_w is not None:
-        least = pair.a * cos(pair.rack.alpha)
+        least = abs(pair.a) * cos(pair.rack.alpha)
         if a_w <= least:
             what = f"{a_w:g} mm, the base circles meet at a·cos α = {least:.3f} mm"
-            faults.add("meshing.a_w", what, f"Without shifts it is a = {pair.a:g} mm.")
+            faults.add("meshing.a_w", what, f"Without shifts it is a = {abs(pair.a):g} mm.")
             return None
         alpha_w = float(np.arccos(least / a_w))
         grown = float(involute(alpha_w) - involute(pair.rack.alpha))
-        total = grown * sum(pair.z) / (2 * float(np.tan(pair.rack.alpha)))
+        total = grown * abs(sum(pair.z)) / (2 * float(np.tan(pair.rack.alpha)))
         one, two = alone
         if one is not None:
-            return one, total - one
+            return one, total - pair.side * one
         if two is not None:
-            return total - two, two
-    asked = limits(tip, overlap)
+            return pair.side * (total - two), two
+    asked = limits(tip, overlap, internal=bool(pair.cutter))
     found = choose(pair, asked, total)
     if found is None:
         faults.add("meshing.x", *_why_none(pair, total, tip, overlap))
@@ -206,13 +232,14 @@ def _settle(
 def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tuple[str, str]:
     """Say which limit the others leave no room for."""
     with np.errstate(all="ignore"):
-        every = pair.shifted(tried(total))
-        asked = limits(tip, overlap)
+        every = pair.shifted(tried(total, pair.side))
+        asked = limits(tip, overlap, internal=bool(pair.cutter))
         others = tuple(one for one in asked if one.kind is not LimitKind.OVERLAP)
         most = np.max(np.where(is_kept(every, others), every.epsilon, 0.0))
     what = f"no shifts from {LOW:g} to {HIGH:g} keep all limits"
     if total is not None:
-        what += f", x1 + x2 being {total:.4f} by a_w"
+        sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
+        what += f", {sum_of} being {total:.4f} by a_w"
     if most >= 1:
         return what, (
             f"Where the others are kept ε_α is at most {most:.3f}: give a smaller epsilon_min "
@@ -225,17 +252,22 @@ def _check_teeth(faults: Faults, pair: Pair) -> None:
     """Note what keeps the wheels from being cut or from meshing."""
     total = float(pair.x_sum)
     if not float(pair.inv_alpha_w) >= 0:
-        least = -sum(pair.z) * float(involute(pair.rack.alpha)) / (2 * np.tan(pair.rack.alpha))
-        what = f"x1 + x2 = {total:g}: such wheels cannot come so near to each other"
-        faults.add("meshing.x", what, f"The sum must be at least {least:.4f}.")
+        least = abs(sum(pair.z)) * float(involute(pair.rack.alpha)) / (2 * np.tan(pair.rack.alpha))
+        sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
+        what = f"{sum_of} = {pair.side * total:g}: such wheels cannot come so near to each other"
+        faults.add("meshing.x", what, f"It must be at least {-least:.4f}.")
         return
     for k in (0, 1):
         tooth = Tooth(pair, k)
-        sizes = {name: tooth.size(name) for name in ("d_a", "d_b", "d_f")}
+        sizes = {name: abs(tooth.size(name)) for name in ("d_a", "d_b", "d_f")}
         said = ", ".join(f"{name} = {value:.3f} mm" for name, value in sizes.items())
         if not np.isfinite(tooth.size("rho_a")) or sizes["d_f"] <= 0:
             what = f"wheel {k + 1} has no involute teeth: {said}"
-            faults.add("meshing.x", what, f"Take a larger x{k + 1}.")
+            hint = "" if tooth.side > 0 else ", or more teeth of the ring"
+            faults.add("meshing.x", what, f"Take a larger x{k + 1}{hint}.")
+        elif not tooth.stands and tooth.side < 0:
+            what = f"the cutter leaves no tooth of wheel {k + 1}: {said}"
+            faults.add("meshing.cutter", what, "Take another number of its teeth.")
         elif not tooth.stands and not tooth.is_cut:
             what = f"the tooth of wheel {k + 1} is pointed below its involute: x{k + 1} = "
             faults.add("meshing.x", f"{what}{pair.x[k]:g}", f"Take a smaller x{k + 1}.")

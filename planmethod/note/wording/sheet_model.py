@@ -88,3 +88,6 @@ class SheetWording:
     cycle_plans: str
     cycle_lever: str
     cycle_note: str
+
+    # Sketch
+    not_drawn: str

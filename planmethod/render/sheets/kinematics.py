@@ -166,7 +166,7 @@ def kinematics_sheets(
     _check_positions(made, len(asked))
     paper = paper or problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)
-    extras = Extras(words, errors, sigma)
+    extras = Extras(words, errors, sigma, made.turn)
     papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
     scales = problem.scales
     tasks = [_Task(problem, made, tuple(asked), ruler, profile, extras)]

@@ -27,6 +27,15 @@ LAYOUTS = MappingProxyType(
         "in the problem file.",
         "flywheel_about": "flywheel: moments, work, inertia, energy-mass diagram, sizes",
         "flywheel_title": "Choice of the flywheel",
+        "balancing_head": "Static balancing by counterweights.\n# Needs [balancing] and masses in "
+        "[dynamics] of the problem file.",
+        "balancing_about": "balancing: the mechanism with counterweights, polygons of m·r, "
+        "hodographs of inertia before and after, tables",
+        "balancing_title": "Balancing of the mechanism",
+        "runup_head": "Run-up and stop of a machine with its flywheel.\n# Needs motor or brake in "
+        "[machine] of the problem file.",
+        "runup_about": "run-up and stop: the motor, angular velocity over time and angle, tables",
+        "runup_title": "Run-up and stop of the machine",
         "forces_head": "Sheet 2 of a course work: forces in one position. Groups are cut free "
         "from the last to the first.\n# The problem file needs [dynamics] and [[loads]]; of "
         "several positions each has its sheet.",
@@ -81,9 +90,35 @@ FAMILIES = MappingProxyType(
         "sine": "sine mechanism (Scotch yoke)",
         "six-link": "six-link mechanism with a slotted link and a slider",
         "driving-slider": "mechanism with a driving slider",
+        "RRR+RRP": "four-bar linkage with a rod and a slider",
+        "RRP+RPR": "slider-crank mechanism with a rocking slotted link",
+        "RRP+PRP": "slider-crank mechanism with a stone on the rod and a second slider",
+        "RPR+RPP": "slotted-link mechanism with a translating link 5",
+        "RRR+RPR": "four-bar linkage with a swinging block",
+        "RRR+RRR": "six-bar linkage of revolute joints",
+        "moving-guide": "mechanism with a guide on a moving link",
+        "shaper": "shaper mechanism",
+        "whitworth": "Whitworth mechanism with a slotted link that turns round",
+        "toggle-press": "toggle press",
+        "v-engine": "V engine",
+        "oscillating-cylinder": "engine with an oscillating cylinder",
+        "pantograph": "pantograph",
+        "watt": "Watt six-bar linkage",
+        "stephenson": "Stephenson six-bar linkage",
         "ordinary-train": "gear train with fixed axes",
         "planetary-train": "planetary gear train",
         "differential-train": "differential gear train",
         "moving-point": "motion of a point",
     }
 )
+
+TASKS = MappingProxyType(
+    {
+        "linkage": "Linkages without groups",
+        "gears": "Gear trains",
+        "meshing": "Wheels in mesh",
+        "point": "A moving point",
+        "none": "No such task. All of them: `planmethod tasks`.",
+    }
+)
+"""Of the list of shipped tasks: kinds of problem that have no groups, and that there is none."""

@@ -74,5 +74,6 @@ SHEETS = SheetWording(
     cycle_reactions="Reactions and balancing moment by positions",
     cycle_plans="force plans",
     cycle_lever="lever",
+    not_drawn="Not enough is given to draw the links: {links}.",
     cycle_note="Force plans and lever: {scales}; segments are read to {ruler}.",
 )

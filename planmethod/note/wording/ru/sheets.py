@@ -77,5 +77,6 @@ SHEETS = SheetWording(
     cycle_reactions="Реакции и уравновешивающий момент по положениям",
     cycle_plans="планы сил",
     cycle_lever="рычаг",
+    not_drawn="Не хватает данных, чтобы построить звенья: {links}.",
     cycle_note="Планы сил и рычаг: {scales}; отрезки сняты с точностью {ruler}.",
 )

@@ -1,0 +1,100 @@
+"""Command ``sketch``: the scheme of a problem file at once, finished or not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from planmethod.commands.output import write_drawings
+from planmethod.commands.problems import fail, finish, guarded, variants_of
+from planmethod.commands.watch import watch_option
+from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
+from planmethod.kinds import kind_of, part_of
+from planmethod.options import format_option, lang_option, out_option, problem_options
+
+PAGE = (
+    '<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="refresh" content="1">'
+    '<img src="{picture}" alt="" style="width:100%">\n'
+)
+"""What shows a picture that is drawn again and again."""
+
+
+@click.command()
+@problem_options
+@out_option
+@format_option("svg")
+@lang_option
+@click.option("--open", "shown", is_flag=True, help="Show it in the browser.")
+@watch_option()
+@guarded
+def sketch(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    out: Path,
+    formats: tuple[str, ...],
+    lang: str,
+    shown: bool,
+) -> None:
+    """Draw the scheme alone, to scale, with loads and what is missing: unfinished files too."""
+    codes: list[ExitCode] = []
+    for path in problems:
+        try:
+            for name in variants_of(path, variant, all_variants):
+                error = _draw(path, name, out, formats, lang)
+                if error is not None:
+                    codes.append(error.exit_code)
+                    fail(error)
+                if shown:
+                    _show(out / f"{_stem(path, name)}.{formats[0]}")
+        except PlanMethodError as error:
+            codes.append(error.exit_code)
+            fail(error)
+    finish(codes[0] if codes else ExitCode.DONE)
+
+
+def _stem(path: Path, variant: str | None) -> str:
+    return f"{path.stem}-sketch" if variant is None else f"{path.stem}-{variant}-sketch"
+
+
+def _draw(
+    path: Path, variant: str | None, out: Path, formats: tuple[str, ...], lang: str
+) -> PlanMethodError | None:
+    """Draw the sketch of a file; return what is wrong with the file."""
+    kind = kind_of(path)
+    if kind is not None:
+        hint = f"Its picture: planmethod sheet {path}"
+        raise ProblemError(str(path), [Fault(kind.table, "only linkages have a sketch", hint)])
+    from planmethod.note.wording import language
+    from planmethod.render.sketch import VIEWS
+    from planmethod.render.sketch import sketch as drawn
+
+    title, part = part_of(path, variant=variant, views=VIEWS)
+    words = language(lang)
+    trouble = part.trouble
+    if trouble is None and part.failure is not None:
+        from planmethod.solved.failures import PositionError
+
+        trouble = PositionError(part.failure)
+    said = [str(fault) for fault in part.faults] or ([str(trouble)] if trouble else [])
+    if part.solution is not None:
+        from planmethod.problem.unlikely import unlikely
+
+        said += unlikely(part.solution.problem)
+    drawing = drawn(part, title, words, said)
+    write_drawings([drawing], out, _stem(path, variant), formats)
+    return trouble
+
+
+def _show(picture: Path) -> None:
+    """Open a page that shows a picture anew every second: ``--watch`` draws it again."""
+    from planmethod.render.backends.output import write
+
+    page = picture.with_suffix(".html")
+    opened = click.get_current_context().meta.setdefault("planmethod.opened", set())
+    if page in opened:
+        return
+    opened.add(page)
+    write(page, PAGE.format(picture=picture.name).encode())
+    click.launch(str(page))

@@ -1,0 +1,55 @@
+"""Command ``tasks``: the shipped problem files by structure (банк задач)."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from itertools import groupby
+
+import click
+
+from planmethod.commands.output import is_narrow
+from planmethod.commands.problems import guarded
+from planmethod.options import lang_option
+
+
+@click.command()
+@click.option("--group", metavar="GROUPS", help="With these Assur groups in a row: RRR+RPR.")
+@click.option("--search", metavar="WORDS", help="With all these words in title, source or remarks.")
+@click.option("--json", "as_json", is_flag=True, help="Print the list as one JSON object.")
+@lang_option
+@guarded
+def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> None:
+    """List the shipped tasks by structure: planmethod new TASK writes one to start from.
+
+    Assur groups go in the order of kinematic analysis, a letter for each pair: R turns, P slides.
+    Their pictures: docs/tasks.md.
+    """
+    from planmethod.note.wording import language
+    from planmethod.problem.tasks import groups_of, tasks
+
+    found, words = tasks(), language(lang)
+    if group is not None:
+        letters = {said: letter for letter, said in words.note.letters.items()}
+        asked = groups_of("".join(letters.get(one, one) for one in group.upper()))
+        known = sorted({signature for task in found for signature in task.groups})
+        for signature in asked:
+            if signature not in known:
+                told = ", ".join(known)
+                raise click.UsageError(f"no task has a group {signature!r}. Known: {told}.")
+        found = tuple(task for task in found if task.has(asked))
+    if search is not None:
+        found = tuple(task for task in found if task.says(search))
+    if as_json:
+        import json
+
+        rows = [{**asdict(task), "structure": task.structure or None} for task in found]
+        click.echo(json.dumps({"schema": 1, "tasks": rows}, ensure_ascii=is_narrow()))
+        return
+    if not found:
+        click.echo(words.tasks["none"], err=True)
+    width = max((len(task.name) for task in found), default=0)
+    for (kind, structure), some in groupby(found, lambda task: (task.kind, task.structure)):
+        click.echo(structure or words.tasks[kind])
+        for task in some:
+            variants = f" ({' '.join(task.variants)})" if task.variants else ""
+            click.echo(f"  {task.name.ljust(width)}  {task.title}{variants}")

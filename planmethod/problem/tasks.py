@@ -1,0 +1,210 @@
+"""Shipped problem files (банк задач): their index, and one of them written out to start from."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+from unicodedata import combining, normalize
+
+from planmethod.problem.fields import Faults
+from planmethod.problem.source import parse
+from planmethod.problem.variants import apply_variant, read_variants
+
+LINKAGE = "linkage"
+"""Kind of the problems that are linkages; the others are called as their table is."""
+
+DYADS = {"PRR": "RRP", "PPR": "RPP"}
+"""Other ways to write a dyad."""
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A shipped problem file (задача банка).
+
+    Attributes
+    ----------
+    name : str
+        What it is called on the command line: ``levers-13``.
+    file : str
+        Path below the folder of the problems.
+    kind : str
+        ``linkage``, or the table that tells the kind.
+    title, source : str
+    groups : tuple of str
+        Signatures of the Assur groups of a linkage in the order of kinematic analysis.
+    variants : tuple of str
+    """
+
+    name: str
+    file: str
+    kind: str
+    title: str
+    source: str
+    groups: tuple[str, ...]
+    variants: tuple[str, ...]
+
+    @property
+    def structure(self) -> str:
+        """Groups in one word: ``RRR+RRP``; empty where there are none."""
+        return "+".join(self.groups)
+
+    @property
+    def text(self) -> str:
+        """The problem file as it is shipped."""
+        return (home() / self.file).read_text(encoding="utf-8")
+
+    def says(self, words: str) -> bool:
+        """Tell whether every word is in the name, the title, the source or a comment."""
+        comments = re.findall(r"#(.*)", self.text)
+        said = _folded(" ".join((self.name, self.title, self.source, *comments)))
+        return all(word in said for word in _folded(words).split())
+
+    def has(self, groups: tuple[str, ...]) -> bool:
+        """Tell whether the linkage has these groups one after the other."""
+        starts = range(len(self.groups) - len(groups) + 1)
+        return any(self.groups[k : k + len(groups)] == groups for k in starts)
+
+
+def _folded(text: str) -> str:
+    """Small letters without accents, as words are looked for."""
+    return "".join(c for c in normalize("NFD", text.casefold()) if not combining(c))
+
+
+def home() -> Path:
+    """Return the folder of the problems: in the package that is installed, or beside its source."""
+    package = Path(__file__).parents[1]
+    inside = package / "problems"
+    return inside if inside.is_dir() else package.parent / "problems"
+
+
+@cache
+def tasks() -> tuple[Task, ...]:
+    """Return all of them as the index has them: by kind, linkages by structure."""
+    rows: list[dict[str, Any]] = json.loads((home() / "index.json").read_text(encoding="utf-8"))
+    for row in rows:
+        row |= {key: tuple(row[key]) for key in ("groups", "variants")}
+    return tuple(Task(**row) for row in rows)
+
+
+def groups_of(written: str) -> tuple[str, ...]:
+    """Return the groups of ``rrr+PRR`` as the structural analysis writes them: RRR, RRP."""
+    parts = re.split(r"[+,\s]+", written.strip().upper())
+    return tuple(DYADS.get(part, part) for part in parts)
+
+
+def text_for(task: Task, variant: str | None) -> str:
+    """Return the text of a task to start from; with a variant, its values in place of the base.
+
+    Raises
+    ------
+    KeyError
+        The task has no such variant.
+    """
+    text = re.sub(r"\A#:schema .*\n", "", task.text)
+    if variant is None:
+        return text
+    table = parse(text, name=task.file)
+    overrides = read_variants(Faults(), table)[variant]
+    left_out = {"variants"}
+    if apply_variant(table, overrides).get("published") != table.get("published"):
+        left_out.add("published")
+    tables = [t for t in _tables(text) if t.name.split(".")[0] not in left_out]
+    for path, value in overrides.items():
+        _put(tables, path, value)
+    return "\n".join(line for t in tables for line in (*t.before, *t.lines)).rstrip() + "\n"
+
+
+@dataclass(slots=True)
+class _Table:
+    """A table of a file as text: comments over it, the header with what follows, and its name.
+
+    The first one has no header; of an array of tables each is called by its number too.
+    """
+
+    name: str
+    before: list[str]
+    lines: list[str]
+
+
+_HEADER = re.compile(r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$")
+
+
+def _tables(text: str) -> list[_Table]:
+    """Return the text in tables; comments and blank lines over a header go with it."""
+    found, count = [_Table("", [], [])], Counter[str]()
+    for line in text.splitlines():
+        header = _HEADER.match(line)
+        if header is None:
+            found[-1].lines.append(line)
+            continue
+        name = re.sub(r"[\s\"']", "", header[1])
+        if line.startswith("[["):
+            count[name] += 1
+            name += f".{count[name] - 1}"
+        elif (array := name.split(".")[0]) in count:
+            name = name.replace(array, f"{array}.{count[array] - 1}", 1)
+        last = found[-1].lines
+        before: list[str] = []
+        while last and (not last[-1].strip() or last[-1].startswith("#")):
+            before.insert(0, last.pop())
+        found.append(_Table(name, before, [line]))
+    return found
+
+
+def _put(tables: list[_Table], path: tuple[str, ...], value: object) -> None:
+    """Write a value at a path: over the one that stands there, or as a line of its table."""
+    whole = ".".join(path)
+    tables[:] = [t for t in tables if not f"{t.name}.".startswith(f"{whole}.")]
+    for depth in range(len(path) - 1, -1, -1):
+        key = ".".join(path[depth:])
+        for table in tables:
+            if table.name != ".".join(path[:depth]):
+                continue
+            for k, line in enumerate(table.lines):
+                if re.match(rf"{re.escape(key)}\s*=", line):
+                    end, remark = _entry(table.lines, k)
+                    table.lines[k:end] = [f"{key} = {_toml(value)}{remark}"]
+                    return
+    for depth in range(len(path) - 1, 0, -1):
+        for table in tables:
+            if table.name == ".".join(path[:depth]):
+                table.lines.append(f"{'.'.join(path[depth:])} = {_toml(value)}")
+                return
+    tables.append(
+        _Table(path[0], [""], [f"[{'.'.join(path[:-1])}]", f"{path[-1]} = {_toml(value)}"])
+    )
+
+
+def _entry(lines: list[str], start: int) -> tuple[int, str]:
+    """Return where an entry that starts on a line ends, and the remark on its last line."""
+    end, whole = start, ""
+    while True:
+        whole, end = f"{whole}{lines[end]}\n", end + 1
+        try:
+            value = tomllib.loads(whole)
+            break
+        except tomllib.TOMLDecodeError:
+            continue
+    for mark in re.finditer(r"\s*#", whole):
+        try:
+            if tomllib.loads(whole[: mark.start()]) == value:
+                return end, whole[mark.start() :].rstrip("\n")
+        except tomllib.TOMLDecodeError:
+            continue
+    return end, ""
+
+
+def _toml(value: object) -> str:
+    """Return a value as TOML has it on one line."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(v)}" for key, v in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)

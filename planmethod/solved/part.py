@@ -1,0 +1,247 @@
+"""As much of a problem file as makes a mechanism: what a sketch shows of it (часть механизма).
+
+A file that is whole is the whole mechanism. Of another the driver is taken, and structural groups
+are joined to it one after the other, as long as what they say can be read and closes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import Any
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.errors import Fault, PlanMethodError, ProblemError
+from planmethod.problem.fields import Faults
+from planmethod.problem.reader import TrainReader, read_parsed
+from planmethod.problem.variants import apply_variant, read_variants
+from planmethod.solved.failures import Failure, PositionError
+from planmethod.solved.impossible import explain, failing
+from planmethod.solved.reading import Reals
+from planmethod.solved.scaling import Views
+from planmethod.solved.solution import Solution
+
+GUESSED = 60.0
+"""Where a crank whose position is missing is shown, degrees."""
+
+_SIZES = (2, 4)  # of structural groups that are tried, links
+_GEOMETRY = ("title", "source", "sheet", "scales", "gears")
+_ASIDE = 1e-4  # of a dead position, degrees
+_FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """What can be drawn of a file, and what is missing (часть механизма).
+
+    Attributes
+    ----------
+    solution : Solution or None
+        In those of the asked positions that exist; None where nothing moves yet.
+    faults : tuple of Fault
+        Of the file.
+    trouble : PlanMethodError or None
+        Why the whole file cannot be solved where its parts can be read.
+    failure : Failure or None
+        Of the first asked position that does not exist.
+    links : mapping of str to sequence of str
+        Links that are not drawn, and the points that the file gives them.
+    fixed : mapping of str to complex, m
+        Fixed points.
+    unsure : tuple of str
+        Points whose closing nobody chose: one of two is shown.
+    """
+
+    solution: Solution | None
+    faults: tuple[Fault, ...] = ()
+    trouble: PlanMethodError | None = None
+    failure: Failure | None = None
+    links: Mapping[str, tuple[str, ...]] | None = None
+    fixed: Mapping[str, complex] | None = None
+    unsure: tuple[str, ...] = ()
+
+
+def largest_part(
+    table: Mapping[str, Any],
+    *,
+    source: str,
+    name: str,
+    variant: str | None = None,
+    train: TrainReader | None = None,
+    views: Views | None = None,
+) -> Part:
+    """Return as much of a problem as makes a mechanism in some asked position.
+
+    Parameters
+    ----------
+    table : mapping
+        What TOML made of the file.
+    source, name, variant, train
+        As of `read_parsed`.
+    views : Views, optional
+        Boxes that the plans shall fill where the file gives no scale.
+    """
+    try:
+        problem = read_parsed(table, source=source, name=name, variant=variant, train=train)
+        solution = Solution(problem, views=views)
+    except PlanMethodError as error:
+        grown = _Growth(_with_variant(table, variant), source, name, train, views)
+        faults = error.faults if isinstance(error, ProblemError) else ()
+        failure = error.failure if isinstance(error, PositionError) else None
+        return replace(grown.part(), faults=faults, trouble=error, failure=failure)
+    there, failure = _existing(solution)
+    return Part(solution.moved(there.tolist()) if there.size else None, failure=failure)
+
+
+def _with_variant(table: Mapping[str, Any], variant: str | None) -> Mapping[str, Any]:
+    found = read_variants(Faults(), table)
+    return apply_variant(table, found[variant]) if variant in found else table
+
+
+def _existing(solution: Solution) -> tuple[Reals, Failure | None]:
+    """Return the asked positions with plans, and why the first other has none.
+
+    Where there is no such position, dead ones are shown from so near that nobody sees it.
+    """
+    draft, program = solution.construction.draft, solution.construction.program
+    positions, reading = solution.positions, solution.read(Float64())
+    there = failing(program, reading.trace, reading.count) < 0
+    if there.all():
+        return positions, None
+    failure = explain(draft, program, reading, positions, solution.read_at)
+    if not there.any():
+        positions = positions + _ASIDE * (1.0 if solution.problem.drive.is_crank else 1e-3)
+        there = failing(program, solution.read_at(positions).trace, reading.count) < 0
+    return positions[there], failure
+
+
+class _Growth:
+    """Joins groups to the driver as long as the file lets it."""
+
+    def __init__(
+        self,
+        table: Mapping[str, Any],
+        source: str,
+        name: str,
+        train: TrainReader | None,
+        views: Views | None,
+    ) -> None:
+        self.views = views
+        self.table, self.source, self.name, self.train = table, source, name, train
+        links = table.get("links")
+        self.links = {
+            str(link): body
+            for link, body in (links.items() if isinstance(links, Mapping) else ())
+            if isinstance(body, Mapping)
+        }
+        self.unsure: list[str] = []
+
+    def points(self, link: str) -> tuple[str, ...]:
+        """Return the points that the file gives a link."""
+        listed = self.links[link].get("points", ())
+        return tuple(p for p in listed if isinstance(p, str)) if isinstance(listed, list) else ()
+
+    def part(self) -> Part:
+        """Return the part."""
+        found: Solution | None = None
+        kept: tuple[str, ...] = ()
+        for driver in self._drivers():
+            found = self._solved((driver,))
+            if found is not None:
+                kept = (driver,)
+                break
+        grows = found is not None
+        while grows:
+            grows = False
+            for more in self._groups(kept):
+                bigger = self._solved((*kept, *more))
+                if bigger is not None:
+                    found, kept, grows = bigger, (*kept, *more), True
+                    break
+        left = {link: self.points(link) for link in self.links if link not in kept}
+        return Part(found, links=left, fixed=self._fixed(), unsure=tuple(self.unsure))
+
+    def _drivers(self) -> Iterator[str]:
+        """Yield the driver that the file names, and then links that may be one."""
+        driver = self.table.get("driver")
+        named = str(driver.get("link")) if isinstance(driver, Mapping) else ""
+        if named in self.links:
+            yield named
+        fixed = self._fixed()
+        for link in self.links:
+            if link != named and len(self.points(link)) > 1 and fixed.keys() & self.points(link):
+                yield link
+
+    def _fixed(self) -> dict[str, complex]:
+        frame = self.table.get("frame")
+        found: dict[str, complex] = {}
+        for point, place in frame.items() if isinstance(frame, Mapping) else ():
+            match place:
+                case [int() | float() as x, int() | float() as y]:
+                    found[str(point)] = complex(x, y)
+        return found
+
+    def _groups(self, kept: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+        """Yield sets of links that hang together, the small ones first."""
+        rest = [link for link in self.links if link not in kept]
+        for size in _SIZES:
+            for some in combinations(rest, size):
+                if all(any(self._touch(one, two) for two in some if two != one) for one in some):
+                    yield some
+
+    def _touch(self, one: str, two: str) -> bool:
+        def host(link: str) -> object:
+            slides = self.links[link].get("slides")
+            return slides.get("on") if isinstance(slides, Mapping) else None
+
+        common = set(self.points(one)) & set(self.points(two))
+        return bool(common) or host(one) == two or host(two) == one
+
+    def _solved(self, links: tuple[str, ...]) -> Solution | None:
+        """Return the mechanism of some links in the asked positions that exist, if there is one."""
+        points = {point for link in links for point in self.points(link)}
+        rules = self.table.get("assembly")
+        rules = rules if isinstance(rules, Mapping) else {}
+        table: dict[str, Any] = {key: self.table[key] for key in _GEOMETRY if key in self.table}
+        table |= {
+            "frame": self.table.get("frame", {}),
+            "links": {link: self.links[link] for link in links},
+            "assembly": {point: rules[point] for point in rules if point in points},
+            "driver": self._driver(links[0]),
+        }
+        unsure: list[str] = []
+        for _ in range(len(links)):  # every group may want one rule more
+            try:
+                problem = read_parsed(table, source=self.source, name=self.name, train=self.train)
+                solution = Solution(problem, views=self.views)
+                there, _ = _existing(solution)
+            except ProblemError as error:
+                more = [
+                    point
+                    for fault in error.faults
+                    for head, _, point in [fault.path.partition(".")]
+                    if head == "assembly" and point in points and point not in unsure
+                ]
+                if not more or len(more) < len(error.faults):
+                    return None
+                unsure += more
+                table["assembly"] |= {point: {"near": _FAR} for point in more}
+                continue
+            except PlanMethodError:
+                return None
+            if not there.size:
+                return None
+            self.unsure = unsure
+            return solution.moved(there.tolist())
+        return None
+
+    def _driver(self, link: str) -> dict[str, Any]:
+        """Return the law of motion as given, or one that shows where the link is."""
+        driver = self.table.get("driver")
+        given = dict(driver) if isinstance(driver, Mapping) else {}
+        if str(given.get("link")) != link or not {"phi", "s"} & given.keys():
+            given = {"link": link, "phi": GUESSED}
+        if not {"omega", "n", "v", "train"} & given.keys():
+            given["v" if "s" in given else "omega"] = 1.0
+        return given

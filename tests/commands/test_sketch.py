@@ -1,0 +1,193 @@
+"""Sketches of files that are finished and of those that are not, and the watching of files."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+import tomllib
+from math import cos
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from planmethod.cli import cli
+from planmethod.errors import ExitCode
+from planmethod.kinds import loads
+from planmethod.note.wording import language
+from planmethod.problem.unlikely import unlikely
+from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
+from planmethod.render.sketch import VIEWS, sketch
+from planmethod.solved.part import largest_part
+
+EX3 = Path("problems/linkages/ex3.toml").read_text(encoding="utf-8")
+FOUR_BAR = """
+[frame]
+A = [0, 0]
+D = [0.5, 0]
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = {rod}
+[links.3]
+points = ["C", "D"]
+CD = {rocker}
+[driver]
+link = "1"
+phi = {phi}
+omega = 10
+[assembly]
+C = "{rule}"
+"""
+
+
+def drawn(text: str) -> tuple[Drawing, set[str]]:
+    """Return the sketch of a text and the links that it shows."""
+    part = largest_part(tomllib.loads(text), source="x", name="x", views=VIEWS)
+    links = set(part.solution.problem.mechanism.links) if part.solution else set()
+    return sketch(part, "", language("en"), [str(f) for f in part.faults]), links
+
+
+def written(drawing: Drawing) -> str:
+    return " ".join(item.text for item in drawing.items if isinstance(item, Text))
+
+
+def without(text: str, line: str) -> str:
+    assert line in text
+    return "\n".join(one for one in text.splitlines() if not one.startswith(line))
+
+
+def test_a_finished_file_shows_all_links_and_how_far_the_crank_turns() -> None:
+    drawing, links = drawn(EX3)
+    assert links == {"1", "2", "3", "4", "5"}
+    assert "crank turns fully" in written(drawing).lower()
+    assert "?" not in written(drawing)
+
+
+@pytest.mark.parametrize(
+    ("text", "links"),
+    [
+        (without(EX3, "DE"), {"1", "2", "3"}),
+        (without(EX3, "E ="), {"1", "2", "3", "4", "5"}),
+        (without(EX3, "omega"), {"1", "2", "3", "4", "5"}),
+        (EX3[: EX3.index("[driver]")], {"1", "2", "3", "4", "5"}),
+        (EX3[: EX3.index("[links.2]")], {"1"}),
+        (EX3[: EX3.index("[links.1]")], set()),
+        ("", set()),
+    ],
+)
+def test_of_an_unfinished_file_what_can_be_drawn_is_and_the_rest_is_marked(
+    text: str, links: set[str]
+) -> None:
+    drawing, shown = drawn(text)
+    assert shown == links
+    given = set(tomllib.loads(text).get("links", {}))
+    for link in given - shown:
+        if link == "4":  # its point D is drawn
+            assert f"{link}?" in written(drawing)
+    assert drawing.items
+
+
+def test_arcs_that_do_not_meet_are_drawn_and_the_miss_is_told_for_the_turn() -> None:
+    text = FOUR_BAR.format(rod=0.1, rocker=0.25, phi=90, rule="above D")
+    drawing, links = drawn(text)
+    assert links == {"1"}
+    arcs = [i for i in drawing.items if isinstance(i, Stroke) and i.tag == "arc"]
+    assert len(arcs) == 2
+    part = largest_part(tomllib.loads(text), source="x", name="x")
+    # |BD| is greatest with the crank turned away from D: 0.6 m, for which 0.35 m are there.
+    assert "miss by 0.1599 m, by 0.25 m at the most over a turn (at phi = 180 deg)" in str(
+        part.trouble
+    )
+
+
+def test_the_range_of_a_crank_that_does_not_turn_fully_is_an_arc() -> None:
+    text = FOUR_BAR.format(rod=0.25, rocker=0.2, phi=20, rule="left of BD")
+    drawing, links = drawn(text)
+    (arc,) = (i for i in drawing.items if isinstance(i, Arc) and i.tag == "range")
+    assert links == {"1", "2", "3"}
+    # |BD| = l2 + l3 = 0.45 m at the ends.
+    at = 0.5**2 + 0.1**2 - 2 * 0.5 * 0.1 * cos(arc.end)
+    assert at == pytest.approx(0.45**2, abs=1e-9)
+
+
+def test_what_is_probably_not_meant_is_told() -> None:
+    slider = """
+[frame]
+A = [0, 0]
+guides.x-x = { through = [0, 150], angle = 0 }
+[links.1]
+points = ["A", "B"]
+AB = 64
+[links.2]
+points = ["B", "C"]
+BC = 100
+[links.3]
+points = ["C"]
+slides = { on = "x-x" }
+[driver]
+link = "1"
+phi = 60
+n = 36000
+[assembly]
+C = "right of B"
+"""
+    said = list(unlikely(loads(slider, name="x")))
+    assert [word in one for word, one in zip(("0.1 m?", "36000", "150 m"), said, strict=True)]
+    assert not list(unlikely(loads(EX3, name="x")))
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(cli, ["sketch", *words])
+
+
+def test_the_command_draws_and_says_what_is_wrong(tmp_path: Path) -> None:
+    half = tmp_path / "half.toml"
+    half.write_text(without(EX3, "DE"), encoding="utf-8")
+    result = run(str(half), "-o", str(tmp_path))
+    assert result.exit_code == ExitCode.PROBLEM
+    assert "links.4.points" in result.output
+    assert (tmp_path / "half-sketch.svg").stat().st_size > 1000
+    broken = tmp_path / "broken.toml"
+    broken.write_text("[frame\n", encoding="utf-8")
+    assert run(str(broken), "-o", str(tmp_path)).exit_code == ExitCode.PROBLEM
+    assert (tmp_path / "broken-sketch.svg").exists()
+    train = run("problems/gears/gears-ex1.toml", "-o", str(tmp_path))
+    assert train.exit_code == ExitCode.PROBLEM
+    assert "planmethod sheet" in train.output
+
+
+def test_a_watched_file_is_drawn_again_and_its_faults_stand_in_place_of_the_sheet(
+    tmp_path: Path,
+) -> None:
+    file, picture = tmp_path / "my.toml", tmp_path / "my.svg"
+    file.write_text(EX3, encoding="utf-8")
+    words = ["sheet", str(file), "--watch", "--format", "svg", "-o", str(tmp_path)]
+    with subprocess.Popen(
+        [sys.executable, "cli.py", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    ) as running:
+        try:
+            whole = _changed(picture, 0)
+            file.write_text(without(EX3, "DE"), encoding="utf-8")
+            fault = _changed(picture, whole)
+            assert fault < whole / 2
+            file.write_text(EX3, encoding="utf-8")
+            assert _changed(picture, fault) == whole
+        finally:
+            running.terminate()
+
+
+def _changed(picture: Path, size: int) -> int:
+    """Return the size of a file once it is another one."""
+    for _ in range(600):
+        if picture.exists() and picture.stat().st_size != size:
+            return picture.stat().st_size
+        time.sleep(0.05)
+    pytest.fail("nothing was drawn")

@@ -1,0 +1,114 @@
+"""The shipped tasks: index, texts to start from, and that each is solved and drawn."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from cases import each, some, thinned
+from click.testing import CliRunner, Result
+from worked import ROOT, every_task
+
+from benchmarks.tasks import document, index, index_text
+from planmethod.cli import cli
+from planmethod.kinds import load
+from planmethod.problem import Problem, variant_names
+from planmethod.problem.fields import Faults
+from planmethod.problem.source import parse
+from planmethod.problem.tasks import LINKAGE, Task, groups_of, home, tasks, text_for
+from planmethod.problem.variants import apply_variant, read_variants
+from planmethod.render.control.remarks import Severity
+from planmethod.render.sheets.controlled import controlled_kinematics
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.selfcheck import verify
+from planmethod.solved.solution import Solution
+
+TASKS = {task.name: task for task in tasks()}
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(cli, list(words))
+
+
+def test_the_index_and_the_documents_are_those_of_the_files() -> None:
+    """Written anew by make tasks; the pictures are compared with --thorough."""
+    fresh = index()
+    assert index_text(fresh) == (home() / "index.json").read_text("utf-8")
+    told = (ROOT / "docs" / "tasks.md").read_text("utf-8")
+    for task in fresh:
+        assert f"[{task.name}](../problems/{task.file})" in told
+    drawn = {f"{task.structure}.svg" for task in fresh if task.kind == LINKAGE}
+    assert {path.name for path in (ROOT / "docs" / "tasks").iterdir()} == drawn
+    if some(1, few=0):
+        for path, data in document(fresh).items():
+            assert (ROOT / path).read_bytes() == data
+
+
+@each("task", [task for task in TASKS.values() if task.variants])
+def test_a_variant_is_written_into_the_text(task: Task) -> None:
+    table = parse(task.text, name=task.file)
+    overrides = read_variants(Faults(), table)
+    for variant in thinned(task.variants, 3):
+        text = text_for(task, variant)
+        due = apply_variant(table, overrides[variant])
+        made = parse(text, name=task.file)
+        for written in (due, made):
+            written.pop("variants", None)
+            written.pop("published", None)
+        assert made == due
+        assert "#:schema" not in text
+        assert text.count("#") >= task.text.count("#") // 2  # the remarks stay
+
+
+@each("path", thinned(every_task(), 9))
+def test_tasks_are_solved_in_all_variants(path: Path) -> None:
+    for variant in (None, *variant_names(path)):
+        solution = Solution(load(path, variant=variant))
+        verify(solution)
+        if solution.problem.dynamics is not None:
+            assert statics_of(solution).si
+    text = path.read_text("utf-8")
+    assert re.search(r"задани[ея] № \d+|задача 2\.1\.\d+", text)
+    assert "# Определить" in text
+
+
+@each("path", thinned(every_task(), 35))
+def test_sheets_of_tasks_have_no_errors(path: Path) -> None:
+    """In one position and in several; with --thorough each variant, and all positions at once."""
+    names = variant_names(path)
+    problem = load(path)
+    own = [at for name in names for at in load(path, variant=name).drive.positions]
+    many = sorted(own or [problem.drive.positions[0] + step for step in (0, 5, 10)])
+    asked: list[tuple[Problem, list[float] | None]] = [
+        *((load(path, variant=name), None) for name in thinned((None, *names), 7)),
+        *((problem, row) for row in thinned((many[:3], many, many[:1]), 3)),
+    ]
+    for one, positions in asked:
+        for sheet in controlled_kinematics(one, positions=positions):
+            assert not [f for f in sheet.findings if f.severity is Severity.ERROR]
+
+
+def test_the_list_is_filtered_by_structure_and_words() -> None:
+    listed = run("tasks", "--group", "ВВВ+rpr").output
+    assert "levers-38" in listed
+    assert "levers-13" not in listed
+    found = json.loads(run("tasks", "--search", "кулиса плечо", "--json").stdout)["tasks"]
+    assert "levers-13" in [task["name"] for task in found]
+    assert all(set(task) >= {"title", "source", "groups", "variants"} for task in found)
+    assert len(json.loads(run("tasks", "--json").stdout)["tasks"]) == len(TASKS)
+    assert groups_of("RRR + PRR") == ("RRR", "RRP")
+    assert run("tasks", "--group", "RRX").exit_code == 2
+
+
+def test_a_task_is_written_to_start_from(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run("new", "levers-13", "my.toml", "--variant", "Б").exit_code == 0
+    mine = load(Path("my.toml"))
+    assert mine.drive.positions == (120,)
+    assert variant_names(Path("my.toml")) == ()
+    assert run("new", "linkages-2.1.20").exit_code == 0
+    assert load(Path("linkages-2.1.20.toml")).drive.positions == (30, 120, 180)
+    for words in (["levers-1300"], ["levers-13", "--variant", "Ё"], ["four-bar", "--variant", "Б"]):
+        assert run("new", *words).exit_code == 2
