@@ -34,6 +34,7 @@ LATE_OF = {
     "planmethod.note.records.machine": "machines",
     "planmethod.note.tables.balancing": "counterweights",
     "planmethod.note.tables.machine": "machines",
+    "planmethod.note.tables.turn": "the turn of a crank",
     "planmethod.problem.balancing": "counterweights",
     "planmethod.problem.dynamics": "forces",
     "planmethod.problem.machine": "machines",

@@ -13,11 +13,10 @@ import click
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
-from planmethod.kinds import Kind, KindProblem, kind_of
-from planmethod.kinds import load as load_linkage
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.options import Positions
     from planmethod.problem.model import Problem
     from planmethod.solved.solution import Solution
@@ -50,6 +49,7 @@ def guarded(command: F) -> F:
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
     """Read a problem file: one problem, or one for each variant."""
+    from planmethod.kinds import load as load_linkage
     from planmethod.problem.unlikely import unlikely
 
     found = []
@@ -95,6 +95,8 @@ def each(
     ExitCode
         Of the first error.
     """
+    from planmethod.kinds import kind_of
+
     codes: list[ExitCode] = []
 
     def problems() -> Iterator[Callable[[], None]]:
