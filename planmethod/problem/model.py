@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
-from fractions import Fraction
 from math import inf
 from typing import TYPE_CHECKING, Any
 
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
 
 

@@ -7,17 +7,47 @@ What every viewer draws alike is used and nothing else: presentation attributes 
 from __future__ import annotations
 
 import re
+import sys
 from cmath import exp
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from importlib import import_module
 from math import pi, tau
+from types import ModuleType
 from typing import Any
-
-import svgwrite
 
 from planmethod.render.backends.canvas import Canvas, Options, draw
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
+
+_SPARED = {
+    "urllib.request": ("urlopen",),
+    "svgwrite.data.svgparser": (
+        "is_valid_animation_timing", "is_valid_pathdata", "is_valid_transferlist",
+    ),
+}  # fmt: skip
+"""What svgwrite imports to open addresses and to check values: half of its time."""
+
+
+def _later(module: str, name: str) -> Callable[..., Any]:
+    """Return a function that is imported when it is first called."""
+    return lambda *args, **given: getattr(import_module(module), name)(*args, **given)
+
+
+def _svgwrite() -> Any:
+    """Import svgwrite, and what it spares here only when it is called."""
+    absent = [module for module in _SPARED if module not in sys.modules]
+    for module in absent:
+        sys.modules[module] = ModuleType(module)
+        vars(sys.modules[module]).update({n: _later(module, n) for n in _SPARED[module]})
+    try:
+        return import_module("svgwrite")
+    finally:
+        for module in absent:
+            del sys.modules[module]
+
+
+svgwrite = _svgwrite()
 
 _INKS = {Ink.BLACK: "#000000", Ink.WHITE: "#ffffff"}
 # XML 1.0 cannot hold these, not even as references.
