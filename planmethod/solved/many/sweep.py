@@ -330,7 +330,10 @@ class Sweep:
         from planmethod.construct.compiled.csource import c_source
         from planmethod.construct.compiled.native import Native, NotCompiledError
 
-        if self._native is not None or not self._may_look or self._blocks.dtype != np.float64:
+        if self._native is not None or not self._may_look:
+            return
+        if self._blocks.dtype != np.float64:
+            self.uncompiled = "single precision is NumPy's alone"
             return
         w = self._written
         try:
