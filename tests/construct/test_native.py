@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from construct.test_compiled import drawn
+from tapes import drawn
 from worked import path_of
 
-from benchmarks.generator import random_problem
 from planmethod.construct.compiled import native as native_module
 from planmethod.construct.compiled.blocks import Blocks
 from planmethod.construct.compiled.csource import BLOCK, WORD, c_source
@@ -105,10 +104,6 @@ def test_angles_are_good_to_the_last_place_and_exact_at_quadrants(
         assert np.abs(found - right).max() <= 2.3e-16 * np.abs(right).max()
     assert out[3, :3].tolist() == [180.0, 0.0, -90.0]
     assert np.abs(out[3] - theirs[3]).max() <= 6e-14
-
-
-def bored(seed: int) -> Problem:
-    return loads(random_problem(seed)[0], name="random")
 
 
 def agree(problem: Problem, positions: Any, **asked: Any) -> Sweep:

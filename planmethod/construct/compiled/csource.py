@@ -12,16 +12,23 @@ from typing import NamedTuple
 
 from planmethod.construct.compiled.straight import BINARY, used_by
 from planmethod.construct.compiled.symbolic import Guard
-from planmethod.construct.compiled.tape import Ref, Tape
+from planmethod.construct.compiled.tape import Ref, Tape, same
 
 BLOCK = 512
 """Positions between two looks at the margins."""
+
+STAGE = 200
+"""Operations of one loop. In a longer one more rows are written by turns than the memory takes."""
+
+WEIGHT = {"cosd": 30, "sind": 0, "atan2": 30}
+"""Operations that one of these comes to; a sine comes with its cosine."""
 
 WORD = 63
 """Guards in one word of the margins that do not hold."""
 
 _HEAD = """#include <math.h>
 #include <stdint.h>
+#include <string.h>
 #if defined(__clang__)
 #define INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
 #else
@@ -105,22 +112,8 @@ def c_source(
     results, guards, depends
         As of `Blocks`.
     """
-    lines = _Lines(tape)
-    needed = used_by(tape, [*results, *(guard.margin for guard in guards)])
-    lines.divisors = Counter(
-        tape.nodes[number].operands[1] for number in needed if tape.nodes[number].kind == "div"
-    )
-    for number in needed:
-        lines.write(number)
     words = -(-len(guards) // WORD)
-    for word in range(words):
-        said = [
-            f"({lines.name(guard.margin)} > {lines.name(float(guard.limit))} ? 0 : {_bits(1 << k)})"
-            for k, guard in enumerate(guards[word * WORD : (word + 1) * WORD])
-            if type(guard.margin) is int
-        ]
-        lines.text += [f"bad{word}[i] = {' | '.join(said) or 0};", f"any{word} |= bad{word}[i];"]
-    lines.text += [f"o{row}[i] = {lines.name(ref)};" for row, ref in enumerate(results)]
+    lines = _Lines(tape, results, guards)
     needs = [
         [_bits(sum(1 << g % WORD for g in one if g // WORD == word)) for word in range(words)]
         for one in depends
@@ -129,47 +122,106 @@ def c_source(
 
 
 class _Lines:
-    """Lines of the loop while it is written."""
+    """Lines of the loops while they are written."""
 
-    def __init__(self, tape: Tape) -> None:
+    def __init__(self, tape: Tape, results: Sequence[Ref], guards: Sequence[Guard]) -> None:
         self.tape = tape
-        self.text: list[str] = []
+        self.loops: list[list[str]] = []
         self.constants: dict[float, str] = {}
         self.inputs: list[int] = []
-        self.divisors: Counter[Ref] = Counter()
+        self.buffers = 0
+        self._home: dict[int, str] = {}  # where the next loops find a node
+        stages = _stages(tape, used_by(tape, [*results, *(guard.margin for guard in guards)]))
+        last = {ref: k for k, stage in enumerate(stages) for n in stage for ref in _used(tape, n)}
+        free: list[str] = []
+        for k, stage in enumerate(stages):
+            self._begin(stage)
+            for number in stage:
+                self._write(number)
+                for row in (row for row, ref in enumerate(results) if same(ref, number)):
+                    self._text.append(f"o{row}[i] = {self._name(number)};")
+                    self._home.setdefault(number, f"o{row}")
+                self._watch(number, guards)
+                if last.get(number, k) > k and number not in self._home:
+                    if not free:
+                        free.append(f"b{self.buffers}")
+                        self.buffers += 1
+                    self._home[number] = free.pop()
+                    self._text.append(f"{self._home[number]}[i] = {self._name(number)};")
+            free += [h for n, h in self._home.items() if last.get(n) == k and h[0] == "b"]
+        for row, ref in enumerate(results):
+            if type(ref) is float:
+                self._text.append(f"o{row}[i] = {self._name(ref)};")
+
+    def _begin(self, stage: Sequence[int]) -> None:
+        """Begin a loop: nothing is at hand."""
+        nodes = [self.tape.nodes[number] for number in stage]
+        self._divisors = Counter(node.operands[1] for node in nodes if node.kind == "div")
         self._said: dict[int, str] = {}
         self._turned: dict[str, int] = {}
         self._inverse: dict[str, str] = {}
+        self._text: list[str] = []
+        self.loops.append(self._text)
 
-    def name(self, ref: Ref) -> str:
+    def _name(self, ref: Ref) -> str:
         """Return what an operand is called; a constant is a parameter from now on."""
-        if type(ref) is int:
-            return self._said[ref]
-        return self.constants.setdefault(float(ref), f"k{len(self.constants)}")
+        if type(ref) is not int:
+            return self.constants.setdefault(float(ref), f"k{len(self.constants)}")
+        if ref not in self._said:
+            self._text.append(f"const double t{ref} = {self._home[ref]}[i];")
+            self._said[ref] = f"t{ref}"
+        return self._said[ref]
 
-    def write(self, number: int) -> None:
+    def _write(self, number: int) -> None:
         """Write an operation."""
         kind, refs = self.tape.nodes[number]
-        self._said[number] = f"t{number}"
         if kind == "input":
-            self.text.append(f"const double t{number} = x{len(self.inputs)}[i];")
+            self._home[number] = f"x{len(self.inputs)}"
             self.inputs.append(int(refs[0]))
             return
-        names = [self.name(ref) for ref in refs]
+        names = [self._name(ref) for ref in refs]
+        self._said[number] = f"t{number}"
         if kind in ("cosd", "sind"):
             if names[0] not in self._turned:
                 at = self._turned[names[0]] = len(self._turned)
-                self.text.append(f"double c{at}, s{at}; turn({names[0]}, &c{at}, &s{at});")
+                self._text.append(f"double c{at}, s{at}; turn({names[0]}, &c{at}, &s{at});")
             self._said[number] = f"{kind[0]}{self._turned[names[0]]}"
             return
         said = _expression(kind, names)
         # One division for all by the same divisor; constants are divided by before the loop.
-        if kind == "div" and (type(refs[1]) is float or self.divisors[refs[1]] > 1):
+        if kind == "div" and (type(refs[1]) is float or self._divisors[refs[1]] > 1):
             if names[1] not in self._inverse:
                 self._inverse[names[1]] = f"r{len(self._inverse)}"
-                self.text.append(f"const double {self._inverse[names[1]]} = 1.0 / {names[1]};")
+                self._text.append(f"const double {self._inverse[names[1]]} = 1.0 / {names[1]};")
             said = f"{names[0]} * {self._inverse[names[1]]}"
-        self.text.append(f"const double t{number} = {said};")
+        self._text.append(f"const double t{number} = {said};")
+
+    def _watch(self, number: int, guards: Sequence[Guard]) -> None:
+        """Note where a margin does not hold."""
+        for place, guard in enumerate(guards):
+            if same(guard.margin, number):
+                word, bit = divmod(place, WORD)
+                holds = f"{self._name(number)} > {self._name(float(guard.limit))}"
+                self._text.append(f"bad{word}[i] |= {holds} ? 0 : {_bits(1 << bit)};")
+
+
+def _used(tape: Tape, number: int) -> list[int]:
+    kind, refs = tape.nodes[number]
+    return [] if kind == "input" else [ref for ref in refs if type(ref) is int]
+
+
+def _stages(tape: Tape, needed: Sequence[int]) -> list[list[int]]:
+    """Cut operations into loops."""
+    stages: list[list[int]] = [[]]
+    weight = 0
+    for number in needed:
+        own = WEIGHT.get(tape.nodes[number].kind, 1)
+        if weight + own > STAGE:
+            stages.append([])
+            weight = 0
+        stages[-1].append(number)
+        weight += own
+    return stages
 
 
 def _bits(number: int) -> str:
@@ -180,23 +232,25 @@ def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
     """Put the loop into a function, and after it what is done where a margin does not hold."""
     rows = range(len(needs))
     own = [f"const double k{k} = k[{k}];" for k in range(len(lines.constants))]
-    own += [f"double b{k}[{BLOCK}];" for k in range(len(lines.inputs))]
+    own += [f"double e{k}[{BLOCK}];" for k in range(len(lines.inputs))]
+    own += [f"double b{k}[{BLOCK}];" for k in range(lines.buffers)]
     own += [f"uint64_t bad{w}[{BLOCK}];" for w in range(words)]
     here = [f"double *o{row} = out + {row} * f[3];" for row in rows]
-    here += [f"uint64_t any{w} = 0;" for w in range(words)]
+    here += [f"memset(bad{w}, 0, sizeof bad{w}); uint64_t any{w} = 0;" for w in range(words)]
     for k in range(len(lines.inputs)):
         address, variant, position = (f"f[{8 + 3 * k + j}]" for j in range(3))
         here += [
             f"const double *x{k} = (const double *){address} + v * {variant};",
             f"if ({position}) x{k} += first;",
-            f"else {{ for (long i = 0; i < n; i++) b{k}[i] = *x{k}; x{k} = b{k}; }}",
+            f"else {{ for (long i = 0; i < n; i++) e{k}[i] = *x{k}; x{k} = e{k}; }}",
         ]
     look = []
     if words:
         table = ", ".join(f"{{{', '.join(one)}}}" for one in needs)
         hit = " | ".join(f"(any{w} & need[{w}])" for w in range(words))
         here_too = " | ".join(f"(bad{w}[i] & need[{w}])" for w in range(words))
-        look = [
+        look = [f"for (long i = 0; i < n; i++) any{w} |= bad{w}[i];" for w in range(words)]
+        look += [
             f"if ({' | '.join(f'any{w}' for w in range(words))}) {{",
             f"    static const uint64_t needs[{len(needs)}][{words}] = {{{table}}};",
             f"    for (long row = 0; row < {len(needs)}; row++) {{",
@@ -210,6 +264,12 @@ def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
             first = f"failed[i] = (int16_t)({WORD * w} + __builtin_ctzll(bad{w}[i]));"
             look.append(f"        if (bad{w}[i]) {first}")
         look += ["    }", "}"]
+    loops = [
+        "INDEPENDENT\n        for (long i = 0; i < n; i++) {\n            "
+        + _joined(loop, 12)
+        + "\n        }"
+        for loop in lines.loops
+    ]
     return f"""{_HEAD}void run(const int64_t *f)
 {{
     const double *k = (const double *)f[7];
@@ -221,10 +281,7 @@ def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
         int16_t *failed = f[5] ? (int16_t *)f[5] + v * f[6] + first : 0;
         (void)out;
         {_joined(here, 8)}
-        INDEPENDENT
-        for (long i = 0; i < n; i++) {{
-            {_joined(lines.text, 12)}
-        }}
+        {_joined(loops, 8)}
         if (failed) for (long i = 0; i < n; i++) failed[i] = -1;
         {_joined(look, 8)}
     }}
