@@ -58,5 +58,6 @@ def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Ite
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PLANMETHOD_CONFIG", str(empty))
         patch.setenv("PLANMETHOD_NATIVE", "0")  # nor what a compiler left in a cache
+        patch.setenv("PLANMETHOD_LANG", "en")
         patch.setenv("PYTHONWARNINGS", "error")  # in processes that tests start, too
         yield

@@ -33,8 +33,9 @@ def _teller(solution: Solution, words: Language) -> MachineTeller:
     machine = solution.problem.machine
     if machine is None or (machine.motor is None and machine.brake is None):
         raise LayoutError(
-            f"{solution.problem.name}: a layout with a run-up needs a motor or a brake in "
-            "[machine]. For example: motor = { kloss = { M_max = 60, s_k = 0.2, n_sync = 150 } }."
+            "{}: a layout with a run-up needs a motor or a brake in [machine]. For "
+            "example: motor = {{ kloss = {{ M_max = 60, s_k = 0.2, n_sync = 150 }} }}.",
+            solution.problem.name,
         )
     return MachineTeller(drawing_of(flywheel_of(solution), solution.profile), words)
 
