@@ -65,14 +65,12 @@ def read_svg(data: bytes) -> Page:
     assert root.attrib["width"].endswith("mm")
     page = Page(float(root.attrib["width"][:-2]), float(root.attrib["height"][:-2]), [])
     defined = {f"#{part.attrib['id']}": part for part in root.find(f"{SVG}defs") or ()}
-    words = root.findall(f"{SVG}g[@class='words']//{SVG}tspan")
     drawn = root.findall(f"{SVG}g")[1]
     for group in drawn:
         said = {**drawn.attrib, **group.attrib}
         for element in group:
             if element.tag == f"{SVG}use":
-                text = words.pop(0).text or ""
-                page.items.append(_svg_run(element, height, defined, text))
+                page.items.append(_svg_run(element, height, defined))
                 continue
             if element.tag == f"{SVG}circle":
                 centre = complex(float(element.attrib["cx"]), height - float(element.attrib["cy"]))
@@ -86,11 +84,10 @@ def read_svg(data: bytes) -> Page:
             path.grey = int(colour[1:3], 16) / 255
             path.width = 0.0 if path.filled else float(said["stroke-width"])
             page.items.append(path)
-    assert not words
     return page
 
 
-def _svg_run(element: ET.Element, height: float, defined: dict[str, ET.Element], text: str) -> Run:
+def _svg_run(element: ET.Element, height: float, defined: dict[str, ET.Element]) -> Run:
     number = r"(-?[\d.]+)"
     run = defined[element.attrib[f"{XLINK}href"]]
     found = re.fullmatch(
@@ -99,8 +96,9 @@ def _svg_run(element: ET.Element, height: float, defined: dict[str, ET.Element],
     assert found, run.attrib["transform"]
     turn, unit, unit_y = (float(part or 0) for part in found.groups())
     assert unit == unit_y
-    for use in run:
-        assert use.attrib[f"{XLINK}href"] in defined
+    letters = [use.attrib[f"{XLINK}href"] for use in run]
+    assert set(letters) <= set(defined)
+    text = "".join(chr(int(name[2:], 16)) for name in letters if name != "#none")
     at = complex(float(element.attrib["x"]), height - float(element.attrib["y"]))
     return Run(at, in_use().units_per_em * unit, -turn, text)
 

@@ -14,7 +14,7 @@ from cmath import exp
 from collections.abc import Iterable, Sequence
 from importlib import import_module
 from itertools import pairwise
-from math import pi, tau
+from math import pi, radians, tau
 from types import ModuleType
 from typing import Any
 from zlib import crc32
@@ -23,6 +23,7 @@ from planmethod.render.backends.canvas import Canvas, Options, draw
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
+from planmethod.render.ink.typeset import PART_OF
 
 _INKS = {Ink.BLACK: "#000000", Ink.WHITE: "#ffffff"}
 _LINES = {
@@ -65,11 +66,10 @@ def _clean(text: str) -> str:
 
 
 def _number(value: float, places: int = 3) -> str:
-    """Write a number plainly: no exponent, no trailing zeros, no minus zero."""
-    text = f"{value:.{places}f}"
-    if "." in text:
-        text = text.rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    """Write a number plainly: no exponent, no zeros at its ends, no minus zero."""
+    text = f"{value:.{places}f}".rstrip("0").rstrip(".")
+    sign, digits = ("-", text[1:]) if text[0] == "-" else ("", text)
+    return "0" if digits == "0" else sign + digits.removeprefix("0")
 
 
 class SvgCanvas(Canvas):
@@ -79,12 +79,13 @@ class SvgCanvas(Canvas):
         self._height = 0.0
         self._letters: set[str] = set()
         self._runs: dict[str, Any] = {}
+        self._keys: dict[str, str] = {}
         self._sheet: Any = None
         self._drawn: Any = None
         self._group: Any = None
         self._group_key = ""
         self._words: Any = None
-        self._label = ""
+        self._written: list[Text] = []
         self._headings: list[str] = []
         self._lettering: OutlineLettering
 
@@ -102,7 +103,7 @@ class SvgCanvas(Canvas):
         self._title = _clean(title)
         self._sheet.add(self._sheet.rect((0, 0), (w, h), class_="paper", fill=white, stroke="none"))
         self._words = self._sheet.add(
-            self._sheet.g(class_="words", fill=white, pointer_events="all")
+            self._sheet.g(class_="words", fill=white, pointer_events="all", font_size="5")
         )
         self._drawn = self._sheet.add(self._sheet.g(**_LINES))
 
@@ -111,10 +112,9 @@ class SvgCanvas(Canvas):
 
     def _way(self, points: Sequence[complex]) -> str:
         """Return a polyline: where it starts, and its steps between places in thousandths of mm."""
-        places = [(round(1e3 * p.real), round(1e3 * (self._height - p.imag))) for p in points]
-        steps = (f"{(c - a) / 1e3:.7g} {(d - b) / 1e3:.7g}" for (a, b), (c, d) in pairwise(places))
-        start = " ".join(f"{value / 1e3:.7g}" for value in places[0])
-        return f"M{start}l{' '.join(steps)}".replace(" -", "-")
+        places = [(round(p.real, 3), round(self._height - p.imag, 3)) for p in points]
+        steps = (f"{_number(c - a)} {_number(d - b)}" for (a, b), (c, d) in pairwise(places))
+        return f"M{self._xy(points[0])}l{' '.join(steps)}".replace(" -", "-")
 
     def _in_group(self, key: str, **attributes: str) -> Any:
         """Return the group of the items drawn now; items in a row of one kind share it."""
@@ -134,7 +134,7 @@ class SvgCanvas(Canvas):
 
     @staticmethod
     def _add(group: Any, element: Any, tag: str) -> None:
-        if tag:
+        if tag and not tag.startswith(PART_OF):
             element["data-tag"] = _clean(tag)
         group.add(element)
 
@@ -177,17 +177,21 @@ class SvgCanvas(Canvas):
     def text(self, item: Text) -> None:
         """Place the strokes of a run, and under everything its text."""
         line = _number(self._lettering.line * self._lettering.cap_height)
-        x, y = self._xy(item.at).split()
+        x, y = _number(item.at.real, 2), _number(self._height - item.at.imag, 2)
         run = self._sheet.use(f"#{self._run(item)}", x=x, y=y)
         self._add(self._in_group("text", stroke_width=line), run, item.tag)
-        self._write(item)
+        if not item.label or (self._written and item.label != self._written[-1].label):
+            self._write()
+        self._written.append(item)
 
     def _run(self, item: Text) -> str:
         """Return the name of a run of letters, which is put together once, wherever it stands."""
         key = f"{item.text} {item.height} {item.angle}"
         name = f"t{crc32(key.encode(errors='replace')):x}"
+        while self._keys.setdefault(name, key) != key:
+            name += "x"
         if name not in self._runs:
-            unit = _number(item.height / self._lettering.cap_height, 9)
+            unit = _number(item.height / self._lettering.cap_height, 8)
             turn = f"rotate({_number(-item.angle, 4)})" if item.angle else ""
             self._runs[name] = run = self._sheet.g(id=name)
             run["transform"] = f"{turn}scale({unit}-{unit})"
@@ -198,27 +202,36 @@ class SvgCanvas(Canvas):
                     run.add(self._sheet.use(f"#{self._glyph_id(char)}", **place))
         return name
 
-    def _write(self, item: Text) -> None:
-        """Write a run as text as wide as it is drawn; the runs of an inscription are one text."""
-        letters, em = _clean(item.text), self._lettering.em(item.height)
-        x, y = _number(item.at.real, 1), _number(self._height - item.at.imag, 1)
-        if item.angle or not item.label or item.label != self._label:
-            text = self._words.add(self._sheet.text("", font_size=_number(em, 1)))
-            if item.angle:
-                text["transform"] = f"rotate({_number(-item.angle, 4)} {x} {y})"
-            elif item.height >= _HEADING and len(letters) > _LETTERS and not item.tag:
-                self._headings.append(letters)
-        self._label = item.label
-        run = self._words.elements[-1].add(self._sheet.tspan(letters, x=[x], y=[y]))
+    def _write(self) -> None:
+        """Write the runs of an inscription as one text, as long as they are."""
+        if not self._written:
+            return
+        first, letters = self._written[0], _clean("".join(run.text for run in self._written))
+        along = exp(-1j * radians(first.angle))
+        length = max(
+            ((run.at - first.at) * along).real + self._lettering.width(run.text, run.height)
+            for run in self._written
+        )
+        x, y = _number(first.at.real, 1), _number(self._height - first.at.imag, 1)
+        text = self._words.add(self._sheet.text(letters, x=[x], y=[y]))
+        size = _number(self._lettering.em(first.height), 1)
+        if size != self._words["font-size"]:
+            text["font-size"] = size
         if len(letters) > 1:
-            run["textLength"] = _number(self._lettering.width(item.text, item.height), 1)
+            text["textLength"] = _number(length, 1)
+        if first.angle:
+            text["transform"] = f"rotate({_number(-first.angle, 4)} {x} {y})"
+        elif first.height >= _HEADING and len(letters) > _LETTERS and not first.tag:
+            self._headings.append(letters)
+        self._written.clear()
 
     def close(self) -> bytes:
         """Return the file, with the letters and runs that occur."""
+        self._write()
         for part in self._defined():
             self._sheet.defs.add(part)
         self._sheet.set_desc(title=self._title, desc="; ".join(self._headings) or None)
-        text: str = self._sheet.tostring()
+        text = str(self._sheet.tostring()).replace(" />", "/>")
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + text.encode("utf-8") + b"\n"
 
     def parts(self, items: Iterable[Item]) -> str:
