@@ -10,13 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.audit.audit import Audited
     from planmethod.problem.fields import Faults
-    from planmethod.problem.model import Geared, Problem, SheetSettings
+    from planmethod.problem.figures import Figures
+    from planmethod.problem.model import AskedAnswer, Geared, Problem, SheetSettings
     from planmethod.render.ink.drawing import Drawing
     from planmethod.solved.part import Part
     from planmethod.solved.scaling import Views
@@ -29,14 +31,19 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     ------
     ProblemError
     """
-    problem: Problem = _of("planmethod.problem", "load")(path, variant=variant, train=_driven)
-    return problem
+    return _posed(_of("planmethod.problem", "load")(path, variant=variant, train=_driven))
 
 
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     """Read the same from a text; ``name`` stands for the stem of the file."""
     read = _of("planmethod.problem", "loads")
-    problem: Problem = read(text, name=name, variant=variant, train=_driven)
+    return _posed(read(text, name=name, variant=variant, train=_driven))
+
+
+def _posed(problem: Problem) -> Problem:
+    """Return a problem with the positions that its output tells."""
+    if problem.drive.posed is not None:
+        problem = _of("planmethod.solved.turn.posed", "pose")(problem)
     return problem
 
 
@@ -54,8 +61,15 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
     except ProblemError as error:
         part: Part = _of("planmethod.solved.part", "Part")(None, faults=error.faults, trouble=error)
         return "", part
+    faults = _of("planmethod.problem.fields", "Faults")()
     part = _of("planmethod.solved.part", "largest_part")(
-        table, source=str(path), name=path.stem, variant=variant, train=_driven, views=views
+        _of("planmethod.problem.table", "with_table")(faults, table, path.parent),
+        source=str(path),
+        name=path.stem,
+        variant=variant,
+        train=_driven,
+        views=views,
+        posed=_posed,
     )
     title = table.get("title")
     return title if isinstance(title, str) else "", part
@@ -95,6 +109,10 @@ class KindProblem(Protocol):
         """Texts of the title block."""
 
     @property
+    def answers(self) -> tuple[AskedAnswer, ...]:
+        """What students are asked for."""
+
+    @property
     def sheet(self) -> SheetSettings:
         """Paper, lettering and language of its sheets."""
 
@@ -112,11 +130,16 @@ class Kind:
         ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
         ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
         before, total)`` and ``protocol_text(problem, lang, profile)``; of printed values
-        ``audited(problem, ruler)``. It is imported when one of them is called.
+        ``audited(problem, ruler)``;
+        of what students are asked for ``asked_of(problem)``. It is imported when one of them is
+        called.
+    scales : str
+        Where its file has the scales.
     """
 
     table: str
     package: str
+    scales: str = "[scales]"
 
     def load(self, path: Path, variant: str | None) -> KindProblem:
         """Read a problem file."""
@@ -187,12 +210,24 @@ class Kind:
         told: list[Audited] = self._asked("audited", problem)(problem, ruler)
         return told
 
+    def figures(self, problem: KindProblem) -> Figures:
+        """Return what students can be asked for.
+
+        Raises
+        ------
+        ProblemError
+            Answers to such problems are not checked.
+        """
+        asked: Figures = self._asked("asked_of", problem)(problem)
+        return asked
+
     def _asked(self, name: str, problem: KindProblem) -> Any:
         """Return a function that not every kind has."""
         if not hasattr(import_module(self.package), name):
-            what = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}[name]
+            called = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}
+            what = called.get(name, "checking of answers")
             fault = Fault(
-                self.table, f"such a problem has no {what}; its numbers: planmethod solve"
+                self.table, say("such a problem has no {}; its numbers: planmethod solve", what)
             )
             raise ProblemError(problem.name, [fault])
         return self._function(name)
@@ -202,7 +237,7 @@ class Kind:
 
 
 KINDS = (
-    Kind("gears", "planmethod.gears"),
+    Kind("gears", "planmethod.gears", "gears.picture.mu_l"),
     Kind("point", "planmethod.moving"),
     Kind("meshing", "planmethod.gears.involute"),
 )

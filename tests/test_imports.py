@@ -87,7 +87,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
         ),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
         (
-            (("live", EX3),),
+            (("live", EX3), ("animate", EX3, "--format", "svg", "--frames", "8")),
             {"numpy", "svgwrite"},
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL"},
         ),
@@ -101,7 +101,6 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
                 ("solve", EX3, "--ask", "v_E"),
                 ("protocol", EX3),
                 ("synthesize", "slotted", "--K_v", "1.22", "--centres", "1.08"),
-                ("solve", TRAIN, "--json"),
                 ("solve", MESHING),
                 ("protocol", MESHING),
                 ("teeth", "--U", "6.5"),
@@ -110,6 +109,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {*ALL, *FONTS} - {"numpy"},
         ),
         ((("structure", EX3, "--json"),), set(), {*ALL, *FONTS} - {"numpy"}),
+        ((("solve", TRAIN, "--json"),), set(), {*ALL, *FONTS}),
         (
             (
                 ("structure", EX3, "--no-drawing"),

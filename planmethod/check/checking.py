@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from planmethod.check.calculation import Calculation, Numbers
 from planmethod.check.diagnosis import diagnose
 from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
 from planmethod.check.key import entry_of
@@ -33,6 +34,7 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
         What the others of the group were asked, where the problem file asks nothing.
     """
     found: dict[int, list[tuple[Written, Item]]] = {}
+    numbers: dict[int, int] = {}
     judged: dict[int, Judged] = {}
     for number, written in enumerate(work.answers):
         name = written.id or written.what
@@ -41,13 +43,14 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
         except UnansweredError:
             judged[number] = Judged(name, Verdict.UNREADABLE, written=written)
             continue
-        if written.unreadable:
-            judged[number] = _unjudged(task, item, Verdict.UNREADABLE, written)
+        read = task.written(item, written)
+        if read.unreadable:
+            judged[number] = _unjudged(task, item, Verdict.UNREADABLE, read)
         elif written.is_blank:
             judged[number] = _unjudged(task, item, Verdict.BLANK, written)
         else:
-            found.setdefault(item.position, []).append((written, item))
-    numbers = {id(written): number for number, written in enumerate(work.answers)}
+            found.setdefault(item.position, []).append((read, item))
+            numbers[id(read)] = number
     diagnosis: list[Diagnosis] = []
     examined: list[Examined] = []
     for position, here in sorted(found.items()):
@@ -59,11 +62,16 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
                 ready.append(examine(task, sheet, item, written))
             except UnusableError:
                 judged[numbers[id(written)]] = _unjudged(task, item, Verdict.UNREADABLE, written)
-        replay(task, sheet, ready)
-        decide(sheet, ready, task.settings.near)
-        diagnosis += diagnose(task, sheet, ready)
+        if isinstance(sheet, Numbers) and isinstance(task, Calculation):
+            diagnosis += task.judge(sheet, ready)
+        else:
+            replay(task, sheet, ready)
+            decide(sheet, ready, task.settings.near)
+            diagnosis += diagnose(task, sheet, ready)
         for one in ready:
-            judged[numbers[id(one.written)]] = _judged(task, sheet, one)
+            number = numbers[id(one.written)]
+            told = _judged(task, sheet, one)
+            judged[number] = replace(told, written=work.answers[number])
         examined += ready
     answers = [judged[number] for number in sorted(judged)]
     given = {(answer.key.id, answer.key.position) for answer in answers if answer.key}
@@ -98,6 +106,8 @@ def _scales(
 ) -> dict[str, float]:
     """Return his scales; one that he does not tell is found from a value beside its millimetres."""
     scales = {name: mu for name, mu in work.scales.items() if name in SCALED}
+    if isinstance(task, Calculation):
+        return scales
     given = task.solution.problem.scales
     for written, item in here:
         question = item.question

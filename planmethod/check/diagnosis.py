@@ -65,7 +65,7 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
         if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
             return [_alone(sheet, alone, many=False)]
     if whole is not None:
-        return [_passed_on(task, sheet, found, whole)]
+        return [passed_on(task, sheet, found, whole)]
     return _one_by_one(task, sheet, found, wrong, facts, own)
 
 
@@ -217,7 +217,7 @@ def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: Numbers) -> Ite
 # What follows --------------------------------------------------------------------------------
 
 
-def _passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fit]) -> Diagnosis:
+def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fit]) -> Diagnosis:
     """Return the diagnosis of a whole sheet, with what follows from its mistake inherited."""
     best = fits[0].explanation
     codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
@@ -255,7 +255,7 @@ def _places(explanation: Explanation) -> dict[str, complex]:
     sheet = explanation.sheet
     return {
         name: point(explanation.trace.value[name]) * sheet.scales[FACTS[plan.kind].scale]
-        for plan in sheet.questions.construction.plans
+        for plan in sheet.plans
         for name in plan.letters
         if name in explanation.trace.value
     }
@@ -285,7 +285,7 @@ def _rank(sheet: Sheet, one: Examined) -> tuple[int, bool, int]:
     """Return how early on the plans an answer is found: by the last point that it needs."""
     name = one.slot
     if name is None:
-        return (len(sheet.order), True, 0)
+        return (len(sheet.order), bool(one.parents), 0)
     return (_last_point(sheet, name), one.item.question.selector.kind in RATES, sheet.order[name])
 
 
@@ -333,7 +333,7 @@ def _one_by_one(
         plain = [explained.fit(e, kept, own) for e in explained.nearest(kept, 2)]
         rivals = {p.explanation.code for p in plain if p.score < fit.score + CLEARLY}
         if fit.likely and rivals <= {explanation.code}:
-            diagnoses.append(_passed_on(task, sheet, gained, [fit]))
+            diagnoses.append(passed_on(task, sheet, gained, [fit]))
             left = [one for one in left if one not in gained]
             break
     left = [one for one in left if one.verdict is Verdict.WRONG]

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check, unknown_variant
 from planmethod.check.key import Key, key_of_task
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Checked, Work
 from planmethod.check.task import Item, Task
-from planmethod.kinds import load
+from planmethod.kinds import kind_of, load
 from planmethod.problem import variant_names
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
@@ -46,9 +47,14 @@ class Variants:
             When the problem cannot be solved.
         """
         if name not in self._tasks:
-            solution = Solution(load(self.path, variant=name))
-            _ = solution.si
-            self._tasks[name] = Task(solution, self.settings, self._all)
+            kind = kind_of(self.path)
+            if kind is not None:
+                problem = kind.load(self.path, name)
+                self._tasks[name] = Calculation(kind, problem, self.settings, self._all)
+            else:
+                solution = Solution(load(self.path, variant=name))
+                _ = solution.si
+                self._tasks[name] = Task(solution, self.settings, self._all)
         return self._tasks[name]
 
     def _all(self) -> Iterator[Task]:

@@ -179,9 +179,8 @@ def _in_mm(sheet: Sheet, item: Item, written: Written) -> tuple[float, float]:
 def _told(sheet: Sheet, item: Item, mm: float) -> float | None:
     """Return what a length on his plan makes of the answer; None where only he knows."""
     question = item.question
-    if question.selector.kind in RATES or question.unit != (
-        FACTS[question.plan].unit if question.plan else ""
-    ):
+    plan = question.plan
+    if plan is None or question.selector.kind in RATES or question.unit != FACTS[plan].unit:
         length = sheet.length(question)
         return abs(sheet.exact[question.id]) * mm / length if length else None
     return mm * sheet.scales[question.scale]

@@ -13,6 +13,7 @@ from planmethod.check.sense import sense_of
 from planmethod.check.sheet import Sheet, scalar
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
+from planmethod.kinds import KindProblem
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
@@ -24,7 +25,7 @@ class Key:
 
     Attributes
     ----------
-    problem : Problem
+    problem : Problem or KindProblem
     variant : str or None
     entries : tuple of KeyEntry
     scales : mapping of str to float
@@ -33,7 +34,7 @@ class Key:
         Mistakes that none of the answers can show, and the places where they can be made.
     """
 
-    problem: Problem
+    problem: Problem | KindProblem
     variant: str | None
     entries: tuple[KeyEntry, ...]
     scales: Mapping[str, float]
@@ -63,7 +64,7 @@ def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
         shown: dict[str, set[str]] = {item.id: set() for item in here}
         codes: dict[str, None] = {}
         dark: set[tuple[str, str]] = set()
-        for explanation in task.explanations(sheet).named:
+        for explanation in task.named(sheet):
             code = explanation.code
             codes[code] = None
             visible = False
@@ -84,7 +85,7 @@ def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
     for code, where in (*(place for place in every if place in (unseen or ())), *alike):
         hidden[code] = (*hidden.get(code, ()), where)
     return Key(
-        task.solution.problem,
+        task.problem,
         task.variant,
         tuple(entries[item.position, item.id] for item in chosen),
         scales,
@@ -152,6 +153,8 @@ def rich(letters: str) -> str:
 def segment_of(task: Task, item: Item) -> str:
     """Return the letters of the segment of an item: ``p-b3``; empty where it has none."""
     length = item.question.length
+    if length is None:
+        return ""
     for segment in task.solution.construction.segments:
         if length in (segment.length, segment.drawn):
             return segment.name

@@ -22,6 +22,7 @@ from planmethod.construct.dual import Dual, angle, as_dual
 from planmethod.construct.evaluate import Put, Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
+from planmethod.plans.model import Plan
 from planmethod.plans.segments import Ends
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
@@ -115,6 +116,11 @@ class Sheet:
         if questions.statics is not None:
             free |= {str(start) for start in questions.statics.board.starts}
         return frozenset(free)
+
+    @property
+    def plans(self) -> tuple[Plan, ...]:
+        """Plans that it has."""
+        return self.questions.construction.plans
 
     # Exact -----------------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
 
-from planmethod.check.explain import Explanations
+from planmethod.check.explain import Explanation, Explanations
 from planmethod.check.forms import Forms
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
@@ -14,8 +14,9 @@ from planmethod.check.model import Written
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.construct.drafting import PROFILES
+from planmethod.kinds import KindProblem
 from planmethod.plans.forces.board import SCALE
-from planmethod.problem.model import AskedAnswer, AskedSense
+from planmethod.problem.model import AskedAnswer, AskedSense, Problem
 from planmethod.problem.selector import is_force, parse_selector
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
@@ -73,6 +74,7 @@ class Task:
         others: Callable[[], Iterable[Task]] | None = None,
     ) -> None:
         self.solution, self.settings = solution, settings
+        self.problem: Problem | KindProblem = solution.problem
         self.variant = solution.problem.variant
         self._others = others
         self._questions: dict[int, Questions] = {}
@@ -199,6 +201,10 @@ class Task:
             )
         raise UnansweredError(why)
 
+    def written(self, item: Item, written: Written) -> Written:
+        """Return an answer as it is judged, in the unit of its key."""
+        return written
+
     # Sheets ----------------------------------------------------------------------------------
 
     def scales(self, own: Mapping[str, float], position: int) -> dict[str, float]:
@@ -238,6 +244,10 @@ class Task:
             return None
         sheet = other.sheet(position)
         return sheet if set(self._asked.get(position, {})) <= set(sheet.exact) else None
+
+    def named(self, sheet: Sheet) -> list[Explanation]:
+        """Return the mistakes of a sheet that have a name, each with what it gives."""
+        return self.explanations(sheet).named
 
     def explanations(self, sheet: Sheet) -> Explanations:
         """Return the mistakes that can be made on a sheet."""

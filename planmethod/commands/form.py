@@ -7,16 +7,19 @@ from typing import TYPE_CHECKING
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.languages import say
 from planmethod.options import lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
 
 MOST_STUDENTS = 500
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @out_option
 @click.option(
@@ -46,19 +49,26 @@ def form(
     The cells of the answers alone can be written in; senses and units are chosen from lists, and
     mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
     """
+    from planmethod.check.calculation import Calculation
     from planmethod.check.form import fingerprint_of, form_of
-    from planmethod.check.key import key_of
+    from planmethod.check.key import Key, key_of, key_of_task
+    from planmethod.check.marks import DEFAULT
     from planmethod.render.backends.output import write
     from planmethod.solved.solution import Solution
 
     if students is not None and names is not None:
-        raise click.UsageError("give --students or --names, not both")
+        raise click.UsageError(say("give --students or --names, not both"))
     who = [str(number) for number in range(1, (students or 0) + 1)]
     if names is not None:
         who = _read_names(names)
 
+    def make_other(kind: Kind, problem: KindProblem) -> None:
+        write_forms(problem, key_of_task(Calculation(kind, problem, DEFAULT)))
+
     def make(problem: Problem) -> None:
-        key = key_of(Solution(problem))
+        write_forms(problem, key_of(Solution(problem)))
+
+    def write_forms(problem: Problem | KindProblem, key: Key) -> None:
         fingerprint = fingerprint_of(problem)
         for number, student in enumerate(who or [""], 1):
             tail = f"-{number:0{len(str(len(who)))}}" if who else ""
@@ -75,7 +85,7 @@ def form(
             write(path, data)
             click.echo(str(path))
 
-    finish(each(problems, variant, all_variants, make))
+    finish(each(problems, variant, all_variants, make, make_other))
 
 
 def _read_names(path: Path) -> list[str]:
@@ -86,5 +96,7 @@ def _read_names(path: Path) -> list[str]:
     lines = decoded(read_bytes(path), path).splitlines()
     found = [" ".join(line.split()) for line in lines if line.strip()]
     if not 0 < len(found) <= MOST_STUDENTS:
-        raise click.UsageError(f"{path}: {len(found)} names; 1 to {MOST_STUDENTS} are expected")
+        raise click.UsageError(
+            say("{}: {} names; 1 to {} are expected", path, len(found), MOST_STUDENTS)
+        )
     return found

@@ -16,11 +16,13 @@ from planmethod.gears.text import solved_text, structure_text
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.gears.figures import TrainFigures
     from planmethod.gears.model import GearProblem
     from planmethod.note.audit.audit import Audited
     from planmethod.render.ink.drawing import Drawing
 
 __all__ = [
+    "asked_of",
     "audited",
     "drawings",
     "driven",
@@ -59,3 +61,10 @@ def audited(problem: GearProblem, ruler: float) -> list[Audited]:
     from planmethod.gears.audit import audited as compare
 
     return compare(problem, ruler)
+
+
+def asked_of(problem: GearProblem) -> TrainFigures:
+    """Return what students can be asked for."""
+    from planmethod.gears.figures import TrainFigures
+
+    return TrainFigures(problem)

@@ -10,15 +10,12 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.gears.conditions import RING_LESS
+from planmethod.gears.conditions import RING_LESS, SIN2, ring_room
 from planmethod.gears.model import MeshKind
 
 Ints = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
 Reals = npt.NDArray[np.float64]
-
-SIN2 = math.sin(math.radians(20)) ** 2
-"""Of the pressure angle of the standard rack."""
 
 LARGEST = 400
 """Largest number of teeth that a bound may name: above it a search takes longer than a second."""
@@ -271,9 +268,10 @@ def _meshes(kind: MeshKind, one: Ints, other: Ints) -> Mask:
     wheel, the ring is ``one`` or ``other``, whichever is larger.
     """
     small, large = np.minimum(one, other), np.maximum(one, other)
-    squared = small**2 * SIN2 - 4
+    room: Reals
+    squared: Reals
+    room, squared = ring_room(small)
     if kind is _IN:
-        room = 2 * small * SIN2 - 4
         return (large - small >= RING_LESS) & (room > 0) & (large * room >= squared)
     room = 4 - 2 * small * SIN2
     return (room <= 0) | (large * room <= squared)

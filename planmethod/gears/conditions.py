@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
@@ -16,6 +17,9 @@ LEAST_TEETH = 17
 
 RING_LESS = 8
 """Least difference of teeth in an internal mesh."""
+
+SIN2 = math.sin(math.radians(20)) ** 2
+"""Of the pressure angle of the standard rack."""
 
 MOST_SATELLITES = 24
 
@@ -194,6 +198,16 @@ def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
     return count == 1 or math.sin(math.pi / count) > float((size + 2) / distance)
 
 
+def ring_room(small: Any) -> tuple[Any, Any]:
+    """Return the lower and the upper part of the least teeth of a ring around a standard wheel.
+
+    z₃ ≥ (z₂² sin²α − 4)/(2 z₂ sin²α − 4): the tip of the ring stays short of where the line of
+    action touches the base circle of the wheel. Where the lower part is not positive, with up to
+    17 teeth of the wheel, there is no such ring.
+    """
+    return 2 * small * SIN2 - 4, small**2 * SIN2 - 4
+
+
 # Teeth -------------------------------------------------------------------------------------------
 
 
@@ -206,9 +220,12 @@ def _teeth(motion: Motion) -> Iterator[Condition]:
         if mesh.kind is MeshKind.INTERNAL:
             small, ring = sorted((mesh.first, mesh.second), key=lambda label: sizes[label])
             rings.add(ring)
-            less = sizes[ring] - sizes[small]
-            said = {"ring": ring, "wheel": small, "less": _shown(less), "least": str(RING_LESS)}
-            yield Condition("interference", less >= RING_LESS, said)
+            less, least = sizes[ring] - sizes[small], Fraction(RING_LESS)
+            room, reach = ring_room(float(sizes[small]))
+            if room > 0 and not (train.wheels[small].shift or train.wheels[ring].shift):
+                least = max(least, math.ceil(reach / room - 1e-9) - sizes[small])
+            said = {"ring": ring, "wheel": small, "less": _shown(less), "least": _shown(least)}
+            yield Condition("interference", less >= least, said)
     spur = {
         label
         for mesh in train.meshes

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
-from planmethod.problem.model import Published, SheetSettings
+from planmethod.problem.model import AskedAnswer, Published, SheetSettings
 
 
 class MeshKind(Enum):
@@ -183,4 +183,5 @@ class GearProblem:
     sheet: SheetSettings
     train: Train
     published: tuple[Published, ...]
+    answers: tuple[AskedAnswer, ...] = ()
     variant: str | None = None

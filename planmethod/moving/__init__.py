@@ -15,11 +15,12 @@ from planmethod.moving.text import solved_text
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.moving.figures import PointFigures
     from planmethod.moving.model import PointProblem
     from planmethod.note.audit.audit import Audited
     from planmethod.render.ink.drawing import Drawing
 
-__all__ = ["audited", "drawings", "load", "protocol_text", "record", "solved_text"]
+__all__ = ["asked_of", "audited", "drawings", "load", "protocol_text", "record", "solved_text"]
 
 
 def drawings(
@@ -48,3 +49,10 @@ def audited(problem: PointProblem, ruler: float) -> list[Audited]:
     from planmethod.moving.audit import audited as compare
 
     return compare(problem, ruler)
+
+
+def asked_of(problem: PointProblem) -> PointFigures:
+    """Return what students can be asked for."""
+    from planmethod.moving.figures import PointFigures
+
+    return PointFigures(problem)

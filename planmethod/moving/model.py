@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.moving.formula import Formula
-from planmethod.problem.model import Published, Scales, SheetSettings
+from planmethod.problem.model import AskedAnswer, Published, Scales, SheetSettings
 
 
 class Law(Enum):
@@ -90,5 +90,6 @@ class PointProblem:
     stamp: Mapping[str, str]
     sheet: SheetSettings
     published: tuple[Published, ...]
+    answers: tuple[AskedAnswer, ...] = ()
     variants: tuple[str, ...] = ()
     variant: str | None = None

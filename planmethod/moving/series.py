@@ -13,7 +13,8 @@ import numpy as np
 
 from planmethod.construct.jet import Jet
 from planmethod.moving.bounded import ELEMENTARY, ROUNDOFF, Bounded, Reals, bounded
-from planmethod.moving.formula import Formula, Kind
+from planmethod.moving.formula import Formula
+from planmethod.problem.formula import Kind
 
 Derivatives = tuple[Any, Any, Any, Any]
 """A function and its first three derivatives, at given values."""
@@ -49,7 +50,7 @@ def evaluate(formula: Formula, times: Reals, *, blur: Reals | float = 0.0) -> Je
                     stack.append((-jet, is_constant))
                 case Kind.CALL:
                     jet, is_constant = stack.pop()
-                    stack.append((CALLS[operation.name](jet), is_constant))
+                    stack.append(({**CALLS, **DEGREES}[operation.name](jet), is_constant))
                 case _:
                     (right, of_right), (left, of_left) = stack.pop(), stack.pop()
                     made = _joined(operation.kind, left, right, steady=of_right)
@@ -128,6 +129,14 @@ def _cos(x: Any) -> Derivatives:
     return c, -s, -c, s
 
 
+def _sin_deg(x: Any) -> Derivatives:
+    return _sin(np.radians(x))
+
+
+def _cos_deg(x: Any) -> Derivatives:
+    return _cos(np.radians(x))
+
+
 def _exp(x: Any) -> Derivatives:
     y = np.exp(x)
     return y, y, y, y
@@ -203,4 +212,14 @@ CALLS: Mapping[str, Callable[[Jet], Jet]] = MappingProxyType(
         "abs": _abs,
     }
 )
-"""Functions of jets by the names of `planmethod.moving.formula.FUNCTIONS`."""
+"""Functions of jets by the names of `planmethod.problem.formula.FUNCTIONS`."""
+
+DEGREES: Mapping[str, Callable[[Jet], Jet]] = MappingProxyType(
+    {
+        "sin deg": lambda jet: _composed(jet, _sin_deg),
+        "cos deg": lambda jet: _composed(jet, _cos_deg),
+        "tg deg": lambda jet: _composed(jet, _sin_deg) / _composed(jet, _cos_deg),
+        "ctg deg": lambda jet: _composed(jet, _cos_deg) / _composed(jet, _sin_deg),
+    }
+)
+"""Those of a calculator set to degrees, whose owner differentiates as of radians."""

@@ -20,9 +20,11 @@ from planmethod.problem.model import CycleTask, Differentiation
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import Disc, Stroke
 from planmethod.render.pictures.diagram import AXIS
+from planmethod.render.pictures.extremes import EXTREME
 from planmethod.render.pictures.kinematic import FOUND, kinematic_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, sigmas
 
 RU = language("ru")
@@ -87,7 +89,7 @@ def test_the_protocol_tells_poles_and_scales_in_both_languages() -> None:
     solution = press()
     for lang, words in (
         ("ru", ("Из полюса P_v (K₁ = 36 мм)", "хорды")),
-        ("en", ("From the pole",)),
+        ("en", ("From the pole", "from O₃ tangents to the circle of the radius l_O1A")),
     ):
         text = "\n".join(cycle_protocol(solution, language(lang)))
         assert all(word in text for word in words), text
@@ -101,3 +103,6 @@ def test_the_sheet_is_one_a1_without_a_fault(name: str) -> None:
     assert (sheet.width, sheet.height) == (fmt.width, fmt.height)
     assert [f"{finding.code} {finding.message}" for finding in lint(sheet.items, fmt.inner)] == []
     assert {"position", "velocity", "acceleration", "diagrams"} <= {v.kind for v in sheet.views}
+    drawn = [item for item in sheet.items if item.tag == EXTREME]
+    made = extreme_construction(Solution(problem_of(name)))
+    assert len(drawn) == (0 if made is None else 2)

@@ -9,10 +9,15 @@ import numpy as np
 import pytest
 from worked import ROOT
 
+from planmethod.construct.drafting import PROFILES, Sampled
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.steps import PointName
 from planmethod.note.records.cycle import analogue_records, cycle_record
 from planmethod.problem import load, loads
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import PRIMES, extreme_construction
 from planmethod.solved.turn.diagrams import smooth
+from planmethod.solved.turn.turn import turn_of
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
 FOUR_BAR = """title = "Шарнирный четырёхзвенник"
@@ -98,6 +103,10 @@ def test_a_smooth_curve_goes_through_its_values_and_has_no_corner() -> None:
     assert after - values == pytest.approx(values - before, abs=1e-5)
     assert np.abs(further).max() < 1e-9  # neither does its second derivative jump
     assert smooth(values, at - 14.3) == pytest.approx(smooth(values, at - 0.3))
+    open_end = smooth(np.append(at**2, np.nan), np.array([-0.5, 0.5, 3.0, 6.0, 6.5, 7.0]))
+    assert np.isnan(open_end).tolist() == [True, False, False, False, True, True]
+    # Of three values the natural curve has the bend 3/2 of the second difference in the middle.
+    assert smooth(np.array([0, 0, 1, np.nan]), np.array([0.5]))[0] == pytest.approx(-1.5 / 16)
 
 
 @pytest.mark.parametrize("omega", [10, -10])
@@ -129,8 +138,30 @@ def test_the_range_of_a_crank_that_does_not_turn_fully_ends_where_the_dyad_is_st
     told = four_bar(a, b, c, d)
     end = degrees(acos((a**2 + d**2 - (b + c) ** 2) / (2 * a * d)))
     assert told["range_deg"] == pytest.approx([-end, end], abs=1e-10)
-    assert told["K_v"] is None and told["diagrams"] is None and told["hodograph"] is None
-    assert told["reasons"]["K_v"] == told["reasons"]["diagrams"] == "the crank does not turn fully"
+    assert told["K_v"] is None and told["reasons"]["K_v"] == "the crank does not turn fully"
+
+    def angle(phi: Any) -> Any:  # of CD, from the triangle BCD
+        span = np.exp(1j * np.radians(phi)) * a - d
+        inner = np.arccos((c**2 + np.abs(span) ** 2 - b**2) / (2 * c * np.abs(span)))
+        return np.angle(span) - inner
+
+    phi = np.array(told["positions_deg"])
+    assert phi == pytest.approx(-end + 2 * end * (np.arange(12) + 0.5) / 12, abs=1e-9)
+    made, zero = told["diagrams"], told["zero_deg"]
+    way = (angle(phi) - angle(zero)) * np.sign(angle(zero + 1) - angle(zero))
+    way = np.angle(np.exp(1j * way)) / made["mu_s"]
+    assert made["s_mm"][:-1] == pytest.approx(way.tolist(), abs=1e-9)
+    chords = 1.5 * np.diff(way)
+    assert made["v_chord_mm"][:-1] == pytest.approx(chords.tolist(), abs=1e-9)
+    assert made["a_chord_mm"][1:-1] == pytest.approx((1.5 * np.diff(chords)).tolist(), abs=1e-9)
+    beyond = [made["s_mm"][-1], made["v_chord_mm"][-1], made["a_chord_mm"][0]]
+    assert beyond == [made["a_chord_mm"][-1], made["v_curve_mm"][0], None]
+    assert made["mu_phi"] * 288 == pytest.approx(np.radians(2 * end))
+    assert told["zero_deg"] == told["extremes"][0]["phi_deg"] and len(told["hodograph"]["C"]) == 12
+    # A position that is out of the range is none to count from.
+    other = four_bar(a, b, c, d, asked="zero = 180")
+    assert other["zero_deg"] == phi[0] and "zero_deg" in other["reasons"]
+    assert four_bar(a, b, c, d, asked="zero = 380")["zero_deg"] == 20
 
 
 def test_a_link_that_turns_all_round_goes_on_beyond_a_turn() -> None:
@@ -184,3 +215,47 @@ def test_the_transfer_functions_of_the_analytic_example_are_those_printed() -> N
         degrees(2 * asin(1 / hypot(5, 1))), abs=1e-10
     )
     assert told["K_v"] == pytest.approx((180 + 67.3801350519596) / (180 - 67.3801350519596))
+
+
+CONSTRUCTED = {
+    "guide": """frame = { O = [0, 0], guides.g = { through = [0.01, 0.02], angle = 30 } }
+driver = { link = "1", phi = 40, omega = -10 }
+links.1 = { points = ["O", "A"], OA = 0.1 }
+links.2 = { points = ["A", "B"], AB = 0.35 }
+links.3 = { points = ["B"], slides = { on = "g", offset = 0.03 } }
+assembly = { B = "right of A" }
+""",
+    "circle": FOUR_BAR.format(
+        a=0.1, b=0.3, c=0.25, d=0.35, omega=-10, rule="above D", asked='zero = "other extreme"'
+    ),
+    "tangents": PRESS,
+}
+
+
+@pytest.mark.parametrize("locus", CONSTRUCTED)
+def test_extremes_are_constructed_where_the_roots_are(locus: str) -> None:
+    solution = Solution(loads(CONSTRUCTED[locus], name=locus))
+    made, turn = extreme_construction(solution), turn_of(solution)
+    assert made is not None and made.locus.value == locus
+    for k, phi in enumerate(made.phi):
+        name = f"{made.pivot}{made.pin}{PRIMES[k]}"
+        assert (made.angle(made.exact, name) - phi + 180) % 360 == pytest.approx(180, abs=1e-9)
+        assert 0 < abs(made.off(k)) < 1.5  # of a millimetre at the end of the crank
+    if locus != "tangents":  # of the press the slotted link swings, the output slides
+        assert made.stroke(made.exact) == pytest.approx(turn.stroke, rel=1e-12)
+    # What one sigma is, told by many hands.
+    pencil = Sampled(PROFILES["board"], frozenset(), 2000, 5)
+    trace = evaluate(made.program, made.data, pencil)
+    for k, sigma in enumerate(made.sigma[:2]):
+        ends = (PointName(f"{made.pin}{PRIMES[k]}"), PointName(made.pivot))
+        pin, pivot = (trace.value[end] for end in ends)
+        turned = np.degrees(np.angle((pin - pivot) * np.exp(-1j * np.radians(made.phi[k]))))
+        assert sigma == pytest.approx(np.std(turned), rel=0.1)
+    told = cycle_record(solution)["extremes"]
+    assert all({"read_deg", "sigma_deg"} <= one.keys() for one in told)
+
+
+def test_where_no_arcs_find_the_extremes_there_is_no_construction() -> None:
+    solution = Solution(load(ROOT / "problems/levers/six-link.toml"))
+    assert extreme_construction(solution) is None
+    assert all(one.keys() == {"phi_deg", "value"} for one in cycle_record(solution)["extremes"])

@@ -17,7 +17,9 @@ from planmethod.check.pages.pdfpage import pdf_page
 from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.run import run_json, run_record, settings_rows
 from planmethod.check.pages.student import student_page
+from planmethod.kinds import KindProblem
 from planmethod.note.wording import language
+from planmethod.problem.model import Problem
 from planmethod.render.backends.output import write
 from planmethod.solved.solution import Solution
 
@@ -105,17 +107,19 @@ def _pages(
     checked: Sequence[Checked], keys: Mapping[str | None, Key], marks: Sequence[str], lang: str
 ) -> Iterator[dict[str, bytes]]:
     words = language(lang)
-    solutions: dict[str | None, Solution] = {}
+    solutions: dict[str | None, Solution | KindProblem] = {}
     for work, mark in zip(checked, marks, strict=True):
         key = keys.get(work.variant)
         if key is None:  # of a variant that the problem has not: the tables tell it
             yield {}
             continue
         if work.variant not in solutions:
-            solutions[work.variant] = Solution(key.problem)
-        solution = solutions[work.variant]
-        page = student_page(work, solution, words, scales=key.scales, mark=mark)
+            problem = key.problem
+            found = Solution(problem) if isinstance(problem, Problem) else problem
+            solutions[work.variant] = found
+        solved = solutions[work.variant]
+        page = student_page(work, solved, words, scales=key.scales, mark=mark)
         yield {
-            "html": html_page(page, solution, words).encode(),
+            "html": html_page(page, solved, words).encode(),
             "pdf": pdf_page(page, words),
         }

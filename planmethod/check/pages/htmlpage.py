@@ -8,6 +8,7 @@ from itertools import chain
 from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.check.pages.speech import tagged
 from planmethod.check.pages.student import Page
+from planmethod.kinds import KindProblem
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.backends import render
@@ -45,12 +46,12 @@ text-anchor:middle;dominant-baseline:central}
 """
 
 
-def html_page(page: Page, solution: Solution, words: Language) -> str:
+def html_page(page: Page, solution: Solution | KindProblem, words: Language) -> str:
     """Return the page of a student as HTML."""
     return "\n".join(_parts(page, solution, words)) + "\n"
 
 
-def _parts(page: Page, solution: Solution, words: Language) -> Iterator[str]:
+def _parts(page: Page, solution: Solution | KindProblem, words: Language) -> Iterator[str]:
     say = words.check.student
     yield f'<!DOCTYPE html>\n<html lang="{page.lang}"><head><meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
@@ -74,8 +75,8 @@ def _parts(page: Page, solution: Solution, words: Language) -> Iterator[str]:
             for column, cell in enumerate(line.cells)
         )
         yield f'<tr class="{line.verdict.value}">{cells}</tr>'
-    yield f'</tbody></table><p class="note">{tagged(say.tolerance)}</p>'
-    if page.plans:
+    yield f'</tbody></table><p class="note">{tagged(page.tolerance)}</p>'
+    if isinstance(solution, Solution) and page.plans:
         yield f'<section><h2>{say.plans}</h2><div class="plans">'
         for plan, factor, caption in chain.from_iterable(page.rows()):
             yield f"<figure>{_picture(plan, factor, solution)}"

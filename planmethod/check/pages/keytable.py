@@ -73,7 +73,12 @@ class KeyPage:
         return [Row(self.keys[number], at, entries) for (number, at), entries in found.items()]
 
     def scales(self) -> str:
-        """Return the scales as a sentence, rich text: variants that have the same ones together."""
+        """Return the scales as a sentence, rich text: variants that have the same ones together.
+
+        Empty where nothing is drawn.
+        """
+        if not any(key.scales for key in self.keys):
+            return ""
         whose: dict[str, list[str]] = {}
         for key in self.keys:
             whose.setdefault(self._scales(key), []).append(key.variant or "")
@@ -113,6 +118,8 @@ class KeyPage:
 
     def note(self) -> str:
         """Return what the tolerance is."""
+        if not any(key.scales for key in self.keys):
+            return self.say.computed
         return self.say.note.format(unseen=self.say.unseen)
 
     # Cells -------------------------------------------------------------------------------------

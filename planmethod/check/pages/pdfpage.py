@@ -63,7 +63,7 @@ def pdf_page(page: Page, words: Language) -> bytes:
         grounds=[GROUNDS[line.verdict] for line in page.lines],
         ground_column=VERDICT_COLUMN,
     )
-    pdf.paragraph(say.tolerance, NOTE)
+    pdf.paragraph(page.tolerance, NOTE)
     if page.plans:
         rows = page.rows()
         heights = [max(plan.size[1] * factor for plan, factor, _ in row) * MM for row in rows]

@@ -9,6 +9,7 @@ from planmethod.check.model import Checked, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
 from planmethod.check.pages.remarks import Remarks, what_stands
 from planmethod.check.pages.speech import Speech, quoted
+from planmethod.kinds import KindProblem
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
 from planmethod.solved.solution import Solution
@@ -60,6 +61,7 @@ class Page:
     plans: tuple[Overlay, ...]
     captions: tuple[str, ...]
     legend: str
+    tolerance: str
     lang: str
 
     def rows(self) -> list[list[tuple[Overlay, float, str]]]:
@@ -82,7 +84,7 @@ class Page:
 
 def student_page(
     checked: Checked,
-    solution: Solution,
+    solved: Solution | KindProblem,
     words: Language,
     *,
     scales: Mapping[str, float],
@@ -92,13 +94,17 @@ def student_page(
 
     Parameters
     ----------
+    solved : Solution or KindProblem
+        A problem without plans is told without them.
     scales : mapping of str to float
         Those of the key, unit per mm.
     mark : str
         Empty where points are all there is.
     """
     speech = Speech(words)
-    say, problem = words.check.student, solution.problem
+    say = words.check.student
+    solution = solved if isinstance(solved, Solution) else None
+    problem = solved.problem if isinstance(solved, Solution) else solved
     remarks = Remarks(speech, checked, scales)
     facts = [f"{say.student}: {quoted(checked.work.student)}"]
     if checked.variant:
@@ -108,7 +114,8 @@ def student_page(
     )
     if mark:
         facts.append(say.mark.format(mark=mark))
-    plans = overlays(solution, checked, words)
+    plans = [] if solution is None else overlays(solution, checked, words)
+    positions = 1 if solution is None else len(solution.positions)
     right = sum(judged.points > 0.0 for judged in checked.answers)
     return Page(
         title=say.title,
@@ -119,8 +126,9 @@ def student_page(
         redraw=tuple(remarks.redraw()),
         lines=tuple(lines(checked.answers, speech)),
         plans=tuple(plans),
-        captions=tuple(_caption(plan, len(solution.positions), words) for plan in plans),
+        captions=tuple(_caption(plan, positions, words) for plan in plans),
         legend=_legend(plans, words),
+        tolerance=say.computed if solution is None else say.tolerance,
         lang=words.lang,
     )
 

@@ -28,6 +28,7 @@ class LimitKind(Enum):
     TIP = "tip"
     OVERLAP = "overlap"
     INTERFERENCE = "interference"
+    TIPS = "tips"
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +62,8 @@ class Limit:
                 return pair.epsilon
             case LimitKind.INTERFERENCE:
                 return np.asarray(pair.rho_p[self.wheel])
+            case LimitKind.TIPS:
+                return pair.tips
 
     def bound(self, pair: Pair) -> Reals:
         """Return the limit itself: x_min, the least s_a/m or ε_α, ρ_l."""
@@ -69,6 +72,8 @@ class Limit:
                 return np.asarray(pair.x_min[self.wheel])
             case LimitKind.INTERFERENCE:
                 return np.asarray(pair.rho_l[self.wheel])
+            case LimitKind.TIPS:
+                return np.asarray(0.0)
             case _:
                 return np.asarray(self.least)
 
@@ -77,14 +82,18 @@ class Limit:
         return np.asarray(self.value(pair) - self.bound(pair))
 
 
-def limits(tip: float, overlap: float) -> tuple[Limit, ...]:
-    """Return all limits: those without which the pair does not work, then those of good use."""
+def limits(tip: float, overlap: float, *, internal: bool = False) -> tuple[Limit, ...]:
+    """Return all limits: those without which the pair does not work, then those of good use.
+
+    The tips of an internal pair must not meet outside the mesh; its ring has no undercut.
+    """
     wheels = (0, 1)
     return (
+        *((Limit(LimitKind.TIPS, None, hard=True),) if internal else ()),
         *(Limit(LimitKind.INTERFERENCE, k, hard=True) for k in wheels),
         *(Limit(LimitKind.TIP, k, hard=True) for k in wheels),
         Limit(LimitKind.OVERLAP, None, 1.0, hard=True),
-        *(Limit(LimitKind.UNDERCUT, k) for k in wheels),
+        *(Limit(LimitKind.UNDERCUT, k) for k in wheels[: 1 if internal else 2]),
         *(Limit(LimitKind.TIP, k, tip) for k in wheels),
         Limit(LimitKind.OVERLAP, None, overlap),
     )
@@ -96,10 +105,13 @@ def is_kept(pair: Pair, asked: tuple[Limit, ...]) -> Reals:
         return np.asarray(np.all([one.margin(pair) >= 0 for one in asked], axis=0))
 
 
-def tried(total: float | None) -> Reals:
-    """Return all shifts that are compared, shape (2, ...); of a certain sum where it is given."""
+def tried(total: float | None, side: int = 1) -> Reals:
+    """Return all shifts that are compared, shape (2, ...).
+
+    Of a certain sum where it is given; with ``side`` -1 that is of the difference x₂ − x₁.
+    """
     row = np.round(np.arange(round(LOW / STEP), round(HIGH / STEP) + 1) * STEP, 9)
-    return np.stack([row, total - row] if total is not None else np.meshgrid(row, row))
+    return np.stack([row, total - side * row] if total is not None else np.meshgrid(row, row))
 
 
 def choose(
@@ -113,14 +125,15 @@ def choose(
     Parameters
     ----------
     total : float, optional
-        Sum of the shifts where the distance of the axes is given; then x₁ alone is a multiple.
+        Sum of the shifts, x₂ − x₁ of an internal pair, where the distance of the axes is given;
+        then x₁ alone is a multiple.
 
     Returns
     -------
     (float, float) or None
         None where no shifts keep all limits.
     """
-    x = tried(total)
+    x = tried(total, pair.side)
     every = pair.shifted(x)
     with np.errstate(all="ignore"):
         worst = np.max(np.abs(every.theta_p), axis=0)

@@ -40,6 +40,7 @@ _LETTERS = 30.0  # mm: room that the letters around a diagram take
 _MARGIN = 0.05  # of the window: white around the contour
 _POLISHED = 8  # steps that bring a point of the grid's curve to the curve itself
 _NAMED = 14.0  # mm: shorter parts of a curve have no name
+_BEYOND = 1.2  # of the active end: how far the line of action of an internal pair is drawn
 _HEAD = 4.0
 _TICK = 1.2
 _APART = 11.0  # mm: between the numbers of an axis
@@ -93,7 +94,7 @@ def window_of(solved: Solved, region: Polygon) -> Window:
     """Return the part of the plane that is drawn: the region, the origin, the pair itself."""
     bounds: list[float] = []
     for k in (0, 1):
-        shown = [0.0, float(solved.pair.x[k]), *(b for b in region.bounds[k::2] if b == b)]
+        shown = [0.0, float(solved.problem.x[k]), *(b for b in region.bounds[k::2] if b == b)]
         white = _MARGIN * (max(shown) - min(shown) + 0.5)
         bounds += [min(shown) - white, max(shown) + white]
     return Window(*bounds)
@@ -187,14 +188,14 @@ def contour_picture(
             out = middle - complex(window.left + wide / 2, window.low + tall / 2) * per_unit
             way = out / abs(out) * (1 if limit.hard else -1) if abs(out) > 1.0 else 1j
             labels.append(Label(text, middle, prefer=way, gap=1.5, name=name, manner=BUSY))
-    point = at(solved.pair.x)
+    point = at(np.array(solved.problem.x))
     for foot in (complex(point.real, 0.0), complex(0.0, point.imag)):
         if abs(point - foot) > 2.0:
             items.append(
                 Stroke((point, foot), Pen.HIDDEN if abs(point - foot) > 12.0 else Pen.THIN)
             )
     items.append(Disc(point, 1.3, Ink.BLACK, tag=CONTOUR))
-    shown = "; ".join(words.say.number(f"{x + 0.0:.2f}") for x in solved.pair.x)
+    shown = "; ".join(words.say.number(f"{x + 0.0:.2f}") for x in solved.problem.x)
     labels.append(
         Label(typeset(f"({shown})", letter), point, gap=2.0, priority=1, name="x", manner=BUSY)
     )
@@ -216,6 +217,8 @@ def _sign(limit: Limit, say: Notation) -> str:
         case LimitKind.TIP:
             share = f"{say.given(limit.least)}m" if limit.least else "0"
             return f"s_{{a{number}}} = {share}"
+        case LimitKind.TIPS:
+            return "Δφ = 0"
         case LimitKind.OVERLAP:
             return f"ε_{{α}} = {say.given(limit.least)}"
 
@@ -267,7 +270,13 @@ def _axis_numbers(window: Window, per_unit: float, say: Notation, letter: float)
 
 def sliding_scale(solved: Solved, width: float) -> float:
     """Return the scale in which the line of action has room, mm of paper for one."""
-    return nearest_scale((width - _LETTERS) / float(solved.pair.line))
+    return nearest_scale((width - _LETTERS) / _line(solved))
+
+
+def _line(solved: Solved) -> float:
+    """Return how long the line of action is drawn, mm: of a ring there is no N₂ on this side."""
+    line = float(solved.pair.line)
+    return line if line > 0 else _BEYOND * solved.contact.end
 
 
 def sliding_picture(
@@ -278,7 +287,7 @@ def sliding_picture(
     Thick lines are of the active part AB; near N₁ and N₂ the curves leave the diagram downwards.
     """
     pair, contact = solved.pair, solved.contact
-    line, scale = float(pair.line), sliding_scale(solved, width)
+    line, scale = _line(solved), sliding_scale(solved, width)
     ends = np.array([contact.start, contact.end])
     with np.errstate(all="ignore"):
         worst = float(np.nanmin(pair.sliding(ends), initial=-1.0))
@@ -304,7 +313,9 @@ def sliding_picture(
         upright = (complex(rho * scale, floor_at / per_mm), complex(rho * scale, 1.0 / per_mm))
         drawn.append(Curve("", (upright,), Pen.THIN))
     pole = pair.d_b[0] / 2 * np.tan(float(pair.alpha_w))
-    marks = {"N_{1}": 0.0, "A": contact.start, "P": float(pole), "B": contact.end, "N_{2}": line}
+    marks = {"N_{1}": 0.0, "A": contact.start, "P": float(pole), "B": contact.end}
+    if pair.side > 0:
+        marks["N_{2}"] = line
     return diagram_picture(
         Abscissae("ρ_{1}", tuple(rho * scale for rho in marks.values()), tuple(marks)),
         Ordinates("ϑ", per_mm, words.say),

@@ -68,12 +68,12 @@ class View:
     @property
     def radii(self) -> tuple[float, float]:
         """Working radii on the paper, mm."""
-        one, two = (tooth.size("d_w") / 2 * self.scale for tooth in self.solved.teeth)
+        one, two = (abs(tooth.size("d_w")) / 2 * self.scale for tooth in self.solved.teeth)
         return one, two
 
     def centre(self, wheel: int) -> complex:
         """Return where the centre of a wheel is, drawn or not."""
-        return 1j * (-self.radii[0] if wheel == 0 else self.radii[1])
+        return self.up(wheel) * self.radii[wheel]
 
     def is_broken(self, wheel: int) -> bool:
         """Whether the line to the centre of a wheel is broken."""
@@ -81,14 +81,18 @@ class View:
 
     def drawn_centre(self, wheel: int) -> complex:
         """Return where the centre of a wheel is drawn."""
-        return 1j * (-self.reach[0] if wheel == 0 else self.reach[1])
+        return self.up(wheel) * self.reach[wheel]
+
+    def up(self, wheel: int) -> complex:
+        """Return the direction from P to the centre of a wheel; to that of a ring downwards."""
+        return 1j if wheel and self.solved.pair.side > 0 else -1j
 
     def axis(self, wheel: int, number: int = 0) -> float:
         """Return the direction of a tooth's axis; number 0 touches the other wheel in P, rad."""
         tooth = self.solved.teeth[wheel]
         rho = tooth.size("d_b") / 2 * np.tan(float(self.solved.pair.alpha_w))
-        start = pi / 2 if wheel == 0 else -pi / 2
-        return start + float(tooth.half(rho)) + 2 * pi * number / tooth.z
+        start = float(np.angle(-self.up(wheel)))
+        return start + tooth.side * float(tooth.half(rho)) + 2 * pi * number / tooth.z
 
     def placed(self, points: Points | complex, wheel: int, number: int = 0) -> Points:
         """Return points of a tooth where they are on the paper."""
@@ -111,7 +115,7 @@ class View:
         """How far the teeth reach to the left and right of P, mm."""
         wide = 0.0
         for wheel, tooth in enumerate(self.solved.teeth):
-            corners = [tooth.size("d_f") / 2 * np.exp(-1j * pi / tooth.z)]
+            corners = [abs(tooth.size("d_f")) / 2 * np.exp(-1j * pi / tooth.z)]
             corners += [complex(tooth.flank(tooth.rho_high))]
             both = np.array([*corners, *np.conj(corners)])
             for number in (-1, 1):
@@ -131,10 +135,12 @@ def view_for(solved: Solved, width: float, height: float) -> View:
     broken and the teeth are as high as `HIGH`.
     """
     pair = solved.pair
-    tooth = max(float(d) for d in (pair.d_a - pair.d_f) / 2)
+    tooth = max(abs(float(d)) for d in (pair.d_a - pair.d_f) / 2)
     unit = View(solved, 1.0, (1e9, 1e9))
     wide = 2 * unit.half_width
-    whole = nearest_scale((height - 4 * _OVER) / float(pair.a_w))
+    ring = pair.cutter != 0
+    tall = max(abs(float(d)) for d in pair.d_w) / 2 if ring else float(pair.a_w)
+    whole = nearest_scale((height - 4 * _OVER) / tall)
     scale = min(whole, nearest_scale(max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide))
     if scale * tooth >= LEAST:
         most = nearest_scale(1.4 * HIGH / tooth)
@@ -144,6 +150,8 @@ def view_for(solved: Solved, width: float, height: float) -> View:
     scale = nearest_scale(limit)
     one, two = View(solved, scale, (0.0, 0.0)).radii
     room = height - 4 * _OVER
+    if ring:
+        return View(solved, scale, (min(one, 0.55 * room), min(two, room)))
     if one + two <= room:
         return View(solved, scale, (one, two))
     is_whole = min(one, two) <= room - _SHORTEST
@@ -177,7 +185,7 @@ def _tooth(view: View, tooth: Tooth, wheel: int, number: int) -> Iterator[Item]:
     for curve in (fillet, flank, fillet.conj(), flank.conj()):
         yield Stroke(tuple(view.placed(curve, wheel, number).tolist()), tag=tag, smooth=True)
     root = float(np.angle(fillet[0]))
-    low = tooth.size("d_f") / 2 * view.scale
+    low = abs(tooth.size("d_f")) / 2 * view.scale
     for start, end in ((-pi / tooth.z, root), (-root, pi / tooth.z)):
         if end - start > 1e-9:
             yield Arc(centre, low, turn + start, turn + end, tag=tag)
@@ -195,13 +203,12 @@ def _active(view: View, tooth: Tooth, wheel: int) -> Iterator[Item]:
         return
     rho = np.linspace(low, high, POINTS)
     points = tooth.flank(rho)
-    centres = (
-        tooth.size("d_b")
-        / 2
-        * np.exp(1j * (np.angle(points) + np.arctan(2 * rho / tooth.size("d_b"))))
-    )
-    gone = centres - points
+    roll = np.arctan(2 * rho / tooth.size("d_b"))
+    feet = abs(tooth.size("d_b")) / 2 * np.exp(1j * (np.angle(points) + tooth.side * roll))
+    gone = tooth.side * (feet - points)
     inward = gone / np.maximum(np.abs(gone), 1e-12) * _BAND / view.scale
+    if tooth.side < 0:  # the other flank of a ring's tooth touches
+        points, inward = points.conj(), inward.conj()
     outer = view.placed(points, wheel)
     inner = view.placed(points + inward, wheel)
     tag = "active flank"
@@ -232,7 +239,7 @@ def _circle_sizes(view: View, wheel: int) -> list[tuple[float, Pen, str]]:
     ]
     found: list[tuple[float, Pen, str]] = []
     for name, pen, letters in told:
-        radius = tooth.size(name) / 2 * view.scale
+        radius = abs(tooth.size(name)) / 2 * view.scale
         if view.is_broken(wheel) and view.radii[wheel] - radius > view.reach[wheel] - 5 * _OVER:
             continue  # the base circle of a large wheel is beyond the break
         same = next((k for k, one in enumerate(found) if abs(one[0] - radius) < 0.1), None)
@@ -251,6 +258,8 @@ def _arc_ends(view: View, wheel: int, radius: float) -> tuple[float, float]:
     half = min(3 * pi / z + 0.4 * _OVER / radius, pi)
     more = min(3 * pi / z + 2.2 * _OVER / radius, pi)
     # Letters of wheel 1 on the left (its axis leans to the left), those of wheel 2 on the right.
+    if view.solved.teeth[wheel].side < 0:
+        return middle - more, middle + half
     return middle - half, middle + more
 
 
@@ -282,12 +291,16 @@ def _line_of_action(view: View) -> Iterator[Item]:
 def _near(view: View, wheel: int) -> complex:
     """Return the end of the line of action, N₁ or N₂; a nearer point where it is far away."""
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
+    if wheel and view.solved.pair.side < 0:  # N₂ of a ring lies beyond N₁
+        return view.along * _farthest(view)
     if _shows_end(view, wheel):
         return full
     return full / abs(full) * _farthest(view)
 
 
 def _shows_end(view: View, wheel: int) -> bool:
+    if wheel and view.solved.pair.side < 0:
+        return False
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
     return abs(full) <= _farthest(view)
 
@@ -307,19 +320,19 @@ def _square(corner: complex, one: complex, two: complex) -> Iterator[Item]:
 def _centres(view: View) -> Iterator[Item]:
     """Yield the line of centres, the centres and the senses of rotation."""
     for wheel in (0, 1):
-        centre, way = view.drawn_centre(wheel), 1j if wheel else -1j
+        centre, way = view.drawn_centre(wheel), view.up(wheel)
         if view.is_broken(wheel):
             gap = centre - way * 2.5 * _OVER
             yield from axis_line(0j, gap + 0j, tag="line of centres")
             yield from kinked_line(gap - 10.0, gap + 10.0)
             yield from kinked_line(gap + way * 4.0 - 10.0, gap + way * 4.0 + 10.0)
             yield from axis_line(gap + way * 4.0, centre + way * 8.0, centre, tag="line of centres")
-        else:
+        elif wheel or view.solved.pair.side > 0:  # else it lies on that of the ring
             yield from axis_line(0j, centre + way * 8.0, centre, tag="line of centres")
         yield from centre_lines(centre, 5.0, directions=(1 + 0j,))
         yield Disc(centre, _DOT, Ink.BLACK)
         yield from turn_arrow(
-            centre, 11.0, -1 if wheel == 0 else 1, middle=90.0 if wheel else -90.0
+            centre, 11.0, 1 if way == 1j else -1, middle=90.0 if way == 1j else -90.0
         )
     yield Disc(0j, _DOT, Ink.BLACK)
 
@@ -333,7 +346,7 @@ def _distance(view: View, x: float, words: Language, letter: float) -> Iterator[
     yield Stroke((ends[0] + 1j * _HEAD / 2, ends[1] - 1j * _HEAD / 2), Pen.THIN, tag="dimension")
     yield from arrowhead(ends[0], -1j, length=_HEAD, tag="dimension")
     yield from arrowhead(ends[1], 1j, length=_HEAD, tag="dimension")
-    shown = words.say.number(f"{float(view.solved.pair.a_w):.3f}")
+    shown = words.say.number(f"{abs(float(view.solved.pair.a_w)):.3f}")
     text = typeset(f"a_{{w}} = {shown}", letter)
     at = complex(x - text.descent - 1.2, (low.imag + high.imag) / 2)
     yield from text.at(at, anchor="centre", angle=90.0)
@@ -378,7 +391,7 @@ def _letters(view: View, height: float) -> list[Label]:
     middle = _angle_radius(view) * np.exp(0.5j * float(view.solved.pair.alpha_w))
     labels.append(Label(typeset("α_{w}", height), complex(middle), prefer=1 + 0j, name="α_w"))
     for wheel in (0, 1):
-        at = view.drawn_centre(wheel) + (11j if wheel else -11j)
+        at = view.drawn_centre(wheel) + 11 * view.up(wheel)
         sign = typeset(f"ω_{{{wheel + 1}}}", height)
         labels.append(Label(sign, at, prefer=1 + 0j, gap=3.0, name=f"ω_{wheel + 1}", manner=BUSY))
     return labels
@@ -389,7 +402,8 @@ def _circle_letters(view: View, height: float) -> list[Label]:
     labels = []
     for wheel in (0, 1):
         for radius, _, letters in _circle_sizes(view, wheel):
-            _, end = _arc_ends(view, wheel, radius)
+            start, end = _arc_ends(view, wheel, radius)
+            end = end if view.solved.teeth[wheel].side > 0 else start
             at = view.centre(wheel) + radius * np.exp(1j * end)
             away = -1 + 0j if wheel == 0 else 1 + 0j
             labels.append(

@@ -71,6 +71,8 @@ class MeshingProblem:
         Shifts of the rack, in modules.
     chosen : bool
         They were chosen by the blocking limits, not given.
+    cutter : int
+        Teeth of the pinion cutter (долбяк) of an internal wheel 2; 0 where both are external.
     a_w : float or None, mm
         Distance of the axes where the file gives it.
     tip : float
@@ -92,4 +94,5 @@ class MeshingProblem:
     overlap: float
     stamp: Mapping[str, str]
     sheet: SheetSettings
+    cutter: int = 0
     variant: str | None = None

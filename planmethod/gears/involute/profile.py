@@ -34,7 +34,12 @@ class Tooth:
     @property
     def z(self) -> int:
         """Number of teeth of the wheel."""
-        return self.pair.z[self.wheel]
+        return abs(self.pair.z[self.wheel])
+
+    @property
+    def side(self) -> int:
+        """-1 of an internal wheel, whose tooth points to its centre; else 1."""
+        return -1 if self.pair.z[self.wheel] < 0 else 1
 
     def size(self, name: str) -> float:
         """Return a size of the wheel by its name in `Pair`."""
@@ -44,7 +49,7 @@ class Tooth:
         """Return half of the angle of the tooth where its profile has a radius of curvature."""
         roll = np.asarray(rho) / (self.size("d_b") / 2)
         whole = self.size("s") / self.size("d") + involute(self.pair.rack.alpha)
-        return np.asarray(whole - (roll - np.arctan(roll)))
+        return np.asarray(self.side * (whole - (roll - np.arctan(roll))))
 
     def flank(self, rho: Reals | float) -> Points:
         """Return points of the involute by the radius of curvature, mm (эвольвента)."""
@@ -66,6 +71,8 @@ class Tooth:
         line on the pitch circle turning about it. With the centre of the rounded tip at the depth
         D below that line this is where it stands D·tan θ beside the pitch point.
         """
+        if self.side < 0:
+            return self._fillet_of_cutter(np.asarray(theta))
         m, radius = self.pair.m, self.size("d") / 2
         corner, rho = self.pair.rack.corner * m, self.pair.rack.rho * m
         depth = -corner.imag - float(self.pair.x[self.wheel]) * m
@@ -73,6 +80,19 @@ class Tooth:
         place = radius - depth - rho * np.cos(theta) + 1j * (beside + rho * np.sin(theta))
         turned = (beside - corner.real) / radius
         return np.asarray(place * np.exp(-1j * (turned + pi / self.z)))
+
+    def _fillet_of_cutter(self, chi: Reals) -> Points:
+        """Return the way of the corner of the cutter's tip in the ring.
+
+        ``chi`` is the angle between the line of centres and the corner, seen from the cutter's
+        axis: 0 at the root circle. The cutter's tooth stands in the space at −π/z where the corner
+        has half of the angle of its tip.
+        """
+        pair, z = self.pair, self.pair.cutter
+        half = pi / (2 * z) + float(involute(pair.rack.alpha) - involute(pair.alpha_a0))
+        turned = (half - chi) * z / self.z
+        place = float(pair.a_w0) + pair.d_a0 / 2 * np.exp(1j * chi)
+        return np.asarray(place * np.exp(1j * (turned - pi / self.z)))
 
     def _inside(self, theta: Reals) -> Reals:
         """Return how far the fillet lies within the involute, rad; NaN below the base circle."""
@@ -84,6 +104,8 @@ class Tooth:
     @cached_property
     def theta(self) -> float:
         """Where the fillet ends at the involute, rad: before π/2 − α where it cuts it off."""
+        if self.side < 0:
+            return self.pair.alpha_a0 - float(self.pair.alpha_w0)
         last = pi / 2 - self.pair.rack.alpha
         if self.size("rho_l") >= 0:
             return last
@@ -95,7 +117,7 @@ class Tooth:
     @cached_property
     def rho_low(self) -> float:
         """Radius of curvature at the lowest point that the involute has, mm."""
-        if self.size("rho_l") >= 0:
+        if self.size("rho_l") >= 0 or self.side < 0:
             return self.size("rho_l")
         reach = abs(complex(self.fillet(self.theta)))
         return float(np.sqrt(max(reach**2 - self.size("d_b") ** 2 / 4, 0.0)))
@@ -111,7 +133,7 @@ class Tooth:
     @property
     def is_cut(self) -> bool:
         """Whether the fillet cuts off a part of the involute (подрезание)."""
-        return self.size("rho_l") < 0
+        return self.side > 0 and self.size("rho_l") < 0
 
     @property
     def stands(self) -> bool:
@@ -131,7 +153,7 @@ class Tooth:
 
     def outline(self, count: int) -> Points:
         """Return the tooth from the middle of one space to that of the next one, mm."""
-        root = self.size("d_f") / 2 * np.exp(-1j * pi / self.z)
+        root = abs(self.size("d_f")) / 2 * np.exp(-1j * pi / self.z)
         lower = np.concatenate([[root], self.fillet_points(count), self.flank_points(count)[1:]])
         return np.concatenate([lower, lower[::-1].conj()])
 
@@ -163,7 +185,7 @@ class Contact:
         whole = float(one.pair.line)
         return cls(
             max(whole - two.rho_high, one.rho_low, 0.0),
-            min(one.rho_high, whole - two.rho_low, whole),
+            min(one.rho_high, whole - two.rho_low, whole if two.side > 0 else np.inf),
         )
 
     def overlap(self, pair: Pair) -> float:

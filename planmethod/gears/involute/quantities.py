@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -167,6 +167,57 @@ _OF_CONTACT = (
 )
 
 
+_RING: dict[str, tuple[tuple[str, str] | None, tuple[str, str] | None]] = {
+    "x_sum": (("x_{2} − x_{1}", "{x2} − {x1}"), None),
+    "inv_alpha_w": (
+        (
+            "inv α + 2·x_{d}·{tan} α/(z_{2} − z_{1})",
+            "{inv_alpha} + 2·{x_sum}·{tan_alpha}/({z2} − {z1})",
+        ),
+        None,
+    ),
+    "a": (("m·(z_{2} − z_{1})/2", "{m}·({z2} − {z1})/2"), None),
+    "delta_y": (("x_{d} − y", "{x_sum} − {y}"), None),
+    "d_a": (
+        ("d_{1} + 2·m·(h_{a}^{*} + x_{1} + Δy)", "{d1} + 2·{m}·({ha} + {x1} + {delta_y})"),
+        ("d_{2} − 2·m·(h_{a}^{*} − x_{2} + Δy)", "{d2} − 2·{m}·({ha} − {x2} + {delta_y})"),
+    ),
+    "d_f": (None, ("2·a_{w0} + d_{a0}", "2·{a_w0} + {d_a0}")),
+    "s": (None, ("m·(π/2 − 2·x_{2}·{tan} α)", "{m}·(π/2 − 2·{x2}·{tan_alpha})")),
+    "s_a": (
+        None,
+        (
+            "d_{a2}·(s_{2}/d_{2} − inv α + inv α_{a2})",
+            "{d_a2}·({s2}/{d2} − {inv_alpha} + {inv_alpha_a2})",
+        ),
+    ),
+    "rho_p": (
+        ("ρ_{a2} − a_{w}·sin α_{w}", "{rho_a2} − {a_w}·{sin_w}"),
+        ("ρ_{a1} + a_{w}·sin α_{w}", "{rho_a1} + {a_w}·{sin_w}"),
+    ),
+    "rho_l": (
+        None,
+        (
+            "a_{w0}·sin α_{w0} + d_{a0}·sin α_{a0}/2",
+            "{a_w0}·{sin_w0} + {d_a0}·{sin_a0}/2",
+        ),
+    ),
+    "epsilon_alpha": (
+        (
+            "(ρ_{a1} − ρ_{a2} + a_{w}·sin α_{w})/p_{b}",
+            "({rho_a1} − {rho_a2} + {a_w}·{sin_w})/{p_b}",
+        ),
+        None,
+    ),
+}
+"""Formulas of an internal pair (GOST 19274) where they are others: of wheel 1 or the pair, and of
+wheel 2; None for the same."""
+
+_SIGNED = ("x_sum", "a", "a_w", "y", "delta_y")
+_SIGNED_2 = ("z", "x", "d", "d_b", "d_w", "d_a", "d_f", "rho_a", "rho_p", "rho_l", "rho_low")
+"""What is negative in `Pair` of an internal pair, and of its wheel 2."""
+
+
 @dataclass(frozen=True, slots=True)
 class Told:
     """A quantity with its value: one, or those of both wheels."""
@@ -188,7 +239,7 @@ class Solved:
         self.pair = pair = Pair.of(problem)
         self.teeth = (Tooth(pair, 0), Tooth(pair, 1))
         self.contact = Contact.of(*self.teeth)
-        self.limits = limits(problem.tip, problem.overlap)
+        self.limits = limits(problem.tip, problem.overlap, internal=bool(problem.cutter))
 
     def _value(self, key: str) -> Reals:
         pair, rack = self.pair, self.pair.rack
@@ -207,6 +258,10 @@ class Solved:
             "epsilon_active": self.contact.overlap(pair),
         }
         found = own[key] if key in own else getattr(pair, key)
+        if key in _SIGNED_2:
+            found = found * np.array([1, pair.side])
+        elif key in _SIGNED:
+            found = found * pair.side
         return np.asarray(np.degrees(found) if key in ("alpha_w", "alpha_a") else found)
 
     def told(self) -> tuple[list[Told], list[Told], list[Told]]:
@@ -215,6 +270,9 @@ class Solved:
             [Told(q, tuple(float(v) for v in np.atleast_1d(self._value(q.key)))) for q in group]
             for group in (_OF_PAIR, _OF_WHEELS, _OF_CONTACT)
         )
+        if self.problem.cutter:
+            at = next(k for k, t in enumerate(one) if t.quantity.key == "x_sum")
+            one[at] = replace(one[at], quantity=replace(one[at].quantity, symbol="x_{d}"))
         return one, two, three
 
     def fields(self, say: Notation) -> dict[str, str]:
@@ -229,6 +287,10 @@ class Solved:
             "cos_w": np.cos(alpha_w),
             "sin_w": np.sin(alpha_w),
         }
+        if self.problem.cutter:
+            pair = self.pair
+            values |= {"a_w0": float(pair.a_w0), "d_a0": pair.d_a0}
+            values |= {"sin_w0": np.sin(pair.alpha_w0), "sin_a0": np.sin(pair.alpha_a0)}
         for group in self.told():
             for one in group:
                 ends = ("",) if len(one.values) == 1 else ("1", "2")
@@ -250,6 +312,8 @@ class Solved:
             for one in group:
                 q = one.quantity
                 for k, shown in enumerate(one.shown(say)) if q.formula else ():
+                    if not np.isfinite(one.values[k]) and self.problem.cutter:
+                        continue  # a ring has no least shift
                     own, other = ("1", "2") if k == 0 else ("2", "1")
 
                     def put(text: str, own: str = own, other: str = other) -> str:
@@ -258,14 +322,16 @@ class Solved:
 
                     unit = "°" if q.unit is Unit.DEGREE else ""
                     unit = f" {words.meshing.units['mm']}" if q.unit is Unit.MM else unit
-                    letters = put(q.formula).replace("{tan}", tan)
-                    numbers = put(q.numbers).format_map(fields)
+                    ring = _RING.get(q.key, (None, None))[k] if self.problem.cutter else None
+                    formula, filled = ring or (q.formula, q.numbers)
+                    letters = put(formula).replace("{tan}", tan)
+                    numbers = put(filled).format_map(fields)
                     yield q.key, f"{put(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
 
     def judged(self) -> Iterator[tuple[Limit, float, float]]:
         """Yield every limit with what is compared with it, and its bound.
 
-        The contact ratio is that of the teeth as they are cut.
+        The contact ratio is that of the teeth as they are cut. Radii of a ring are negative.
         """
         for one in self.limits:
             if not (one.hard and one.kind in (LimitKind.TIP, LimitKind.OVERLAP)):
@@ -274,6 +340,12 @@ class Solved:
                     value = self.contact.overlap(self.pair)
                 yield one, value, float(one.bound(self.pair))
 
+    def shown(self, limit: Limit, value: float, bound: float) -> tuple[float, float]:
+        """Return what is compared as the standard has it: radii of a ring are positive."""
+        if limit.kind is LimitKind.INTERFERENCE and limit.wheel == 1:
+            return self.pair.side * value, self.pair.side * bound
+        return value, bound
+
     def sentences(self, words: Language) -> list[tuple[Limit, bool, str]]:
         """Return every limit: whether it is kept, and what is said of it, rich text."""
         say, found = words.meshing, []
@@ -281,10 +353,11 @@ class Solved:
             number = "" if one.wheel is None else str(one.wheel + 1)
             shown = {
                 k: words.say.number(f"{v + 0.0:.3f}")
-                for k, v in (("value", value), ("bound", bound))
+                for k, v in zip(("value", "bound"), self.shown(one, value, bound), strict=True)
             }
             holds = value >= bound
-            sign = "≥" if holds else "<"
+            turned = self.shown(one, 1.0, 1.0)[0] < 0
+            sign = ("≤" if turned else "≥") if holds else (">" if turned else "<")
             text = say.conditions[one.kind.value].format(wheel=number, sign=sign, **shown)
             found.append((one, holds, text))
         return found

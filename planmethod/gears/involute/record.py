@@ -26,8 +26,8 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
         {
             "name": limit.kind.value,
             "wheel": None if limit.wheel is None else limit.wheel + 1,
-            "value": value,
-            "limit": bound,
+            "value": solved.shown(limit, value, bound)[0],
+            "limit": solved.shown(limit, value, bound)[1],
             "holds": holds,
             "text": plain_text(text),
         }
@@ -35,6 +35,10 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
             solved.sentences(words), solved.judged(), strict=True
         )
     ]
+    told["internal"] = bool(problem.cutter)
+    if problem.cutter:
+        pair = solved.pair
+        told |= {"z_0": problem.cutter, "a_w0": float(pair.a_w0), "d_a0": pair.d_a0}
     missing = [k for k, value in enumerate(told["theta_p"]) if value is None]
     if missing:
         told["theta_reason"] = words.meshing.missing.format(wheel=missing[0] + 1)

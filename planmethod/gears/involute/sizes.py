@@ -1,4 +1,8 @@
-"""Sizes of a spur pair with external teeth by the formulas of GOST 16532 (геометрический расчёт).
+"""Sizes of a spur pair by the formulas of GOST 16532 and GOST 19274 (геометрический расчёт).
+
+An internal wheel has a negative number of teeth, as ISO 21771 has it: its shift, its diameters and
+radii of curvature and the distance of the axes are negative too, and the same formulas hold. Its
+root and fillet are those of the pinion cutter (долбяк), which has no shift.
 
 Everything is computed for many pairs of shifts at once: arrays of one quantity of both wheels have
 the shape (2, ...), those of the pair the shape (...). Lengths are millimetres, angles radians.
@@ -49,25 +53,67 @@ class Pair:
     rack : Rack
     x : array of float, shape (2, ...)
         Shifts of the rack, in modules. What does not exist for them is NaN.
+    cutter : int
+        Teeth of the pinion cutter of an internal wheel 2; 0 where both are external.
     """
 
     z: tuple[int, int]
     m: float
     rack: Rack
     x: Reals
+    cutter: int = 0
 
     @classmethod
     def of(cls, problem: MeshingProblem) -> Pair:
         """Return the pair of a problem."""
-        return cls(problem.z, problem.m, problem.rack, np.array(problem.x))
+        z = (problem.z[0], -problem.z[1] if problem.cutter else problem.z[1])
+        return cls(z, problem.m, problem.rack, np.zeros(2), problem.cutter).shifted(problem.x)
 
-    def shifted(self, x: Reals) -> Pair:
-        """Return the same wheels cut with other shifts."""
-        return Pair(self.z, self.m, self.rack, x)
+    def shifted(self, x: Reals | tuple[float, float]) -> Pair:
+        """Return the same wheels cut with other shifts, with the signs of the standard."""
+        one, two = np.asarray(x)
+        x = np.stack([one, -two if self.cutter else two])
+        return Pair(self.z, self.m, self.rack, x, self.cutter)
+
+    @property
+    def side(self) -> int:
+        """-1 of an internal pair, else 1: sign of the distance of the axes and of wheel 2."""
+        return -1 if self.cutter else 1
 
     def _both(self, values: Reals) -> Reals:
         """Return one number of each wheel in a shape that goes with the shifts."""
         return values.reshape(2, *[1] * (self.x.ndim - 1))
+
+    def _of_ring(self, both: Reals, ring: Reals) -> Reals:
+        """Return sizes of both wheels, where wheel 2 is internal with its own."""
+        return (
+            np.stack([both[0], np.broadcast_to(ring, np.shape(both[0]))]) if self.cutter else both
+        )
+
+    # The cutter -------------------------------------------------------------------------------
+
+    @cached_property
+    def alpha_w0(self) -> Reals:
+        """Angle at which the cutter meshes with the ring, rad (угол станочного зацепления)."""
+        shift = 2 * self.x[1] * np.tan(self.rack.alpha) / (self.cutter + self.z[1])
+        return angle_of_involute(involute(self.rack.alpha) + shift)
+
+    @cached_property
+    def a_w0(self) -> Reals:
+        """Distance of the cutter's axis from that of the ring, mm."""
+        a = self.m * abs(self.cutter + self.z[1]) / 2
+        return np.asarray(a * np.cos(self.rack.alpha) / np.cos(self.alpha_w0))
+
+    @property
+    def d_a0(self) -> float:
+        """Tip diameter of the cutter, mm."""
+        return self.m * (self.cutter + 2 * (self.rack.ha + self.rack.c))
+
+    @property
+    def alpha_a0(self) -> float:
+        """Profile angle at the tip of the cutter, rad."""
+        share = self.m * self.cutter * np.cos(self.rack.alpha) / self.d_a0
+        return float(np.arccos(share))
 
     # The pair ---------------------------------------------------------------------------------
 
@@ -152,7 +198,8 @@ class Pair:
     @cached_property
     def d_f(self) -> Reals:
         """Root diameters, mm (впадин)."""
-        return np.asarray(self.d - 2 * self.m * (self.rack.ha + self.rack.c - self.x))
+        depth = self.d - 2 * self.m * (self.rack.ha + self.rack.c - self.x)
+        return self._of_ring(depth, -(2 * self.a_w0 + self.d_a0) if self.cutter else depth)
 
     @cached_property
     def s(self) -> Reals:
@@ -185,13 +232,18 @@ class Pair:
     def rho_l(self) -> Reals:
         """Radius of curvature where the fillet begins, mm (граничная точка); negative: undercut."""
         sine = np.sin(self.rack.alpha)
-        return np.asarray(self.d / 2 * sine - self.m * (self.rack.straight - self.x) / sine)
+        by_rack = self.d / 2 * sine - self.m * (self.rack.straight - self.x) / sine
+        if not self.cutter:
+            return np.asarray(by_rack)
+        of_tip = self.d_a0 / 2 * np.sin(self.alpha_a0)
+        return self._of_ring(by_rack, -(self.a_w0 * np.sin(self.alpha_w0) + of_tip))
 
     @cached_property
     def x_min(self) -> Reals:
         """Least shift without undercut."""
         sine = np.sin(self.rack.alpha)
-        return self.rack.straight - self._both(np.array(self.z) * sine**2 / 2)
+        least = self.rack.straight - self._both(np.array(self.z) * sine**2 / 2)
+        return self._of_ring(least, np.asarray(np.nan)) if self.cutter else least
 
     @property
     def z_min(self) -> float:
@@ -205,7 +257,7 @@ class Pair:
         share = z * np.cos(self.rack.alpha) / (z + 2 * self.x)
         near = np.where(share < 1, np.tan(np.arccos(np.minimum(share, 1.0))), 0.0)
         shift = 2 * self.x * np.tan(self.rack.alpha) / z
-        count = z / pi * (near - shift - involute(self.rack.alpha)) + 0.5
+        count = np.abs(z) / pi * (near - shift - involute(self.rack.alpha)) + 0.5
         # The tables take the smaller of two equally near ones: 2 of 18 teeth, not 3.
         return np.asarray(np.maximum(2.0, np.ceil(count - 0.5 - 1e-9)))
 
@@ -214,7 +266,28 @@ class Pair:
         """Length W of the base tangent, mm (длина общей нормали)."""
         z = self._both(np.array(self.z))
         by_shift = 2 * self.x * np.tan(self.rack.alpha) + z * involute(self.rack.alpha)
+        by_shift = by_shift * np.sign(z)
         return np.asarray(self.m * np.cos(self.rack.alpha) * (pi * (self.k - 0.5) + by_shift))
+
+    @cached_property
+    def tips(self) -> Reals:
+        """Angle that is left between the tips of an internal pair outside the mesh, rad.
+
+        z₁(inv α_a1 + δ₁) − z₂(inv α_a2 + δ₂) + (z₂ − z₁) inv α_w over z₁, as a turn of wheel 1, δ
+        being the angles at the centres to where the tip circles cross; not negative where the tips
+        do not meet.
+        """
+        (one, two), a_w = np.abs(self.d_a) / 2, np.abs(self.a_w)
+        z = np.abs(np.array(self.z))
+
+        def angle(cosine: Reals) -> Reals:
+            return np.arccos(np.clip(cosine, -1.0, 1.0))
+
+        delta = angle((two**2 - one**2 - a_w**2) / (2 * one * a_w))
+        other = angle((a_w**2 + two**2 - one**2) / (2 * two * a_w))
+        own = z[0] * (involute(self.alpha_a[0]) + delta)
+        ring = z[1] * (involute(self.alpha_a[1]) + other)
+        return np.asarray((own - ring + (z[1] - z[0]) * self.inv_alpha_w) / z[0])
 
     def sliding(self, rho: Reals) -> Reals:
         """Return the specific sliding ϑ of both profiles (удельное скольжение).
@@ -231,7 +304,7 @@ class Pair:
         """
         one, two = self.z
         other = self.line - rho
-        ratio = np.where((rho > 0) & (other > 0), other, np.nan) / rho * one / two
+        ratio = np.where((rho > 0) & (other * two > 0), other, np.nan) / rho * one / two
         return np.stack([1 - ratio, 1 - 1 / ratio])
 
     @cached_property

@@ -47,6 +47,8 @@ def given_text(solved: Solved, words: Language) -> list[str]:
     further = ""
     if problem.a_w is not None:
         further = f", a_{{w}} = {words.say.given(problem.a_w)} {say.units['mm']}"
+    if problem.cutter:
+        further += say.ring.format(cutter=problem.cutter)
     return [
         say.given.format(further=further, **fields),
         say.shifts[problem.chosen].format(**fields),

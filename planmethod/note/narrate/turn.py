@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import with_unit
+from planmethod.note.numbers import significant, with_unit
 from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
+from planmethod.solved.turn.construction import PRIMES, Construction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
 from planmethod.solved.turn.turn import TURN, Turn, Why
@@ -47,6 +48,8 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         closest, at = turn.tightest
         facts.append(said.tightest.format(links=", ".join(closest), phi=place(at)))
     facts.append(said.zero.format(phi=place(float(turn.positions[0]))))
+    if turn.range is not None:
+        facts.append(said.path_zero.format(phi=place(turn.zero)))
     if turn.extremes:
         ends = (f"{place(one.phi)} ({size(one.value)})" for one in turn.extremes)
         facts.append(said.extremes.format(extremes=", ".join(ends)))
@@ -104,3 +107,65 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
 def drawn_note(way: Differentiation, words: Language) -> str:
     """Return what the lines of the drawn diagrams are."""
     return words.cycle.drawn.format(way=words.cycle.chords[way.value])
+
+
+def radius_names(made: Construction) -> tuple[str, str, str]:
+    """Return what the crank's radius, the sum and the difference of rod and crank are called."""
+    crank, rod = f"l_{{{_flat(made.pivot, made.pin)}}}", f"l_{{{_flat(made.pin, made.end)}}}"
+    if made.locus is Locus.TANGENTS:
+        return crank, "", ""
+    longer, other = (rod, crank) if made.is_rod_longer else (crank, rod)
+    return crank, f"{rod} + {crank}", f"{longer} − {other}"
+
+
+def _flat(*names: str) -> str:
+    return "".join(name.translate(str.maketrans("", "", "{}_")) for name in map(point_name, names))
+
+
+def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> list[str]:
+    """Return how the extreme positions are constructed, and what is read of them."""
+    said, say = words.cycle, words.say
+    if made is None:
+        return [said.no_construction] if turn.ends is not None else []
+
+    def primed(name: str) -> list[str]:
+        return [point_name(name) + p for p in PRIMES]
+
+    def mm(name: str) -> str:
+        return say.number(f"{made.length(name):.1f}")
+
+    crank, total, less = radius_names(made)
+    arcs = made.locus is not Locus.TANGENTS
+    facts = {
+        "pivot": point_name(made.pivot), "end": point_name(made.end),
+        "centre": point_name(made.centre) if made.centre else "",
+        "crank": crank, "crank_mm": mm("r"), "pins": ", ".join(primed(made.pin)),
+        "ends": ", ".join(primed(made.end)),
+        "rays": ", ".join(point_name(made.pivot) + end for end in primed(made.end)),
+        "far": total, "near": less,
+        "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
+    }  # fmt: skip
+    angles = [
+        said.constructed["phi"].format(
+            name=f"φ{p}",
+            read=degrees((phi + made.off(k)) % TURN, words),
+            exact=degrees(round(phi % TURN, 2) % TURN, words),
+            sigma=degrees(made.sigma[k], words),
+        )
+        for k, (p, phi) in enumerate(zip(PRIMES, made.phi, strict=True))
+    ]
+    unit = "m" if made.locus is Locus.GUIDE else "deg"
+
+    def size(value: float, digits: int) -> str:
+        if unit == "deg":
+            return degrees(value, words)
+        return with_unit(say.number(significant(value, digits)), say.units["m"])
+
+    told = said.constructed[unit].format(
+        angles="; ".join(angles),
+        link=made.link,
+        read=size(made.stroke(made.read), 4),
+        exact=size(made.stroke(made.exact), 4),
+        sigma=size(made.sigma[2], 2),
+    )
+    return [said.construction[made.locus.value].format(**facts), told]

@@ -10,8 +10,9 @@ import numpy as np
 from planmethod.note.numbers import finite_or_none, plain
 from planmethod.problem.model import Differentiation
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
-from planmethod.solved.turn.turn import Turn, Why, analogues, turn_of
+from planmethod.solved.turn.turn import TURN, Extreme, Turn, Why, analogues, turn_of
 
 
 def analogue_records(solution: Solution) -> list[dict[str, Any]]:
@@ -55,20 +56,19 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     if turn.ratio is None:
         reasons["K_v"] = turn.why_no_ratio
     if not turn.zero_is_asked:
-        reasons["zero_deg"] = turn.why_no_stroke
+        reasons["zero_deg"] = turn.why_no_stroke or Why.PARTIAL
     peak = turn.pressure
     if peak is None:
         reasons["pressure_angle"] = Why.NO_DYAD
-    if diagrams is None:
-        reasons |= dict.fromkeys(("diagrams", "hodograph"), Why.PARTIAL)
-    elif diagrams.mu_t is None:
+    if diagrams.mu_t is None:
         reasons["mu_t"] = Why.NO_RATE
     return {
         "output": turn.output.name,
         "zero_deg": plain(turn.zero),
         "positions_deg": _listed(turn.positions),
         "extremes": [
-            {"phi_deg": plain(one.phi), "value": plain(one.value)} for one in turn.extremes
+            {"phi_deg": plain(one.phi), "value": plain(one.value), **_constructed(solution, one)}
+            for one in turn.extremes
         ],
         "stroke": turn.stroke,
         "K_v": turn.ratio,
@@ -83,10 +83,20 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
             "min_deg": plain(peak.least),
             "min_phi_deg": plain(peak.least_at),
         },
-        "diagrams": None if diagrams is None else _diagrams(diagrams),
-        "hodograph": None if diagrams is None else _hodograph(turn),
+        "diagrams": _diagrams(diagrams),
+        "hodograph": _hodograph(turn),
         **({"reasons": {key: why.value for key, why in reasons.items() if why}} if reasons else {}),
     }
+
+
+def _constructed(solution: Solution, extreme: Extreme) -> dict[str, float]:
+    """Return an extreme position as the ruler reads it, and its sigma, where it is constructed."""
+    made = extreme_construction(solution)
+    for k, phi in enumerate(made.phi if made is not None else ()):
+        assert made is not None
+        if abs((extreme.phi - phi + TURN / 2) % TURN - TURN / 2) < 1e-9:
+            return {"read_deg": plain(extreme.phi + made.off(k)), "sigma_deg": plain(made.sigma[k])}
+    return {}
 
 
 def _diagrams(diagrams: Diagrams) -> dict[str, Any]:

@@ -7,15 +7,16 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from planmethod.construct.hand import Hand
-from planmethod.note.narrate.turn import diagram_steps, output_symbol, turn_facts
+from planmethod.note.narrate.turn import diagram_steps, extreme_steps, output_symbol, turn_facts
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
 from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.turn import TURN, turn_of
 
 Columns = list[tuple[str, str, tuple[str, ...]]]
 """Columns of a table: head (rich text), unit of SI or none, cells (rich text)."""
@@ -38,13 +39,11 @@ def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
         (f"{v}_{index}", "1/s" if turns else "m/s", one * rate),
         (f"{a}_{index}", "1/s²" if turns else "m/s²", two * rate**2),
     ]
+    at = turn.at(shares)
+    at = at if turn.range is not None else np.round(at % TURN, 2) % TURN
     columns: Columns = [
         (words.note.number, "", tuple(str(k) for k in range(diagrams.count))),
-        (
-            "φ",
-            "deg",
-            tuple(say.number(f"{round(p % 360.0, 2) % 360.0:.2f}") for p in turn.at(shares)),
-        ),
+        ("φ", "deg", tuple(say.number(f"{p:.2f}") for p in at)),
     ]
     for head, unit, values in found:
         peak = float(np.nanmax(np.abs(values), initial=0.0))
@@ -102,8 +101,6 @@ def cycle_tables(solution: Solution, words: Language) -> list[str]:
     turn, diagrams, said = turn_of(solution), diagrams_of(solution), words.cycle
     lines = [*heading(plain_text(said.title)), ""]
     lines += wrap("; ".join(plain_text(fact) for fact in turn_facts(turn, words)) + ".")
-    if diagrams is None:
-        return lines
     for title, columns in (
         (said.table, cycle_columns(diagrams, words)),
         (deviations_title(solution, words), deviation_columns(diagrams, words)),
@@ -113,12 +110,12 @@ def cycle_tables(solution: Solution, words: Language) -> list[str]:
 
 
 def cycle_protocol(solution: Solution, words: Language) -> list[str]:
-    """Return how the diagrams of a turn are made, and what they give, as lines of plain text."""
+    """Return how extremes and diagrams of a turn are made, and what they give, as plain text."""
     diagrams = diagrams_of(solution)
     lines = cycle_tables(solution, words)
-    if diagrams is None:
-        return lines
-    steps = [plain_text(step) for step in diagram_steps(diagrams, words)]
+    made = extreme_construction(solution)
+    own = [*extreme_steps(diagrams.turn, made, words), *diagram_steps(diagrams, words)]
+    steps = [plain_text(step) for step in own]
     told = [line for k, step in enumerate(steps, 1) for line in wrap(f"{k}. {step}", rest="   ")]
     return [*lines, "", *told]
 

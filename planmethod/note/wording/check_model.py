@@ -30,7 +30,8 @@ class KeyWording:
     """What stands on the key; see `planmethod.check.pages.keypage`.
 
     ``columns`` are those of its table, ``rows`` the heads of the leading columns where several
-    variants or positions stand in one table; ``unseen`` and ``zero`` are notes on an answer.
+    variants or positions stand in one table; ``unseen`` and ``zero`` are notes on an answer,
+    ``note`` says what the tolerance is, ``computed`` that of a problem without plans.
     """
 
     title: str
@@ -42,9 +43,21 @@ class KeyWording:
     unseen: str
     zero: str
     note: str
+    computed: str
     hidden: str
     sheet: str
     sheet_hidden: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComparedWording:
+    """What stands beside a student's own numbers before he hands them in.
+
+    ``columns`` are the quantity, his value, the exact one, the difference, per cent of it.
+    """
+
+    columns: tuple[str, ...]
+    note: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +99,7 @@ class StudentWording:
     answers: str
     columns: tuple[str, ...]
     tolerance: str
+    computed: str
     plans: str
     plan_names: Mapping[str, str]
     plan_title: str
@@ -138,3 +152,4 @@ class CheckWording:
     key: KeyWording
     results: ResultWording
     student: StudentWording
+    compared: ComparedWording

@@ -17,6 +17,7 @@ class CycleWording:
     # Facts, of a stroke along a guide and of a swing
     output: Mapping[str, str]
     zero: str
+    path_zero: str
     extremes: str
     stroke: Mapping[str, str]
     ratio: str
@@ -24,6 +25,11 @@ class CycleWording:
     tightest: str
     range: str
     pressure: str
+
+    # Extreme positions by construction, by what the end of the rod goes along
+    construction: Mapping[str, str]
+    constructed: Mapping[str, str]
+    no_construction: str
 
     # Diagrams
     of: Mapping[str, str]

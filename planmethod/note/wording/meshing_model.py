@@ -30,6 +30,7 @@ class MeshingWording:
     tan: str
     title: str
     given: str
+    ring: str
     shifts: Mapping[bool, str]
     names: Mapping[str, str]
     pair: str

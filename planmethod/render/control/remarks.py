@@ -164,7 +164,8 @@ class Finding:
         return self._filled(actions[str(self.facts.get("advice", ""))], lang)
 
     def _filled(self, template: str, lang: str) -> str:
-        places = {key: _fact(fact, self.limit, lang) for key, fact in self.facts.items()}
+        places = {"scales": "[scales]"}
+        places |= {key: _fact(fact, self.limit, lang) for key, fact in self.facts.items()}
         if "thing" in places:
             places["thing"] = thing_text(places["thing"], language(lang).control)
         places |= {

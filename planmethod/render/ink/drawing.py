@@ -6,9 +6,11 @@ plain data, so tests compare lists, not pictures, and a lint can look for labels
 
 from __future__ import annotations
 
+from cmath import rect
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from math import radians
 from typing import TypeAlias
 
 from planmethod.render.ink.lettering import OutlineLettering, in_use
@@ -197,3 +199,21 @@ def shifted(items: Iterable[Item], by: complex) -> Iterator[Item]:
                     dx, dy = by.real, by.imag
                     box = (box[0] + dx, box[1] + dy, box[2] + dx, box[3] + dy)
                 yield replace(item, at=at + by, box=box)
+
+
+def placed(items: Iterable[Item], at: complex, angle: float) -> Iterator[Item]:
+    """Yield the items turned about the origin by ``angle`` degrees, and moved by ``at`` mm."""
+    turn = rect(1.0, radians(angle))
+    for item in items:
+        match item:
+            case Stroke(points=points):
+                yield replace(item, points=tuple(at + point * turn for point in points))
+            case Fill(points=points):
+                yield replace(item, points=tuple(at + point * turn for point in points))
+            case Arc(centre=centre, start=start, end=end):
+                by = radians(angle)
+                yield replace(item, centre=at + centre * turn, start=start + by, end=end + by)
+            case Disc(centre=centre):
+                yield replace(item, centre=at + centre * turn)
+            case Text():
+                yield replace(item, at=at + item.at * turn, angle=item.angle + angle)

@@ -28,7 +28,6 @@ FOUND = "diagram point"
 EXACT = "exact"
 """Letter of the thin exact curves in their tags."""
 
-_FINE = 361  # places of a smooth curve
 _NUMBERED = 12  # positions at the most that rays and all axes have numbers of
 _APART = 4.0  # mm between two diagrams
 _CLEAR = 3.2  # mm between numbers of rays on the axis
@@ -76,8 +75,9 @@ def _axes(diagrams: Diagrams) -> Iterator[tuple[str, str, Scale]]:
 
 def _across(diagrams: Diagrams, *, numbered: bool) -> Abscissae:
     """Return the axis of φ; of many positions only the first diagram has the numbers."""
-    at = diagrams.task.length * diagrams.shares
-    numbers = [str(k % diagrams.count) if numbered else "" for k in range(diagrams.count + 1)]
+    # Of a range the axis ends with its last position.
+    at = diagrams.x(diagrams.shares)[: None if diagrams.turn.range is None else -1]
+    numbers = [str(k % diagrams.count) if numbered else "" for k in range(len(at))]
     return Abscissae("φ", tuple(at.tolist()), tuple(numbers))
 
 
@@ -99,13 +99,12 @@ def _places(graph: Graph, trace: Trace, number: int) -> Complexes:
 
 def _curves(diagrams: Diagrams, graph: Graph, trace: Trace, number: int) -> list[Curve]:
     """Return the drawn curve, through what was found, and the exact one beside it."""
-    fine = np.linspace(0.0, 1.0, _FINE)
-    x, exact = diagrams.task.length * fine, diagrams.exact(fine)[number]
+    x, exact = diagrams.x(diagrams.fine), diagrams.exact(diagrams.fine)[number]
     if not number:
         return [Curve("", _parts(x, exact))]
     found = _places(graph, trace, number)
     step = diagrams.task.length / diagrams.count
-    drawn = smooth(found.imag, (x - found[0].real) / step)
+    drawn = smooth(found.imag, (x - graph.at[number][0]) / step)
     return [Curve("", _parts(x, drawn)), Curve("", _parts(x, exact), Pen.THIN)]
 
 

@@ -22,12 +22,14 @@ from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.tidy import untidiness
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
+from planmethod.render.pictures.extremes import construction_items
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.positions import Positions
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import extreme_construction
 
 
 @dataclass(slots=True)
@@ -208,14 +210,16 @@ def scheme_picture(
     letter_height: float = 5.0,
     overlay: tuple[int, ...] = (),
     errors: bool = False,
+    turn: bool = False,
     bare: bool = False,
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
     The positions of ``overlay`` are there in thin lines, their points lettered and numbered; the
     arrows of the links but the driver's, and its angle, are left to the single position.
-    ``errors`` draws the ellipses of the drafting error around the moving points. ``bare`` leaves
-    out what tells of the motion: arrows, the angle of the driver, letters of the axes.
+    ``errors`` draws the ellipses of the drafting error around the moving points, ``turn`` the
+    construction of the extreme positions. ``bare`` leaves out what tells of the motion: arrows, the
+    angle of the driver, letters of the axes.
     """
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
@@ -224,7 +228,8 @@ def scheme_picture(
     many = len(overlay) > 1
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
     if many:
-        return _many_picture(view, Positions(solution, index, overlay, letter_height), ellipses)
+        positions = Positions(solution, index, overlay, letter_height)
+        return _many_picture(view, positions, ellipses, turn=turn)
     _letter_points(view)
     if not bare:
         _letter_axes(view)
@@ -249,7 +254,7 @@ ROOM = 40.0
 """Room around many positions for their letters, mm."""
 
 
-def _many_picture(view: _View, positions: Positions, ellipses: Ellipses) -> Picture:
+def _many_picture(view: _View, positions: Positions, ellipses: Ellipses, *, turn: bool) -> Picture:
     """Return the scheme with other positions behind it; smaller letters where larger do not fit."""
     scheme = view.scheme
     fixed = scheme.solution.problem.bodies[FRAME].points
@@ -258,6 +263,10 @@ def _many_picture(view: _View, positions: Positions, ellipses: Ellipses) -> Pict
     others = positions.lines()
     _letter_links(view, others)
     own = [replace(label, manner=BUSY) for label in view.labels]
+    construction = extreme_construction(scheme.solution) if turn else None
+    if construction is not None:
+        lines, radii = construction_items(construction, SMALL)
+        others, own = [*others, *lines], [*own, *radii]
     items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
     left, low, right, high = ink_bounds(items)
     bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)

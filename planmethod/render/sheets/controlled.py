@@ -51,9 +51,14 @@ def controlled_structure(
     return looked_over([drawing])
 
 
-def looked_over(drawings: Sequence[Drawing]) -> list[Controlled]:
-    """Look sheets over; no other scales are tried."""
-    return [Controlled(one, paper_of(one), tuple(inspect(one))) for one in drawings]
+def looked_over(drawings: Sequence[Drawing], scales: str = "[scales]") -> list[Controlled]:
+    """Look sheets over; no other scales are tried. ``scales`` is where the file has them."""
+    own = {} if scales == "[scales]" else {"scales": scales}
+
+    def told(drawing: Drawing) -> tuple[Finding, ...]:
+        return tuple(replace(one, facts={**one.facts, **own}) for one in inspect(drawing))
+
+    return [Controlled(one, paper_of(one), told(one)) for one in drawings]
 
 
 def controlled_kinematics(

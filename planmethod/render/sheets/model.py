@@ -152,12 +152,14 @@ class Composition:
 class Extras:
     """What is asked of all blocks of a sheet: its language, and what it shows of drafting errors.
 
-    ``errors`` are ellipses around points, ``sigma`` stands in the tables.
+    ``errors`` are ellipses around points, ``sigma`` stands in the tables. ``turn``: it is that of a
+    turn, and the scheme has the construction of the extreme positions.
     """
 
     words: Language
     errors: bool = False
     sigma: bool = False
+    turn: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,18 +19,18 @@ from planmethod.note.narrate.turn import (
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.layout.block import Block, Spacer, paragraph
+from planmethod.render.layout.block import Block
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import results_block, table_width
+from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import PlanViewed, Viewed, named, plan_grid
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.turn import TURN, Turn, Why, turn_of
+from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
 SIDE = 0.4
 """Side of a hodograph as a part of the width of a text."""
@@ -54,12 +54,6 @@ def _whose(turn: Turn, manner: Manner) -> str:
 def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the diagrams of s, v and a under one another."""
     diagrams, words = diagrams_of(solution), manner.words
-    if diagrams is None:
-        turn, said = turn_of(solution), words.cycle
-        what = said.diagrams.format(of=_whose(turn, manner))
-        told = said.none.format(what=what, why=said.why[Why.PARTIAL.name])
-        height = manner.text(manner.sizes.text)
-        return paragraph(told + ".", height, width=manner.width(manner.sizes.column))
     picture = kinematic_picture(diagrams, manner.letter, words.say)
     title = words.cycle.diagrams.format(of=_whose(diagrams.turn, manner))
     scales = diagram_scales(diagrams, words)
@@ -73,11 +67,19 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn."""
+    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn.
+
+    At a scale of their own, where the largest of all positions would make them small.
+    """
     kind = manner.entry.of
     assert kind is not None
     count = len(solution.positions)
     chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3))))
+    at, problem = solution.positions.tolist(), solution.problem
+    own = Solution(problem, positions=[at[k] for k in chosen], views=solution.views).scales[kind]
+    if own.per_mm < solution.scales[kind].per_mm:
+        scales = {**solution.scales, kind: own}
+        solution = Solution(problem, positions=at, scales=scales, profile=solution.profile)
     picture = plan_grid(solution, kind, chosen, manner.words.say)
     title = manner.entry.title or manner.words.sheets.views[kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
@@ -165,15 +167,11 @@ def _table(columns: Columns, lead: int, title: str, manner: Manner) -> Block:
 def turn_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the table of the turn by positions; without diagrams the results of all of them."""
     diagrams = diagrams_of(solution)
-    if diagrams is None:
-        return results_block(solution, indices, manner)
     return _table(cycle_columns(diagrams, manner.words), 2, manner.words.cycle.table, manner)
 
 
 def deviations_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return how far the diagrams are off by every way."""
     diagrams = diagrams_of(solution)
-    if diagrams is None:
-        return Spacer(1.0, 1.0)
     columns = deviation_columns(diagrams, manner.words)
     return _table(columns, 2, deviations_title(solution, manner.words), manner)

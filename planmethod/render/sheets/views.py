@@ -114,6 +114,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
         letter_height=manner.letter,
         overlay=() if alone else tuple(indices),
         errors=manner.extras.errors,
+        turn=manner.extras.turn,
     )
     kind = PlanKind.POSITION
     block = _with_scale(solution, kind, picture, manner, (bold,))

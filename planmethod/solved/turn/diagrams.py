@@ -1,5 +1,7 @@
 """Kinematic diagrams of the output over a turn (кинематические диаграммы): s, v and a.
 
+Of a crank that does not turn fully over the range that there is.
+
 The path is taken off the scheme, differentiated with a pole, and once more; all of it is a program
 of steps that any hand can read. Beside it stand the exact curves, and what the plans give.
 
@@ -13,7 +15,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from math import tau
+from math import radians
 
 import numpy as np
 
@@ -45,15 +47,28 @@ _BETWEEN = 16.0  # mm of paper between two diagrams
 
 
 def smooth(values: Reals, at: Reals) -> Reals:
-    """Return the smooth closed curve through evenly spaced values: the periodic cubic spline.
+    """Return the smooth curve through evenly spaced values: the cubic spline.
 
     Parameters
     ----------
     values : ndarray of shape (n,)
+        Of a period; where some do not exist (NaN) the others have open curves, the natural ones.
     at : ndarray of shape (m,)
         Places, the values standing at 0, 1, ... n - 1.
     """
     n = len(values)
+    there = np.isfinite(values)
+    if not there.all():
+        made = np.full(np.shape(at), np.nan)
+        for run in np.split(np.arange(n), np.flatnonzero(np.diff(there.astype(int))) + 1):
+            if there[run[0]] and len(run) > 1:
+                inside = (at >= run[0]) & (at <= run[-1])
+                # An odd curve about both ends is periodic, and has no bend there.
+                ends = np.linspace(values[run[0]], values[run[-1]], len(run))
+                odd = values[run] - ends
+                whole = smooth(np.append(odd, -odd[-2:0:-1]), at[inside] - run[0])
+                made[inside] = whole + np.interp(at[inside], run, ends)
+        return made
     ring = np.eye(n)
     bends = np.linalg.solve(
         4 * ring + np.roll(ring, 1, 0) + np.roll(ring, -1, 0),
@@ -120,7 +135,6 @@ class Diagrams(Remembering):
     Parameters
     ----------
     turn : Turn
-        Of a crank that turns fully.
     count : int, optional
         Positions, if not those of the problem.
     """
@@ -141,48 +155,64 @@ class Diagrams(Remembering):
         way = second if abs(first) < 1e-9 * turn.fastest else turn.sense * first
         return float(turn.values(zero)[0]), -1 if way < 0 else 1
 
+    def _at(self, shares: Reals) -> Reals:
+        """Return the driver positions after shares of the way; none at and beyond a limit."""
+        inside = (self.turn.range is None) | (shares > 1e-9) & (shares < 1 - 1e-9)
+        return np.asarray(np.where(inside, self.turn.at(shares), np.nan))
+
     def path(self, shares: Reals) -> Reals:
-        """Return the path after shares of a turn, m or radians."""
+        """Return the path after shares of the way, m or radians."""
         start, sign = self._start
-        return sign * (self.turn.values(self.turn.at(shares)) - start) / self.turn.output.per_radian
+        return sign * (self.turn.values(self._at(shares)) - start) / self.turn.output.per_radian
 
     def rates(self, shares: Reals) -> tuple[Reals, Reals]:
         """Return both transfer functions of the path, m or 1 per radian of the crank's way."""
-        one, two = self.turn.transfers(self.turn.at(shares))
+        one, two = self.turn.transfers(self._at(shares))
         _, sign = self._start
         return sign * self.turn.sense * one, sign * two
 
     def exact(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
-        """Return the exact ordinates of s, v and a after shares of a turn, mm."""
+        """Return the exact ordinates of s, v and a after shares of the way, mm."""
         one, two = self.rates(shares)
         by = self.mu_phi * self.task.pole_v / self.mu_s
         return self.path(shares) / self.mu_s, one * by, two * by * self.mu_phi * self.task.pole_a
 
     @cached_property
     def shares(self) -> Reals:
-        """Shares of a turn of the positions, the first one again at the end."""
-        return np.arange(self.count + 1) / self.count
+        """Shares of the way of the positions, the first one again at the end.
+
+        Of a range the last one is beyond its limit: there is none.
+        """
+        return (np.arange(self.count + 1) + self.turn.first) / self.count
 
     @cached_property
     def middles(self) -> Reals:
-        """Shares of a turn of the middles of the intervals."""
-        return (np.arange(self.count) + 0.5) / self.count
+        """Shares of the way of the middles of the intervals."""
+        return self.shares[:-1] + 0.5 / self.count
+
+    @cached_property
+    def fine(self) -> Reals:
+        """Shares of the way that the curves are drawn through, from the first to the last."""
+        return np.linspace(self.shares[0], 1 - self.shares[0], 361)
+
+    def x(self, shares: Reals) -> Reals:
+        """Return abscissae, mm from that of position 0."""
+        return np.asarray(self.task.length * (shares - self.shares[0]), dtype=float)
 
     # Scales --------------------------------------------------------------------------------------
 
     @property
     def mu_phi(self) -> float:
         """Radians of the crank per mm."""
-        return tau / self.task.length
+        return radians(self.turn.way) / self.task.length
 
     @cached_property
     def mu_s(self) -> float:
         """Of the path, m or radians per mm: the file's ``mu_l`` where the diagram is then fit."""
         problem, output = self.turn.solution.problem, self.turn.output
-        fine = np.linspace(0.0, 1.0, 181)
-        one, two = self.rates(fine)
+        one, two = self.rates(self.fine)
         by = self.mu_phi * self.task.pole_v
-        drawn = self.path(fine), one * by, two * by * self.mu_phi * self.task.pole_a
+        drawn = self.path(self.fine), one * by, two * by * self.mu_phi * self.task.pole_a
         s, v, a = (float(np.ptp(np.append(y[np.isfinite(y)], 0.0))) for y in drawn)
         given = problem.scales.mu_l
         if given is not None and output.slide is not None and LOW <= s / given <= HIGH:
@@ -234,7 +264,7 @@ class Diagrams(Remembering):
         curve = {}
         if way is Differentiation.CURVE:  # through what this hand has found of chords
             _, v, _ = self.drawn(Differentiation.CHORDS, arithmetic)
-            read = smooth(v, self.shares[:-1] * self.count - 0.5)
+            read = smooth(v, np.arange(self.count, dtype=float) - 0.5)
             curve = {f"v{k}": float(y) for k, y in enumerate(read)}
         trace = evaluate(graph.program, {**graph.data, **curve}, arithmetic)
         return [graph.ordinates(trace, number) for number in range(3)]
@@ -243,17 +273,17 @@ class Diagrams(Remembering):
     def curve(self) -> Reals:
         """The smooth curve through the velocities of the chords, read in the positions, mm."""
         _, v, _ = self.drawn(Differentiation.CHORDS)
-        return smooth(v, self.shares[:-1] * self.count - 0.5)
+        return smooth(v, np.arange(self.count, dtype=float) - 0.5)
 
     def integrated(self) -> Reals:
         """Return the path found from exact velocities by middle ordinates, mm; n + 1 ordinates."""
         board = Board()
         over, axes = board.axes("v"), board.axes("s", -200j)
-        at = (self.shares * self.task.length).tolist()
+        at = self.x(self.shares).tolist()
         _, v, _ = self.exact(self.middles)
         points = [
             board.plot(f"v {k}", over, x, board.known(f"v{k}", float(y)))
-            for k, (x, y) in enumerate(zip(self.middles * self.task.length, v, strict=True))
+            for k, (x, y) in enumerate(zip(self.x(self.middles), v, strict=True))
         ]
         pole = board.pole(over, self.task.pole_v)
         made = integrate(board, points, over, axes, at, pole=pole)
@@ -291,13 +321,13 @@ class Diagrams(Remembering):
 
 def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
     board, task = Board(), diagrams.task
-    exact = diagrams.exact(np.linspace(0.0, 1.0, 361))
+    exact = diagrams.exact(diagrams.fine)
     lows, highs = ([float(f(one)) for one in exact] for f in (np.nanmin, np.nanmax))
     down = [0.0]
     for low, high in zip(lows, highs[1:], strict=False):
         down.append(down[-1] + min(low, 0.0) - max(high, 0.0) - _BETWEEN)
     s, v, a = (board.axes(name, 1j * y) for name, y in zip("sva", down, strict=True))
-    ends, middles = task.length * diagrams.shares, task.length * diagrams.middles
+    ends, middles = diagrams.x(diagrams.shares), diagrams.x(diagrams.middles)
     path = _taken_off(board, s, ends, diagrams.exact(diagrams.shares)[0])
     poles = board.pole(v, task.pole_v), board.pole(a, task.pole_a)
     end = board.abscissa(v, float(ends[-1]))
@@ -331,11 +361,10 @@ def _taken_off(board: Board, axes: Axes, at: Reals, path: Reals) -> list[PointNa
     """Plot a path that is read on the scheme: how far the output is from position zero."""
     up = board.known("90", 90.0)
     places = [board.given(f"scheme {k}", complex(-100.0, y)) for k, y in enumerate(path)]
-    along = board.b.at_angle(places[0], None, up)
+    zero = board.given("scheme zero", -100.0 + 0j) if path[0] else places[0]
+    along = board.b.at_angle(zero, None, up)
     return [
-        board.plot(
-            f"s {k}", axes, float(x), board.b.measure_along(f"|s {k}|", places[0], place, along)
-        )
+        board.plot(f"s {k}", axes, float(x), board.b.measure_along(f"|s {k}|", zero, place, along))
         for k, (x, place) in enumerate(zip(at, places, strict=True))
     ]
 
@@ -348,7 +377,8 @@ def deviations(
     for way in ways:
         graph, drawn = diagrams.graph(way), diagrams.drawn(way, arithmetic)
         for number, letter in ((1, "v"), (2, "a")):
-            exact = diagrams.exact(graph.at[number] / diagrams.task.length)[number]
+            at = graph.at[number] / diagrams.task.length + diagrams.shares[0]
+            exact = diagrams.exact(at)[number]
             found[way, letter] = Deviation.of(drawn[number], exact)
     return found
 
@@ -386,7 +416,6 @@ def _ordinate(point: PointName, origin: PointName) -> Callable[[Trace], Number]:
 
 
 @remembered
-def diagrams_of(solution: Solution) -> Diagrams | None:
-    """Return the diagrams of a mechanism; None where its crank does not turn fully."""
-    turn = turn_of(solution)
-    return None if turn.range is not None else Diagrams(turn)
+def diagrams_of(solution: Solution) -> Diagrams:
+    """Return the diagrams of a mechanism; kept, since several views show them."""
+    return Diagrams(turn_of(solution))

@@ -1,4 +1,4 @@
-"""Roots and greatest values of what a program tells of the crank, to the last digits (корни)."""
+"""Roots and greatest values of functions of one variable, to the last digits (корни)."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from planmethod.solved.reading import Reals
 
 Function = Callable[[Reals], Reals]
-"""From driver positions, ndarray of shape (n,), to values of the same shape; NaN: there is none."""
+"""From places, ndarray of shape (n,), to values of the same shape; NaN: there is none."""
 
 _PARTS = 32
 _ROUNDS = 11  # a quarter of a degree over 32^11 is less than a binary fraction can tell
 _TOP_ROUNDS = 6  # near its top a smooth function is flat: more rounds would follow its rounding
-_VERTEX = 5e-3  # degrees to both sides of a top through which a parabola is laid
+_VERTEX = 1 / 6  # share of the first bracket to both sides of a top where a parabola is laid
 
 
 def crossings(values: Reals) -> list[int]:
@@ -53,20 +53,24 @@ def root(function: Function, low: float, high: float) -> float:
     return low if one <= two else high
 
 
-def top(function: Function, low: float, high: float) -> tuple[float, float]:
-    """Return the place and the size of the greatest value between two places."""
-    for _ in range(_TOP_ROUNDS):
-        places = np.linspace(low, high, _PARTS + 1)
+def top(function: Function, low: float, high: float, *, looks: int = _PARTS) -> tuple[float, float]:
+    """Return the place and the size of the greatest value between two places.
+
+    ``looks`` parts of the way are looked at first: so many that one of them holds the greatest.
+    """
+    vertex = _VERTEX * 2 * (high - low) / looks
+    for parts in (looks, *[_PARTS] * (_TOP_ROUNDS - 1)):
+        places = np.linspace(low, high, parts + 1)
         values = np.nan_to_num(function(places), nan=-np.inf)
         k = int(np.argmax(values))
         best = float(places[k]), float(values[k])
-        low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, _PARTS)])
+        low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, parts)])
     # Within rounding of its value the place of a smooth top is told by what is around it.
     at, size = best
-    before, here, after = function(np.array([at - _VERTEX, at, at + _VERTEX]))
+    before, here, after = function(np.array([at - vertex, at, at + vertex]))
     bend = before - 2 * here + after
-    off = _VERTEX * (before - after) / (2 * bend) if bend < 0 else 0.0
-    if np.isfinite(off) and abs(off) < _VERTEX:
+    off = vertex * (before - after) / (2 * bend) if bend < 0 else 0.0
+    if np.isfinite(off) and abs(off) < vertex:
         moved = float(function(np.array([at + off]))[0])
         if moved >= size - 1e-12:
             return float(at + off), max(moved, size)

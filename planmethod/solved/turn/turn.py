@@ -18,6 +18,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import TANGENT, evaluate
 from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointName, Touch
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import CycleTask, Problem, Zero
 from planmethod.solved.closings import drive_data
@@ -91,7 +92,7 @@ class Turn(Remembering):
                 [
                     Fault(
                         "cycle",
-                        f"the driver, link {problem.drive.link}, slides: it has no turn",
+                        say("the driver, link {}, slides: it has no turn", problem.drive.link),
                         "A cycle is a turn of a crank",
                     )
                 ],
@@ -329,7 +330,11 @@ class Turn(Remembering):
 
     @cached_property
     def stroke(self) -> float | None:
-        """Stroke H, m, or swing psi, degrees (ход, угол размаха)."""
+        """Stroke H, m, or swing psi, degrees (ход, угол размаха); of a range as far as it goes."""
+        if self.range is not None and not self.is_still:
+            places = np.array([*self.range, *(one.phi for one in self._turnings)])
+            values = self.values(places)
+            return float(np.nanmax(values) - np.nanmin(values))
         if self.ends is None:
             return 0.0 if self.is_still else None
         return abs(self.ends[0].value - self.ends[1].value)
@@ -364,12 +369,18 @@ class Turn(Remembering):
     @cached_property
     def zero(self) -> float:
         """Position zero, degrees: an extreme within half a turn of 0, or the given angle."""
-        asked = self.task.zero
+        asked, first = self.task.zero, float(self.unit.problem.drive.positions[0])
+        if self.range is not None:
+            first = float(self.positions[0])
         if not isinstance(asked, Zero):
-            return asked
+            if self.range is None:
+                return asked
+            low, high = self.range
+            found = asked + TURN * round(((low + high) / 2 - asked) / TURN)
+            return found if low <= found <= high else first
         if self.ends is None:
             single = self._turnings
-            found = single[0].phi if single else float(self.unit.problem.drive.positions[0])
+            found = single[0].phi if single else first
         else:
             found = self.ends[0 if asked is Zero.EXTREME else 1].phi
         if self.range is not None:
@@ -378,8 +389,10 @@ class Turn(Remembering):
 
     @cached_property
     def zero_is_asked(self) -> bool:
-        """Whether position zero is what was asked: the output has the extreme."""
-        return self.ends is not None or not isinstance(self.task.zero, Zero)
+        """Whether position zero is what was asked: there is the extreme, or the angle."""
+        if isinstance(self.task.zero, Zero):
+            return self.ends is not None
+        return not (self.zero - self.task.zero) % TURN
 
     @cached_property
     def positions(self) -> Reals:
@@ -387,15 +400,22 @@ class Turn(Remembering):
 
         Of a crank that does not turn fully so many within its range, the limits left out.
         """
-        if self.range is not None:
-            shares = (np.arange(self.task.count) + 0.5) / self.task.count
-            low, high = self.range[:: self.sense]
-            return low + (high - low) * shares
-        return self.at(np.arange(self.task.count) / self.task.count)
+        return self.at((np.arange(self.task.count) + self.first) / self.task.count)
+
+    @property
+    def way(self) -> float:
+        """How far the crank goes, degrees: a turn, or its range."""
+        return TURN if self.range is None else self.range[1] - self.range[0]
+
+    @property
+    def first(self) -> float:
+        """How many intervals from the start position 0 stands: half of one from a limit."""
+        return 0.0 if self.range is None else 0.5
 
     def at(self, shares: Reals) -> Reals:
-        """Return the driver positions after shares of a turn."""
-        return self.zero + self.sense * TURN * shares
+        """Return the driver positions after shares of the way from zero, or from a limit, on."""
+        start = self.zero if self.range is None else self.range[:: self.sense][0]
+        return start + self.sense * self.way * shares
 
     @cached_property
     def extremes(self) -> list[Extreme]:

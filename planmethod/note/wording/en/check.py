@@ -2,6 +2,7 @@
 
 from planmethod.note.wording.check_model import (
     CheckWording,
+    ComparedWording,
     KeyWording,
     ResultWording,
     StudentWording,
@@ -42,6 +43,10 @@ CHECK = CheckWording(
             "rounding of the number written is added to it. Quantities marked “{unseen}” are only "
             "compared with the student's own numbers."
         ),
+        computed=(
+            "The tolerance of what is computed is a share of it, of what is read off a picture the "
+            "error of drawing by pencil; the rounding of what is written is added."
+        ),
         hidden="These answers do not show the mistakes:",
         sheet="Key",
         sheet_hidden="Not shown",
@@ -78,6 +83,11 @@ CHECK = CheckWording(
         by_hand="set by hand",
         files="File",
     ),
+    compared=ComparedWording(
+        columns=("Quantity", "Yours", "Exact", "Difference", "%"),
+        note="Compared with the exact values. What is read off a plan differs from them in a right "
+        "work, too; `planmethod solve --sigma` tells by how much.",
+    ),
     student=StudentWording(
         title="Check of your work",
         student="Student",
@@ -93,6 +103,7 @@ CHECK = CheckWording(
             "What stands after ± is the error of drawing carefully with a pencil; within it an "
             "answer counts as right."
         ),
+        computed="After ±: how far an answer may be off the exact one.",
         plans="Your segments on the true plan",
         plan_names={"velocity": "velocity plan", "acceleration": "acceleration plan"},
         plan_title="{plan}, {scale}",

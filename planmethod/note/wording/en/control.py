@@ -52,7 +52,7 @@ CONTROL = ControlWording(
             "view outside the frame",
             "lines leave the frame by {value} mm, furthest at {place}",
             {
-                "": "Take a coarser scale in [scales] or a larger format (--paper).",
+                "": "Take a coarser scale in {scales} or a larger format (--paper).",
             },
         ),
         "PM-D08": Said(
@@ -80,7 +80,7 @@ CONTROL = ControlWording(
             "an empty rectangle of {width} × {height} mm takes {value} % of the field, its middle "
             "at {place}",
             {
-                "": "Take a larger scale in [scales] or a smaller format (--paper).",
+                "": "Take a larger scale in {scales} or a smaller format (--paper).",
             },
         ),
         "PM-D11": Said(
@@ -101,7 +101,7 @@ CONTROL = ControlWording(
             "runs into a graph",
             "lines or inscriptions run {value} mm into the title block or graph 26 at {place}",
             {
-                "": "Take a coarser scale in [scales] or a larger format (--paper).",
+                "": "Take a coarser scale in {scales} or a larger format (--paper).",
             },
         ),
     },

@@ -16,6 +16,7 @@ CYCLE = CycleWording(
     none="{what}: none, {why}",
     output={"m": "Output: point {name} of slider {link}", "deg": "Output: angle of link {name}"},
     zero="position 0: φ = {phi}; numbered as the crank turns",
+    path_zero="the path is counted from φ = {phi}",
     extremes="extreme positions: {extremes}",
     stroke={"m": "stroke H = {stroke}", "deg": "swing ψ = {stroke}"},
     ratio="φ_{{w}} = {working}, φ_{{i}} = {idle}, K_{{v}} = {ratio}",
@@ -24,6 +25,28 @@ CYCLE = CycleWording(
     range="the crank does not turn fully: the mechanism assembles for φ from {low} to {high}, "
     "beyond them links {links} do not close",
     pressure="pressure angle: greatest {most} at φ = {most_at}, least {least} at φ = {least_at}",
+    construction={
+        "guide": "Extreme positions: arcs about {pivot} of the radii {far} = {far_mm} mm and "
+        "{near} = "
+        "{near_mm} mm cut the guide in {ends}; the points {pins} lie on the lines {rays}, {crank} "
+        "= "
+        "{crank_mm} mm from {pivot}.",
+        "circle": "Extreme positions: arcs about {pivot} of the radii {far} = {far_mm} mm and "
+        "{near} = "
+        "{near_mm} mm cut the arc of point {end} about {centre} in {ends}; the points {pins} lie "
+        "on "
+        "the lines {rays}, {crank} = {crank_mm} mm from {pivot}.",
+        "tangents": "Extreme positions: from {centre} tangents to the circle of the radius "
+        "{crank} = "
+        "{crank_mm} mm about {pivot}; they touch it in {pins}.",
+    },
+    constructed={
+        "m": "Read: {angles}; stroke of link {link} H = {read} (exactly {exact}, σ = {sigma}).",
+        "deg": "Read: {angles}; swing of link {link} ψ = {read} (exactly {exact}, σ = {sigma}).",
+        "phi": "{name} = {read} (exactly {exact}, σ = {sigma})",
+    },
+    no_construction="The extreme positions of this mechanism are not found with arcs or tangents: "
+    "they are the roots of the output's velocity.",
     of={"m": "point {name}", "deg": "link {name}"},
     diagrams="Kinematic diagrams of {of}",
     hodograph={

@@ -7,6 +7,7 @@ MESHING = MeshingWording(
     title="Involute meshing: {title}",
     given="Given: z_{{1}} = {z1}, z_{{2}} = {z2}, m = {m} mm, α = {alpha}°, h_{{a}}^{{*}} = {ha}, "
     "c^{{*}} = {c}{further}.",
+    ring=", wheel 2 internal, cut by a pinion cutter z_{{0}} = {cutter} without shift",
     shifts={
         True: "The shifts x_{{1}} = {x1}, x_{{2}} = {x2} were chosen by the limits of the blocking "
         "contour: the greater specific sliding of |ϑ_{{p1}}|, |ϑ_{{p2}}| is the least.",
@@ -60,6 +61,7 @@ MESHING = MeshingWording(
         "undercut": "undercut: x_{{{wheel}}} = {value} {sign} x_{{min{wheel}}} = {bound}",
         "tip": "pointed tooth: s_{{a{wheel}}}/m = {value} {sign} {bound}",
         "overlap": "contact ratio: ε_{{α}} = {value} {sign} {bound}",
+        "tips": "interference of the tips: Δφ = {value} rad {sign} {bound}",
         "interference": "interference: ρ_{{p{wheel}}} = {value} mm {sign} "
         "ρ_{{l{wheel}}} = {bound} mm",
     },

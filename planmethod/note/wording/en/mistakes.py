@@ -201,4 +201,59 @@ MISTAKES = {
         "another scale is used than the one stated in the work",
         "Check the scale of this plan: it is the same for all its segments.",
     ),
+    "G1": Words(
+        "sign of a mesh wrong",
+        "the sign is forgotten: wheels in external mesh turn in opposite senses, in internal mesh "
+        "in the same one",
+        "An external mesh gives its ratio a minus, an internal one a plus: multiply the signs of "
+        "all stages anew.",
+    ),
+    "G2": Words(
+        "ratio inverted",
+        "the inverse ratio is taken",
+        "U_{1-2} = n_{1}/n_{2} = z_{2}/z_{1}: the teeth of the driven wheel over those of the "
+        "driving one.",
+    ),
+    "G3": Words(
+        "carrier left out of account",
+        "the ratio seen from the carrier is taken for the real one",
+        "Hold the carrier in mind: (n_{1} − n_{H})/(n_{3} − n_{H}) = U^{(H)}_{13}; with wheel 3 "
+        "fixed that makes U_{1H} = 1 − U^{(H)}_{13}.",
+    ),
+    "G4": Words(
+        "teeth of another rim of the same shaft",
+        "the rims of a double wheel are exchanged",
+        "Only the two rims in mesh go into the ratio of a stage: see on the scheme which they are.",
+    ),
+    "K1": Words(
+        "tangential and normal acceleration exchanged",
+        "tangential and normal acceleration are exchanged",
+        "The tangential acceleration is the projection on the velocity: a_{τ} = (v_{x}·a_{x} + "
+        "v_{y}·a_{y})/v; the normal one is the rest.",
+    ),
+    "K2": Words(
+        "whole acceleration taken for its part",
+        "the whole acceleration is taken for its part",
+        "The whole acceleration is the root of the squares of both parts: neither is larger.",
+    ),
+    "K3": Words(
+        "root not taken",
+        "the root of the sum of squares is forgotten",
+        "The length of a vector is the root of the sum of the squares of its projections: take it.",
+    ),
+    "K4": Words(
+        "projections added as numbers",
+        "the projections are added without squares",
+        "Projections add by Pythagoras: the root of the sum of their squares.",
+    ),
+    "K5": Words(
+        "velocity not squared in the radius of curvature",
+        "the velocity itself is divided by the normal acceleration",
+        "ρ = v^{2}/a_{n}: square the velocity.",
+    ),
+    "K6": Words(
+        "argument taken in degrees",
+        "sine and cosine are taken of degrees in place of radians",
+        "Arguments are radians: set the calculator to them and compute anew.",
+    ),
 }

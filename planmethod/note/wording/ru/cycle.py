@@ -16,6 +16,7 @@ CYCLE = CycleWording(
     none="{what}: нет, {why}",
     output={"m": "Выход: точка {name} ползуна {link}", "deg": "Выход: угол поворота звена {name}"},
     zero="положение 0: φ = {phi}; нумерация в сторону вращения кривошипа",
+    path_zero="путь отсчитан от положения при φ = {phi}",
     extremes="крайние положения: {extremes}",
     stroke={"m": "ход H = {stroke}", "deg": "угол размаха ψ = {stroke}"},
     ratio="φ_{{р}} = {working}, φ_{{х}} = {idle}, K_{{v}} = {ratio}",
@@ -25,6 +26,28 @@ CYCLE = CycleWording(
     "замыкается группа звеньев {links}",
     pressure="угол давления: наибольший {most} при φ = {most_at}, наименьший {least} при "
     "φ = {least_at}",
+    construction={
+        "guide": "Крайние положения: из центра {pivot} дугами радиусов {far} = {far_mm} мм и "
+        "{near} = "
+        "{near_mm} мм засекаем на направляющей точки {ends}; точки {pins} лежат на прямых {rays} "
+        "на "
+        "расстоянии {crank} = {crank_mm} мм от {pivot}.",
+        "circle": "Крайние положения: из центра {pivot} дугами радиусов {far} = {far_mm} мм и "
+        "{near} = "
+        "{near_mm} мм засекаем на дуге точки {end} с центром {centre} точки {ends}; точки {pins} "
+        "лежат "
+        "на прямых {rays} на расстоянии {crank} = {crank_mm} мм от {pivot}.",
+        "tangents": "Крайние положения: из центра {centre} проводим касательные к окружности "
+        "радиуса "
+        "{crank} = {crank_mm} мм с центром {pivot}; точки касания — {pins}.",
+    },
+    constructed={
+        "m": "Снято: {angles}; ход звена {link} H = {read} (точно {exact}, σ = {sigma}).",
+        "deg": "Снято: {angles}; размах звена {link} ψ = {read} (точно {exact}, σ = {sigma}).",
+        "phi": "{name} = {read} (точно {exact}, σ = {sigma})",
+    },
+    no_construction="Крайние положения этого механизма засечками и касательными не строятся: "
+    "указаны корни скорости выходного звена.",
     of={"m": "точки {name}", "deg": "звена {name}"},
     diagrams="Кинематические диаграммы {of}",
     hodograph={

@@ -1,0 +1,341 @@
+"""Answers that are computed, not drawn: trains and moving points (проверка расчётных задач).
+
+They are judged, passed on and written as those of plans. A value is exact but for its rounding;
+what is asked, or told, in millimetres of a picture has the errors of drawing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from functools import cached_property
+
+from planmethod.check.diagnosis import passed_on
+from planmethod.check.explain import Explanation, Fit
+from planmethod.check.judge import Examined, decide, distance
+from planmethod.check.letters import plain
+from planmethod.check.marks import Settings
+from planmethod.check.model import Diagnosis, Unread, Verdict, Written
+from planmethod.check.questions import Question, Sign
+from planmethod.check.sheet import Sheet
+from planmethod.check.slips import METRES, PLACES, UNITS
+from planmethod.check.task import Item, Task
+from planmethod.check.works.cells import refused
+from planmethod.check.works.units import ratio
+from planmethod.construct.drafting import PROFILES, Profile
+from planmethod.construct.evaluate import Trace
+from planmethod.errors import Fault, ProblemError
+from planmethod.kinds import Kind, KindProblem
+from planmethod.languages import say
+from planmethod.plans.model import Plan
+from planmethod.problem.figures import Figure, Figures
+from planmethod.problem.model import AnswerForm, AskedAnswer
+from planmethod.problem.selector import Selector
+from planmethod.solved.selected.asking import NoAnswer, UnansweredError
+
+READ = "read"
+"""Kind of what is read off a picture."""
+
+COUNTED = 0.3
+"""How far a count may be off: nobody writes a half."""
+
+COARSE = 0.01
+"""Share of a number that its last digit is worth from which it is no sign of another variant."""
+
+_NOTHING = Trace({}, {})
+
+
+class Numbers(Sheet):
+    """What is asked of one position of a problem that is computed."""
+
+    def __init__(
+        self, figures: Figures, position: int, asked: Iterable[Question], by: Profile
+    ) -> None:
+        self.figures, self.position = figures, position
+        self.asked, self.profile = tuple(asked), by
+        self.scales, self.order, self.made = {}, {}, {}
+        self._seen: dict[str, tuple[float, float]] = {}
+
+    @cached_property
+    def trace(self) -> Trace:
+        """Nothing is constructed."""
+        return _NOTHING
+
+    @cached_property
+    def exact(self) -> dict[str, float]:
+        """Exact answers by the id of the question."""
+        return {question.id: float(question.take(_NOTHING)) for question in self.asked}
+
+    def _drawn(self, question: Question) -> tuple[float, float]:
+        if question.selector.kind != READ:
+            return math.nan, 0.0
+        name = question.selector.names[0]
+        if name not in self._seen:
+            read = self.figures.read_off(name, self.position, self.profile)
+            self._seen[name] = read or (math.nan, 0.0)
+        return self._seen[name]
+
+    def length(self, question: Question) -> float | None:
+        """Return the length of its segment on the picture, mm."""
+        mm, _ = self._drawn(question)
+        return mm if math.isfinite(mm) else None
+
+    def sigma(self, question: Question, *, length: bool = False) -> float:
+        """Return one sigma of what is read; 0 of what is computed."""
+        return self._drawn(question)[1]
+
+    def vector(self, question: Question, trace: Trace | None = None) -> complex | None:
+        """Return nothing: no answer is a vector."""
+        return None
+
+    @property
+    def plans(self) -> tuple[Plan, ...]:
+        """Plans that it has: none."""
+        return ()
+
+
+class Calculation(Task):
+    """One variant of a problem that is computed; see `planmethod.check.task.Task`.
+
+    Raises
+    ------
+    ProblemError
+        It cannot be solved, or asks for what has no value.
+    """
+
+    def __init__(
+        self,
+        kind: Kind,
+        problem: KindProblem,
+        settings: Settings,
+        others: Callable[[], Iterable[Task]] | None = None,
+    ) -> None:
+        self.problem, self.settings = problem, replace(settings, floor_mm=0.0)
+        self.variant, self._others = problem.variant, others
+        self.figures = kind.figures(problem)
+        self._found: dict[tuple[str, int, bool, bool], Question] = {}
+        self._forms: dict[str, Item] = {}
+        self._numbers: dict[tuple[object, ...], Numbers] = {}
+        if not (problem.answers or self.figures.names):
+            fault = Fault(kind.table, "no quantity has a value that could be asked for")
+            raise ProblemError(problem.name, [fault])
+        self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
+
+    def _stated(self, at: int, asked: AskedAnswer) -> Item:
+        position = asked.position or 0
+        drawn = asked.form is not AnswerForm.VALUE
+        question = self._question(asked.what, position, drawn=drawn, turns=asked.sense is not None)
+        if question is None:
+            said = say("{} has no value in this problem", asked.what)
+            fault = Fault(
+                f"answers[{at}].what", said, "planmethod solve tells why; ask for another."
+            )
+            raise ProblemError(self.problem.name, [fault])
+        item = self._item(question, position, asked.what)
+        item = replace(
+            item,
+            id=asked.id,
+            name=asked.id,
+            points=asked.points,
+            asks_sense=asked.sense is not None,
+            fixed=asked.tolerance or item.fixed,
+            label=asked.letters[0] if asked.letters else "",
+        )
+        for form in (asked.id, *asked.letters, asked.what):
+            self._forms.setdefault(form, item)
+            self._forms.setdefault(plain(form), item)
+        return item
+
+    def _question(
+        self, name: str, position: int, *, drawn: bool = False, turns: bool = False
+    ) -> Question | None:
+        key = (name, position, drawn, turns)
+        figure = self.figures.figure(name, position) if key not in self._found else None
+        if figure is not None:
+            self._found[key] = _question_of(name, figure, drawn=drawn, turns=turns)
+        return self._found.get(key)
+
+    def _item(self, question: Question, position: int, name: str) -> Item:
+        figure = self.figures.figure(name, position)
+        whole = figure is not None and figure.whole and figure.value
+        fixed = COUNTED / abs(figure.value) if figure is not None and whole else None
+        return Item(name, question, position, fixed=fixed, label=name, name=name)
+
+    def usual(self, position: int = 0) -> tuple[Item, ...]:
+        """Return what is asked: what the file asks, else the usual quantities of a position."""
+        if self.declared:
+            return self.declared
+        told = [(name, self._question(name, position)) for name in self.figures.names]
+        return tuple(self._item(q, position, name) for name, q in told if q is not None)
+
+    def whole(self) -> tuple[Item, ...]:
+        """Return all that is asked, of every position."""
+        if self.declared:
+            return self.declared
+        return tuple(item for k in range(self.figures.count) for item in self.usual(k))
+
+    def find(self, written: Written) -> Item:
+        """Return what an answer is of; one told in millimetres is read off the picture.
+
+        Raises
+        ------
+        UnansweredError
+        """
+        position = written.position or 0
+        if not 0 <= position < self.figures.count:
+            raise UnansweredError(NoAnswer.NO_POSITION)
+        for text in filter(None, (written.id, written.what)):
+            item = self._forms.get(text) or self._forms.get(plain(text))
+            if item is not None and written.position in (None, item.position):
+                return replace(item, id=written.id or item.id)
+        spelled = {plain(name): name for name in self.figures.names}
+        for text in filter(None, (written.what, written.id)):
+            for name in (text, text.replace(" ", "_"), spelled.get(plain(text), "")):
+                question = self._question(name, position, drawn=written.mm is not None)
+                if question is not None:
+                    item = self._item(question, position, name)
+                    return replace(item, id=written.id or item.id)
+        raise UnansweredError(NoAnswer.NO_WHAT)
+
+    def written(self, item: Item, written: Written) -> Written:
+        """Return an answer in the unit of its key, its sense as the sign of its number."""
+        per = ratio(written, item.question.unit)
+        if per is None:
+            return refused(Unread.UNIT, written.unit, written.where, base=written)
+        per = 1.0 if item.question.is_mm else per  # the judge makes millimetres himself
+        value, sense = written.value, written.sense
+        if value is not None and sense is not None and sense.turns:
+            value = math.copysign(value, 1.0 if sense.value == "ccw" else -1.0)
+        return replace(
+            written, value=None if value is None else value * per, step=written.step * per
+        )
+
+    def sheet(
+        self, position: int, own: Mapping[str, float] | None = None, ruler: float | None = None
+    ) -> Numbers:
+        """Return the numbers of a position, with all that was asked so far."""
+        profile, step = PROFILES[self.settings.profile], ruler or self.settings.ruler_mm
+        profile = profile if step is None else replace(profile, ruler=step)
+        asked = {q.id: q for (_, at, *_), q in self._found.items() if at == position}
+        key = (position, profile, tuple(asked))
+        if key not in self._numbers:
+            self._numbers[key] = Numbers(self.figures, position, asked.values(), profile)
+        return self._numbers[key]
+
+    def named(self, sheet: Sheet) -> list[Explanation]:
+        """Return the usual mistakes, and the numbers of the other variants."""
+        assert isinstance(sheet, Numbers)
+        told = [(code, where, take) for code, where, take in self.figures.mistaken()]
+        found = []
+        for code, where, take in told:
+            values = {}
+            for question in sheet.asked:
+                value = take(question.selector.names[0], sheet.position)
+                values[question.id] = sheet.exact[question.id] if value is None else value
+            found.append(Explanation(code, where, values, _NOTHING, sheet))
+        return found
+
+    def _copied(self, sheet: Numbers) -> Iterator[Explanation]:
+        for other in self.others():
+            assert isinstance(other, Calculation)
+            values = {}
+            for question in sheet.asked:
+                figure = other.figures.figure(question.selector.names[0], sheet.position)
+                values[question.id] = math.nan if figure is None else figure.value
+            yield Explanation("P2", other.variant or "", values, _NOTHING, sheet)
+
+    # Judging ---------------------------------------------------------------------------------
+
+    def judge(self, sheet: Numbers, found: list[Examined]) -> list[Diagnosis]:
+        """Give every answer its verdict, and name what is wrong."""
+        self._replay(sheet, found)
+        decide(sheet, found, self.settings.near)
+        diagnoses: list[Diagnosis] = []
+        left = [one for one in found if one.verdict is Verdict.WRONG]
+        if not left:
+            return []
+        tried = [*self.named(sheet), *self._copied(sheet)]
+        for one in left:
+            for code, factor in _slips(one.item.question.unit):
+                given = {**sheet.exact, one.item.question.id: one.limit.exact * factor}
+                tried.append(Explanation(code, "", given, _NOTHING, sheet))
+        while left:
+            scored = [
+                (sum(_gives(e, one) for one in left), e)
+                for e in tried
+                if not _contradicted(e, found)
+            ]
+            most = max((score for score, _ in scored), default=0)
+            if not most:
+                diagnoses += [Diagnosis((), False, (one.item.id,)) for one in left]
+                break
+            chosen = [e for score, e in scored if score == most]
+            taken = [one for one in left if _gives(chosen[0], one)]
+            alike = [e for e in chosen if all(_gives(e, one) for one in taken)]
+            alike = [e for e in alike if e.code != "sign"] or alike  # its cause says more
+            if len({e.where for e in alike}) > 1:
+                alike = [replace(e, where="") for e in alike]
+            fits = [Fit(e, 0.0, 0.0, most) for e in alike]
+            diagnoses.append(passed_on(self, sheet, taken, fits))
+            left = [one for one in left if one not in taken]
+        return diagnoses
+
+    def _replay(self, sheet: Numbers, found: list[Examined]) -> None:
+        """Find what comes out of his own answers for others."""
+        for one in found:
+            slack = self.settings.k * one.limit.sigma + one.limit.least + one.step / 2
+            one.slip = one.told is not None and abs(abs(one.value) - abs(one.told)) > slack
+        names = {one.item.question.selector.names[0]: one for one in found}
+        own = {name: one.value for name, one in names.items()}
+        for name, one in names.items():
+            for value, by in self.figures.followed(name, own):
+                parent = names[by]
+                if not math.isfinite(value) or (one.local is not None and parent.right):
+                    continue
+                share = parent.step / 2 / abs(parent.value) if parent.value else 0.0
+                slack = max(self.settings.floor_share, share) * abs(value) + one.step / 2
+                one.local, one.local_tolerance, one.computed = value, slack, True
+                one.parents[parent.item.id] = abs(value)
+                apart = distance(one.item, one.value, value, signed=one.signed)
+                one.follows, one.contradicts = apart <= slack, apart > slack * self.settings.near
+
+
+def _question_of(name: str, figure: Figure, *, drawn: bool, turns: bool) -> Question:
+    sign = Sign.SIZE if not figure.signed else Sign.TURN if turns and figure.turns else Sign.STRICT
+    kind = READ if drawn else "number"
+    value, own = figure.value, f"{name} read" if drawn else name
+    return Question(
+        Selector(kind, (name,)), own, figure.symbol, figure.unit, sign, lambda _: value, ()
+    )
+
+
+def _slips(unit: str) -> Iterator[tuple[str, float]]:
+    """Yield what one number is multiplied by when it is written down wrongly."""
+    yield "sign", -1.0
+    for factor in UNITS.get("1/s" if unit == "1/min" else unit, METRES) if unit else ():
+        yield "S2", factor
+    for factor in PLACES:
+        yield "S4", factor
+
+
+def _gives(explanation: Explanation, one: Examined) -> bool:
+    """Tell whether an explanation gives a wrong answer."""
+    given = explanation.values[one.item.question.id]
+    if not math.isfinite(given) or abs(given - one.limit.exact) <= one.limit.tolerance():
+        return False
+    if explanation.code == "P2" and one.step > COARSE * abs(one.value):
+        return False
+    share = max(abs(given / one.limit.exact), 0.3) if one.limit.exact else 1.0
+    slack = math.hypot(one.limit.tolerance() * share, one.step / 2)
+    return distance(one.item, one.value, given, signed=one.signed) <= slack
+
+
+def _contradicted(explanation: Explanation, found: list[Examined]) -> bool:
+    """Tell whether somebody with that mistake could not have all his right answers."""
+    for one in found:
+        given = explanation.values[one.item.question.id]
+        off = distance(one.item, given, one.limit.exact, signed=one.signed)
+        if one.right and one.sense_right is not False and not off <= one.limit.tolerance(one.step):
+            return True
+    return False

@@ -1,0 +1,47 @@
+"""A student's numbers beside the exact ones, without verdicts (сравнение своих ответов)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from planmethod.check.model import Checked, Judged
+from planmethod.check.pages.speech import Speech, quoted, told
+from planmethod.note.numbers import trimmed
+from planmethod.note.plaintext import NO_BREAK, plain_text, table, wrap
+from planmethod.note.wording.language import Language
+
+_NONE = "—"
+
+
+def compared_text(checked: Sequence[Checked], words: Language) -> str:
+    """Return tables for a terminal, one for each work: his value, the exact one, how far apart."""
+    say, speech = words.check.compared, Speech(words)
+    lines: list[str] = []
+    for one in checked:
+        name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
+        lines += [name] if name else []
+        rows = [_row(judged, speech) for judged in one.answers if judged.written is not None]
+        rows = [[plain_text(cell) for cell in row] for row in rows]
+        lines += [*table(say.columns, rows), ""]
+    lines += wrap(plain_text(say.note))
+    return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
+
+
+def _row(judged: Judged, speech: Speech) -> list[str]:
+    return [speech.symbol(judged), *_cells(judged, speech)]
+
+
+def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
+    key, value = judged.key, judged.value
+    yield speech.own(judged) or _NONE
+    if key is None:
+        yield from (_NONE, _NONE, _NONE)
+        return
+    yield speech.with_unit(speech.number(told(key.exact, key)), key)
+    if value is None:
+        yield from (_NONE, _NONE)
+        return
+    off = told(value, key) - told(key.exact, key)
+    number = speech.words.say.number
+    yield speech.with_unit(number(trimmed(off, 2)), key)
+    yield number(trimmed(100.0 * off / abs(key.exact), 2)) if key.exact else _NONE

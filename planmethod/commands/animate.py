@@ -1,0 +1,82 @@
+"""Command ``animate``: the mechanism moving, a GIF or an SVG for slides."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from planmethod.commands.helptext import Spoken
+from planmethod.commands.problems import each, finish, guarded, stem, warn
+from planmethod.languages import say
+from planmethod.options import lang_option, out_option, problem_options
+
+if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
+
+FORMATS = ("gif", "svg")
+
+
+def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
+    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
+    for name in names:
+        if name not in FORMATS:
+            raise click.BadParameter(say("{!r} is not one of {}", name, ", ".join(FORMATS)))
+    if not names:
+        raise click.BadParameter(say("no format given; choose from {}", ", ".join(FORMATS)))
+    return names
+
+
+@click.command(cls=Spoken)
+@problem_options
+@click.option("--plans", is_flag=True, help="The velocity plan beside the scheme.")
+@click.option(
+    "--frames", type=click.IntRange(8, 360), default=60, show_default=True, help="Of a turn."
+)
+@click.option(
+    "--seconds", type=click.FloatRange(1, 60), default=6, show_default=True, help="Of a turn."
+)
+@click.option(
+    "--dpi", type=click.IntRange(30, 300), default=110, show_default=True, help="Of a GIF."
+)
+@click.option(
+    "--format", "formats", callback=_formats, default="gif,svg", show_default=True, help="gif,svg."
+)
+@out_option
+@lang_option
+@guarded
+def animate(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    plans: bool,
+    frames: int,
+    seconds: float,
+    dpi: int,
+    formats: tuple[str, ...],
+    out: Path,
+    lang: str,
+) -> None:
+    """Write the mechanism as it moves, for slides: a GIF, and an SVG that plays by itself."""
+    from planmethod.render.backends.output import write
+    from planmethod.render.live.film import film_of
+
+    def draw(problem: Problem) -> None:
+        film = film_of(problem, lang, frames=frames, plans=plans)
+        if film.skipped:
+            warn(problem, film.skipped)
+        made = {}
+        for fmt in formats:
+            path = out / f"{stem(problem)}-animated.{fmt}"
+            if fmt == "gif":
+                from planmethod.render.live.gif import gif
+
+                made[path] = gif(film, seconds, dpi)
+            else:
+                made[path] = film.svg(seconds)
+        for path, data in made.items():
+            write(path, data)
+            click.echo(str(path))
+
+    finish(each(problems, variant, all_variants, draw))

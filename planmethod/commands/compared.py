@@ -1,0 +1,30 @@
+"""What ``solve --compare`` prints: a student's own numbers beside the exact ones."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from planmethod.check.group import Variants, check_works
+from planmethod.check.pages.compared import compared_text
+from planmethod.check.works import read_works
+from planmethod.errors import Fault, ProblemError
+from planmethod.note.wording import language
+from planmethod.problem.source import parse, read_source
+
+
+def compare(problem: Path, work: Path, variant: str | None, lang: str) -> None:
+    """Print the answers of a work with the exact values, without verdicts.
+
+    Raises
+    ------
+    ProblemError
+        The problem file says that they are not compared before handing in, or is faulty.
+    """
+    if parse(read_source(problem), name=str(problem)).get("compare") is False:
+        hint = "Hand your work in; check compares it."
+        fault = Fault("compare", "own numbers are not compared before they are handed in", hint)
+        raise ProblemError(str(problem), [fault])
+    checked = list(check_works(Variants(problem, default=variant), read_works(work)))
+    click.echo(compared_text(checked, language(lang)), nl=False)

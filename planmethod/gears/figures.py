@@ -1,0 +1,213 @@
+"""Numbers of a train as students are asked for them, and their usual mistakes (величины и ошибки).
+
+A mistake is the same system of mesh equations with some of them written wrongly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
+
+from planmethod.gears.answers import answer
+from planmethod.gears.asked import AskedError, parse
+from planmethod.gears.construction import construct, read
+from planmethod.gears.linear import solve
+from planmethod.gears.model import GearProblem
+from planmethod.gears.motion import Motion, mesh_row, solve_motion
+from planmethod.gears.picture import draw
+from planmethod.gears.told import symbol
+from planmethod.problem.figures import Figure, Mistaken
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+
+COUNTS = ("W", "q", "z", "k")
+SPEEDS = ("n", "omega")
+
+Rows = list[dict[str, Fraction]]
+"""Equations of the meshes, in their order."""
+
+
+class TrainFigures:
+    """All that can be asked of a train; see `planmethod.problem.figures.Figures`."""
+
+    count = 1
+
+    def __init__(self, problem: GearProblem) -> None:
+        self.motion = solve_motion(problem)
+        train = self.motion.train
+        speeds = (
+            f"{train.unit}_{body}"
+            for body in train.bodies
+            if body not in {*train.fixed, *train.inputs, *train.racks}
+        )
+        names = train.ask or tuple(speeds)
+        self.names = tuple(name for name in names if self.figure(name, 0) is not None)
+        self._known = tuple(train.body_of)
+
+    def figure(self, name: str, position: int) -> Figure | None:
+        """Return a quantity by its name of ``ask``; None where it has no value."""
+        try:
+            kind = parse(name, tuple(self.motion.train.body_of)).kind
+            found = answer(self.motion, name)
+        except AskedError:
+            return None
+        if found.value is None:
+            return None
+        own = symbol(name, tuple(self.motion.train.body_of))
+        return Figure(own, found.unit, found.value, turns=kind in SPEEDS, whole=kind in COUNTS)
+
+    def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
+        """Return the segment of a speed on the picture, mm, and one sigma of what is read."""
+        picture = draw(self.motion)
+        if picture is None:
+            return None
+        train = replace(self.motion.train, ask=(name,))
+        drawn = construct(replace(self.motion, train=train), picture)
+        found = next((one for one in drawn.found if one.name == name), None)
+        if found is None:
+            return None
+        segment = drawn.segments.get(found.rays[0]) if len(found.rays) == 1 else None
+        seen = read(drawn, profile)
+        mm = math.nan if segment is None else abs(float(seen.exact.value[segment]))
+        return mm, seen.sigma[found.read]
+
+    # Mistakes --------------------------------------------------------------------------------
+
+    @cached_property
+    def _rows(self) -> Rows:
+        motion = self.motion
+        return [mesh_row(motion.train, motion.roles, motion.axes, m) for m in motion.train.meshes]
+
+    def mistaken(self) -> Iterator[Mistaken]:
+        """Yield the usual mistakes: signs, ratios, carriers, teeth, units."""
+        for code, where, rows in self._miswritten():
+            motion = self._moved(rows)
+            if motion is not None:
+                yield Mistaken(code, where, partial(_value, motion))
+        yield Mistaken("G2", "U", self._inverted)
+        yield Mistaken("G3", "U", self._without_carrier)
+        factors = {"n": math.pi / 30, "omega": 30 / math.pi}
+        yield Mistaken("S2", "", partial(self._scaled, factors))
+        yield Mistaken("S2", "", partial(self._scaled, {k: 1 / v for k, v in factors.items()}))
+
+    def _miswritten(self) -> Iterator[tuple[str, str, Rows]]:
+        train, roles = self.motion.train, self.motion.roles
+        rows = self._rows
+        for at, mesh in enumerate(train.meshes):
+            one, other = train.ends(mesh)
+            carrier = train.carrier(mesh)
+            first, second = rows[at][one], rows[at][other]
+
+            def written(
+                x: Fraction,
+                y: Fraction,
+                at: int = at,
+                of: tuple[str, str, str | None] = (one, other, carrier),
+            ) -> Rows:
+                row = {of[0]: x, of[1]: y}
+                if of[2] is not None:
+                    own = [v for body, v in row.items() if body not in roles.across]
+                    row[of[2]] = row.get(of[2], Fraction(0)) - sum(own, Fraction(0))
+                return [*rows[:at], row, *rows[at + 1 :]]
+
+            yield "G1", mesh.name, written(first, -second)
+            if one not in train.racks and other not in train.racks:
+                turn = 1 if first * second > 0 else -1
+                yield "G2", mesh.name, written(abs(second), turn * abs(first))
+        for carrier in train.carriers:
+            yield "G3", carrier, self._held(carrier)
+        sizes = self.motion.axes.sizes
+        for label in sizes:
+            twin = f"{label}'"
+            if twin in sizes and sizes[twin] != sizes[label]:
+                swapped = {**sizes, label: sizes[twin], twin: sizes[label]}
+                axes = replace(self.motion.axes, sizes=swapped)
+                yield (
+                    "G4",
+                    f"{label}, {twin}",
+                    [mesh_row(train, roles, axes, m) for m in train.meshes],
+                )
+
+    def _held(self, carrier: str) -> Rows:
+        """Return the equations of him who takes U^H for U: the carrier has the ring's place."""
+        train, roles = self.motion.train, self.motion.roles
+        still = next((body for body in roles.central[carrier] if body in train.fixed), None)
+        found = []
+        for mesh, row in zip(train.meshes, self._rows, strict=True):
+            if train.carrier(mesh) == carrier:
+                ends = {body: row[body] for body in train.ends(mesh)}
+                row = {carrier if body == still else body: value for body, value in ends.items()}
+            found.append(row)
+        return found
+
+    def _moved(self, rows: Rows) -> Motion | None:
+        """Return the motion that other equations give; None where they give none."""
+        train = self.motion.train
+        moving = [body for body in train.bodies if body not in train.fixed]
+        zero, nothing = dict.fromkeys(train.fixed, Fraction(0)), Fraction(0)
+        system = [({b: v for b, v in row.items() if b not in zero}, nothing) for row in rows]
+        system += [({b: Fraction(1)}, v) for b, v in train.inputs.items() if b not in zero]
+        found = solve(moving, system)
+        if found.free or not found.consistent:
+            return None
+        return replace(self.motion, speeds={**found.values, **zero})
+
+    def _inverted(self, name: str, position: int) -> float | None:
+        found = self.figure(name, position)
+        if found is None or not (name.startswith("U") and found.value):
+            return None
+        return 1 / found.value
+
+    def _without_carrier(self, name: str, position: int) -> float | None:
+        """Take U^H_1k for U_1k where a carrier is left out of account."""
+        own = _value(self.motion, name, position)
+        asked = parse(name, self._known)
+        if asked.kind != "U":
+            return own
+        train, (one, other) = self.motion.train, asked.labels
+        if asked.carrier is not None:
+            return _value(self.motion, f"U_{one}_{other}", position)
+        for carrier in train.carriers:
+            if carrier not in (train.body_of[one], train.body_of[other]):
+                held = _value(self.motion, f"{name}^{carrier}", position)
+                if held is not None and held != own:
+                    return held
+        return own
+
+    def _scaled(self, factors: Mapping[str, float], name: str, position: int) -> float | None:
+        own = _value(self.motion, name, position)
+        return own if own is None else own * factors.get(name.partition("_")[0], 1.0)
+
+    def followed(self, name: str, own: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+        """Yield n_b by U_a_b or U_b_a of an input a, and by n the speed in the other unit."""
+        asked, train = parse(name, self._known), self.motion.train
+        if asked.kind not in SPEEDS or asked.carrier is not None:
+            return
+        turn = {"n": 30 / math.pi, "omega": math.pi / 30}[asked.kind]
+        for other, value in own.items():
+            by = parse(other, self._known)
+            if by.carrier is not None:
+                continue
+            other_unit = asked.kind != train.unit == by.kind
+            if other_unit and self._same(by.labels, asked.labels):
+                yield value * turn, other
+            if by.kind == "U" and value:
+                one, two = by.labels
+                for start, end, ratio in ((one, two, 1 / value), (two, one, value)):
+                    given = train.inputs.get(train.body_of[start])
+                    if given is not None and self._same((end,), asked.labels):
+                        per = 1.0 if asked.kind == train.unit else turn
+                        yield float(given) * per * ratio, other
+
+    def _same(self, one: tuple[str, ...], two: tuple[str, ...]) -> bool:
+        body_of = self.motion.train.body_of
+        return [body_of[x] for x in one] == [body_of[x] for x in two]
+
+
+def _value(motion: Motion, name: str, position: int) -> float | None:
+    return answer(motion, name).value

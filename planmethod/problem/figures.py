@@ -1,0 +1,75 @@
+"""Numbers that are computed without plans, as checking asks for them (расчётные величины)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+
+Taken = Callable[[str, int], float | None]
+"""Value of a quantity by its name and position; None where it has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """What an answer should be (величина).
+
+    Attributes
+    ----------
+    symbol : str
+        Rich text.
+    unit : str
+        SI, also ``1/min``, ``mm``; empty where it has none.
+    value : float
+    signed : bool
+        Whether the sign belongs to the number.
+    turns : bool
+        Whether it has a sense of turning.
+    whole : bool
+        A count: nothing but the number itself is right.
+    """
+
+    symbol: str
+    unit: str
+    value: float
+    signed: bool = True
+    turns: bool = False
+    whole: bool = False
+
+
+class Mistaken(NamedTuple):
+    """A mistake by its code, where it is made, and what all quantities then are."""
+
+    code: str
+    where: str
+    take: Taken
+
+
+class Figures(Protocol):
+    """All that can be asked of a problem that is computed.
+
+    Attributes
+    ----------
+    names : tuple of str
+        What is asked where the file has no ``[[answers]]``.
+    count : int
+        Number of positions.
+    """
+
+    names: tuple[str, ...]
+    count: int
+
+    def figure(self, name: str, position: int) -> Figure | None:
+        """Return a quantity; None where there is none, or it has no value."""
+
+    def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
+        """Return its segment on the drawing, mm, and one sigma of what it is read as."""
+
+    def mistaken(self) -> Iterator[Mistaken]:
+        """Yield the usual mistakes."""
+
+    def followed(self, name: str, own: Mapping[str, float]) -> Iterator[tuple[float, str]]:
+        """Yield what a quantity is by other answers of the same position, and by which."""

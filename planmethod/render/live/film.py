@@ -1,0 +1,412 @@
+"""A mechanism as it moves, for slides: scheme and velocity plan in frames (анимация).
+
+What is drawn is the scene of the live page: rigid parts on their links, segments and inscriptions
+on points of the tape. A film says where each of them is in every frame; it is written as an SVG
+that plays by itself (SMIL, no script), or its frames as a GIF.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from html import escape
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.errors import AssemblyError
+from planmethod.languages import say
+from planmethod.mechanism.model import FRAME
+from planmethod.note.wording import language
+from planmethod.plans.draft import cis
+from planmethod.plans.legend import QuantityKind
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Problem
+from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.svg import SvgCanvas
+from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.live.scene import LETTER, Ref, Scene, View
+from planmethod.render.symbols import vector_arrow
+
+Complexes = npt.NDArray[np.complex128]
+Reals = npt.NDArray[np.float64]
+
+_FINER = 4  # times as many places of the lines that points move along
+_GAP = 1.2  # mm between an inscription and its point; of the scheme's joints twice that
+_CAPTION = 12.0  # mm of paper over a view
+_NEAR = 1e-9
+_WAYS = np.array([far * np.exp(1j * np.pi / 8 * k) for far in (1.0, 4.0, 8.0) for k in range(16)])
+"""Directions in which inscriptions stand, by 1 mm and more than the gap off their points."""
+
+_MOVED = 1.5  # what it costs to move on for a unit of these
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """Items in their own axes, and where these are in every frame: places, mm, and degrees."""
+
+    items: tuple[Item, ...]
+    places: Complexes
+    turns: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """Segment between two points, mm in every frame, with an arrowhead at its head or without."""
+
+    tails: Complexes
+    heads: Complexes
+    pen: Pen
+    arrow: bool
+
+    def drawn(self, k: int) -> list[Item]:
+        """Return it in a frame."""
+        tail, head = complex(self.tails[k]), complex(self.heads[k])
+        if self.arrow:
+            return vector_arrow(tail, head, pen=self.pen)
+        return [Stroke((tail, head), self.pen)]
+
+
+@dataclass(slots=True)
+class Film:
+    """Frames of a moving mechanism (кадры); all is mm, y up, from the lower left corner.
+
+    Attributes
+    ----------
+    positions : ndarray of shape (n,)
+        Driver positions of the frames.
+    total : int
+        Positions that were tried; ``closed``: all of them exist, and the first follows the last.
+    still : list of Item
+    segments, bodies : list
+        What moves, that which lies below first.
+    readings : list of list of Item
+        The position of the driver as it is told in every frame.
+    """
+
+    title: str
+    positions: Reals
+    total: int
+    closed: bool
+    width: float = 0.0
+    height: float = 0.0
+    still: list[Item] = field(default_factory=list)
+    segments: list[Segment] = field(default_factory=list)
+    bodies: list[Body] = field(default_factory=list)
+    readings: list[list[Item]] = field(default_factory=list)
+
+    @property
+    def skipped(self) -> str:
+        """What positions there are, where some of those tried do not exist; else nothing."""
+        there = len(np.unique(self.positions))
+        if there == self.total:
+            return ""
+        low, high = float(self.positions.min()), float(self.positions.max())
+        turns = 360.0 * round((low + high) / 720.0)
+        low, high = low - turns, high - turns
+        told = (
+            "{} of {} positions do not exist and are skipped; the driver goes to and fro from "
+            "{:.6g} to {:.6g}."
+        )
+        return say(told, self.total - there, self.total, low, high)
+
+    def frames(self) -> Iterator[Drawing]:
+        """Yield the frames as drawings."""
+        for k in range(len(self.positions)):
+            items = [*self.still, *(one for each in self.segments for one in each.drawn(k))]
+            for body in self.bodies:
+                items += placed(body.items, complex(body.places[k]), float(body.turns[k]))
+            yield Drawing(self.width, self.height, self.title, [*items, *self.readings[k]])
+
+    # SVG -----------------------------------------------------------------------------------------
+
+    def svg(self, seconds: float) -> bytes:
+        """Return an SVG that plays by itself, one way and all again after so many seconds."""
+        canvas = SvgCanvas(Options())
+        canvas.open(0.0, 0.0, "", in_use())
+        times = f'dur="{seconds:g}s" repeatCount="indefinite"'
+        ring = [*range(len(self.positions)), *([0] if self.closed else [])]
+
+        def moving(name: str, values: list[str], more: str = "") -> str:
+            told = ";".join(values[k] for k in ring)
+            if len(set(values)) == 1:
+                return ""
+            return f'<animate attributeName="{name}" values="{told}" {times}{more}/>'
+
+        def turning(kind: str, values: list[str]) -> str:
+            told = ";".join(values)
+            return (
+                f'<g transform="{kind}({values[0]})"><animateTransform attributeName="transform" '
+                f'type="{kind}" values="{told}" {times}/>'
+            )
+
+        parts = [canvas.parts(self.still)]
+        for segment in self.segments:
+            pieces: dict[str, list[str]] = {"line": [], "head": []}
+            for k in range(len(self.positions)):
+                drawn = segment.drawn(k)
+                tail = complex(segment.tails[k])
+                line = next((i.points for i in drawn if isinstance(i, Stroke)), (tail, tail))
+                head = next((i.points for i in drawn if isinstance(i, Fill)), (tail,) * 4)
+                pieces["line"].append(_path(line))
+                pieces["head"].append(_path(head) + "Z")
+            items: list[Item] = [Stroke((0j, 1 + 0j), segment.pen)]
+            if segment.arrow:
+                items.append(Fill((0j, 1 + 0j, 1j)))
+            drawn_parts = canvas.parts(items)
+            for name in ("line", "head")[: len(items)]:  # the canvas has the pens, here are places
+                start = drawn_parts.index("<path d=")
+                end = drawn_parts.index("/>", start)
+                path = f'<path d="{pieces[name][0]}">{moving("d", pieces[name])}</path>'
+                parts.append(drawn_parts[:start] + path)
+                drawn_parts = drawn_parts[end + 2 :]
+            parts.append(drawn_parts)
+        for body in self.bodies:
+            # A turn is as long as it is, not the shorter way between two frames.
+            turns = np.degrees(np.unwrap(np.radians(body.turns[ring])))
+            there = turning("translate", [f"{p.real:.3f} {-p.imag:.3f}" for p in body.places[ring]])
+            turned = turning("rotate", [f"{-turn:.3f}" for turn in turns]) if turns.any() else ""
+            parts.append(f"{there}{turned}{canvas.parts(body.items)}</g>{'</g>' * bool(turned)}")
+        count = len(self.positions)
+        for k, items_ in enumerate(self.readings):
+            shown = ["hidden"] * count
+            shown[k] = "visible"
+            told = f'<animate attributeName="visibility" calcMode="discrete" {times} '
+            keys = [(k / count, "visible"), ((k + 1) / count, "hidden")]
+            keys = [(0.0, "hidden"), *keys] if k else keys
+            keys = [key for key in keys if key[0] < 1.0]
+            told += f'values="{";".join(v for _, v in keys)}" '
+            told += f'keyTimes="{";".join(f"{t:.6g}" for t, _ in keys)}"/>'
+            parts.append(f'<g visibility="{shown[0]}">{told}{canvas.parts(items_)}</g>')
+        size = f"{self.width:.3f} {self.height:.3f}"
+        return (
+            '<?xml version="1.0" encoding="UTF-8"?>\n'
+            '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+            f'viewBox="0 {-self.height:.3f} {size}" width="{self.width:.3f}mm" '
+            f'height="{self.height:.3f}mm"><title>{escape(self.title)}</title>'
+            f"<defs>{canvas.letters()}</defs>"
+            f'<rect y="{-self.height:.3f}" width="{self.width:.3f}" height="{self.height:.3f}" '
+            f'fill="#ffffff"/>{"".join(parts)}</svg>\n'
+        ).encode()
+
+
+def _path(points: tuple[complex, ...]) -> str:
+    return "M" + "L".join(f"{p.real:.2f} {-p.imag:.2f}" for p in points)
+
+
+def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
+    """Return the film of a mechanism: a turn of its crank, or the way of its driver to and fro.
+
+    Positions that do not exist are left out: a crank that does not turn fully goes to and fro
+    through the range of its first position.
+
+    Parameters
+    ----------
+    frames : int
+        Positions of a turn, or of a way.
+    plans : bool
+        The velocity plan beside the scheme.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError, SelfCheckError
+    """
+    words = language(lang)
+    scene = Scene(replace(problem, dynamics=None, machine=None), words)
+    shown = ("scheme", *([PlanKind.VELOCITY.value] if plans else []))
+    return _Cutting(scene, [view for view in scene.views if view.id in shown], frames).film()
+
+
+class _Cutting:
+    """Puts a film together: which frames there are, and what stands where in them."""
+
+    def __init__(self, scene: Scene, views: list[View], frames: int) -> None:
+        self.scene, self.views, self.frames = scene, views, frames
+        self.drive = scene.problem.drive
+        self.origin = scene.construction.draft.origin
+        self.positions, self.closed = self._exist()
+        self.values = scene.sweep.run(self.positions)
+
+    def _tried(self) -> Reals:
+        """Return the positions of a turn, or of the driver's way."""
+        if not self.drive.is_crank:
+            return np.linspace(*self.scene.way, self.frames)
+        sense = -1.0 if self.drive.rate < 0 else 1.0
+        return self.scene.start + sense * 360.0 * np.arange(self.frames) / self.frames
+
+    def _exist(self) -> tuple[Reals, bool]:
+        tried = self._tried()
+        values = self.scene.sweep.run(tried)
+        rows = self.scene.rows_of(lambda kind: kind is QuantityKind.PLACE)
+        for view in self.views[1:]:
+            rows = rows + [ref[0] + k for ref in _refs(view) for k in (0, 1)]
+        there = np.asarray(np.isfinite(values[rows]).all(axis=0))
+        if there.all() and self.drive.is_crank:
+            return tried, True
+        if not there.all() and self.drive.is_crank:  # a turn that begins behind a gap
+            tried = np.concatenate([tried, tried + (tried[1] - tried[0]) * len(tried)])
+            there = np.tile(there, 2)
+        cuts = np.flatnonzero(np.diff(there.astype(int))) + 1
+        runs = [r for r in np.split(np.arange(len(tried)), cuts) if there[r[0]]]
+        if not runs:
+            raise AssemblyError(
+                "None of {} positions of the driver exists: there is nothing to animate. "
+                "Give more --frames, or change the lengths.",
+                self.frames,
+            )
+        # The first position again stands in the middle of the turn that is laid out twice.
+        longest = max(runs, key=lambda r: (self.frames in r, len(r)))
+        way = tried[longest]
+        return np.concatenate([way, way[-2:0:-1]]), len(way) > 2
+
+    def film(self) -> Film:
+        scene, problem = self.scene, self.scene.problem
+        made = Film(problem.title or problem.name, self.positions, self.frames, self.closed)
+        left = 0.0
+        made.height = max(view.box[3] for view in self.views) + _CAPTION
+        for view in self.views:
+            corner = complex(left - view.box[0], view.box[1] + view.box[3])
+            corner += 1j * (made.height - _CAPTION - view.box[3]) / 2
+            text = typeset(view.title, 0.8 * LETTER)
+            at = complex(left + (view.box[2] - text.width) / 2, made.height - 0.7 * _CAPTION)
+            made.still += text.at(at)
+            self._view(made, view, corner)
+            left += view.box[2]
+        made.width = left
+        unit, symbol = (
+            scene.words.say.units[self.drive.coordinate.unit],
+            self.drive.coordinate.symbol,
+        )
+        space = "" if self.drive.is_crank else " "
+        for position in self.positions:
+            turn = position % 360.0 if self.drive.is_crank else position
+            digits = f"{turn:.1f}" if self.drive.is_crank else f"{turn:.4f}"
+            text = typeset(f"{symbol} = {scene.words.say.number(digits)}{space}{unit}", LETTER)
+            made.readings.append(list(text.at(complex(4.0, 4.0))))
+        return made
+
+    def _view(self, made: Film, view: View, corner: complex) -> None:
+        scene = self.scene
+
+        def at(ref: Ref, values: npt.NDArray[np.float64] = self.values) -> Complexes:
+            place = values[ref[0]] + 1j * values[ref[0] + 1]
+            place = 1j * place if ref[1:] else place - (self.origin if view.id == "scheme" else 0)
+            return np.asarray(place / view.per_mm + corner, dtype=complex)
+
+        if view.id == "scheme":
+            made.still += self._traces(view, at)
+            for part in scene.parts:
+                start = complex(scene.shown.paper.point(scene.foot(part.link))[part.index])
+                if part.link == FRAME:
+                    made.still += placed(part.items, corner, 0.0)
+                    continue
+                turn = float(scene.shown.links[part.link].phi_deg[part.index])
+                own = tuple(placed(part.items, -start * cis(-turn), -turn))
+                turns = self.values[scene.row(f"{part.link}.phi_deg")]
+                made.bodies.append(Body(own, at(scene.place(scene.foot(part.link))), turns))
+        else:
+            for one in view.segments:
+                pen = Pen.MAIN if one["style"] == "main" else Pen.THIN
+                ends = at(one["a"]), at(one["b"])
+                made.segments.append(Segment(*ends, pen, bool(one.get("arrow"))))
+        made.bodies += self._labels(view, at, corner)
+
+    def _traces(self, view: View, at: Callable[..., Complexes]) -> Iterator[Item]:
+        """Yield the lines that the points move along."""
+        count = len(self.positions)
+        ends = [*range(count), *([0] if self.closed else [])]
+        way = self.positions[ends].astype(float)
+        if self.drive.is_crank and self.closed and count == self.frames:
+            way[-1] = way[-2] + (way[1] - way[0])
+        knots = np.arange(len(way))
+        fine = np.interp(np.linspace(0, len(way) - 1, _FINER * (len(way) - 1) + 1), knots, way)
+        values = self.scene.sweep.run(fine)
+        for label in view.labels:
+            if "at" in label:
+                places = at(label["at"], values)
+                if np.ptp(places.real) + np.ptp(places.imag) > _NEAR and np.isfinite(places).all():
+                    yield Stroke(tuple(map(complex, places)), Pen.PALE)
+
+    # Inscriptions --------------------------------------------------------------------------------
+
+    def _labels(self, view: View, at: Callable[..., Complexes], corner: complex) -> Iterator[Body]:
+        """Yield the inscriptions, each where it covers the least, and seldom changes its place."""
+        at_left, top, width, height = view.box
+        low = corner + complex(at_left, -top - height)
+        still = np.ones(len(self.positions), complex)
+        lines = [(at(one["a"]), at(one["b"])) for one in view.segments]
+        if view.id == "scheme":
+            fixed = self.scene.fixed
+            ends = [[(complex(x, -y) + corner) * still for x, y in line] for line in fixed]
+            lines += [(tail, head) for tail, head in ends]
+        tails, heads = (np.array([line[k] for line in lines]) for k in (0, 1))
+        # Boxes that are taken: their middles in every frame, half their widths and heights.
+        blocks = self.scene.blocks if view.id == "scheme" else []
+        taken = [(at(ref), float(half), float(half)) for ref, half in blocks]
+        for support in self.scene.drawing.supports if view.id == "scheme" else []:
+            x0, y0, x1, y1 = ink_bounds(list(support.items()))
+            middle = complex(x0 + x1, y0 + y1) / 2 + corner
+            taken.append((middle * still, (x1 - x0) / 2, (y1 - y0) / 2))
+        for label in view.labels:
+            text = typeset(label["text"], label.get("height", LETTER))
+            half = complex(text.width, text.ascent + text.descent) / 2
+            refs = [at(ref) for ref in label.get("on") or [label["at"]]]
+            place = sum(refs[1:], refs[0]) / len(refs)
+            gap = _GAP * (2.0 if view.id == "scheme" else 1.0)
+            reaches = gap + np.abs(_WAYS) - 1.0
+            offs = _WAYS.real * (reaches + half.real) + 1j * _WAYS.imag * (reaches + half.imag)
+            offs /= np.abs(_WAYS)
+            costs = np.empty((len(_WAYS), len(place)))
+            for k, off in enumerate(offs):
+                centre = place + off
+                cost = 6.0 * _covered(centre, half, tails, heads) + abs(_WAYS[k]) - 1.0
+                for other, w, h in taken:
+                    across = half.real + w - np.abs((centre - other).real)
+                    up = half.imag + h - np.abs((centre - other).imag)
+                    cost += 1.5 * np.clip(across, 0, None) * np.clip(up, 0, None)
+                past: list[Complexes] = [low - centre, centre - low - complex(width, height)]
+                for over in past:
+                    beyond = np.clip([half.real + over.real, half.imag + over.imag], 0, None)
+                    cost += 9.0 * beyond.sum(axis=0)
+                costs[k] = cost
+            centre = place + offs[_quiet(costs)]
+            taken.append((centre, half.real, half.imag))
+            start = complex(-half.real, text.descent - half.imag)
+            yield Body(tuple(text.at(start)), centre, np.zeros(len(place)))
+
+
+def _quiet(costs: Reals) -> npt.NDArray[np.intp]:
+    """Return which of the places of an inscription it has in every frame of a ring.
+
+    The sum of the costs, and of what it costs to go from one to another, is least.
+    """
+    count = costs.shape[1]
+    moved = _MOVED * np.abs(_WAYS[:, None] - _WAYS[None, :])
+    best, back = costs[:, 0], []
+    for k in range(1, 2 * count):  # the second time round it knows where it comes from
+        reached = best[:, None] + moved
+        back.append(np.argmin(reached, axis=0))
+        best = reached.min(axis=0) + costs[:, k % count]
+    found = [int(np.argmin(best))]
+    for came in reversed(back):
+        found.append(int(came[found[-1]]))
+    return np.array(found[::-1][count:])
+
+
+def _covered(centre: Complexes, half: complex, tails: Complexes, heads: Complexes) -> Reals:
+    """Return how much of segments boxes cover in every frame."""
+    if not tails.size:
+        return np.zeros(len(centre))
+    way = heads - tails
+    along = ((centre - tails) * np.conj(way)).real / np.maximum(np.abs(way) ** 2, 1e-12)
+    off = centre - tails - np.clip(along, 0, 1) * way
+    # Distance in boxes: 1 on the edge of the box.
+    far = np.maximum(np.abs(off.real) / (half.real + 0.6), np.abs(off.imag) / (half.imag + 0.6))
+    return np.asarray(np.clip(1.2 - far, 0.0, None).sum(axis=0))
+
+
+def _refs(view: View) -> list[Ref]:
+    return [one[end] for one in view.segments for end in ("a", "b")]

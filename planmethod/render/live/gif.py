@@ -1,0 +1,34 @@
+"""Frames as a GIF (растровая анимация)."""
+
+from __future__ import annotations
+
+from io import BytesIO
+
+from PIL import Image
+
+from planmethod.render.backends import render
+from planmethod.render.backends.canvas import Options
+from planmethod.render.live.film import Film
+
+_GREYS = 8  # so many levels of grey are edges of black lines smooth with
+
+
+def gif(film: Film, seconds: float, dpi: float) -> bytes:
+    """Return a GIF that plays on and on, one way in so many seconds."""
+    options = Options(dpi=dpi)
+    levels = [round(255 * k / (_GREYS - 1)) for k in range(_GREYS)]
+    table = [min(range(_GREYS), key=lambda k: abs(levels[k] - grey)) for grey in range(256)]
+    frames = []
+    for drawing in film.frames():
+        with Image.open(BytesIO(render(drawing, "png", options=options))) as picture:
+            frame = picture.convert("L").point(table)
+        frame = Image.frombytes("P", frame.size, frame.tobytes())
+        frame.putpalette([level for grey in levels for level in (grey,) * 3])
+        frames.append(frame)
+    file = BytesIO()
+    # Viewers count hundredths of a second, and slow down what is quicker than two of them.
+    each = max(2, round(100 * seconds / len(frames))) * 10
+    frames[0].save(
+        file, "gif", save_all=True, append_images=frames[1:], duration=each, loop=0, optimize=False
+    )
+    return file.getvalue()

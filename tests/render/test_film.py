@@ -1,0 +1,101 @@
+"""Mechanisms moving for slides: what stands where in an SVG that plays, and in a GIF."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+from worked import path_of, problem_of
+
+from planmethod.cli import cli
+from planmethod.errors import ExitCode
+from planmethod.problem import loads
+from planmethod.render.live.film import film_of
+from planmethod.solved.solution import Solution
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+ROCKERS = """frame = { A = [0, 0], D = [0.31, 0] }
+driver = { link = "1", phi = 40, omega = -10 }
+assembly = { C = "above D" }
+links.1 = { points = ["A", "B"], AB = 0.1 }
+links.2 = { points = ["B", "C"], BC = 0.2 }
+links.3 = { points = ["C", "D"], CD = 0.15 }
+"""
+
+
+def test_an_svg_that_plays_has_links_and_plan_where_they_are_solved_to_be() -> None:
+    problem = problem_of("linkages/ex3")
+    film = film_of(problem, "ru", frames=12, plans=True)
+    assert film.skipped == "" and film.positions == pytest.approx(20.0 + 30.0 * np.arange(12))
+    root = ElementTree.fromstring(film.svg(6.0))
+    solved = Solution(problem, positions=film.positions.tolist())
+    e = solved.points["E"].place
+
+    def moves(kind: str) -> list[np.ndarray]:
+        found = [one.get("values") or "" for one in root.iter(f"{SVG}animateTransform")
+                 if one.get("type") == kind]  # fmt: skip
+        return [np.array([row.split() for row in v.split(";")], float) for v in found]
+
+    # E slides along x: one of the bodies goes as it does, drawn at one scale, and back.
+    slides = [way[:, 0] for way in moves("translate") if np.ptp(way[:, 1]) == 0 < np.ptp(way)]
+    scale = np.ptp(e.real) / np.ptp(slides[0])
+    assert slides[0][0] == slides[0][-1] and len(slides[0]) == 13
+    assert (slides[0] - slides[0][0])[:12] * scale == pytest.approx(e.real - e.real[0], abs=2e-5)
+    # The crank turns by a whole turn, clockwise where y looks down.
+    turned = [way[-1, 0] - way[0, 0] for way in moves("rotate")]
+    assert any(turn == pytest.approx(-360.0) for turn in turned)
+    # The arrow p-b is as long in every frame, and turns by 30 degrees.
+    lines = [
+        np.array([re.findall(r"-?[\d.]+", part) for part in (one.get("values") or "").split(";")])
+        for one in root.iter(f"{SVG}animate")
+        if one.get("attributeName") == "d" and "Z" not in (one.get("values") or "Z")
+    ]
+    ends = [np.asarray(line, float) for line in lines if line.shape[1] == 4]
+    arrows = [line[:, 2] - line[:, 0] - 1j * (line[:, 3] - line[:, 1]) for line in ends]
+    assert any(
+        np.ptp(np.abs(way)) < 0.05
+        and np.degrees(np.angle(way[1:] / way[:-1])) == pytest.approx(np.full(12, 30.0), abs=0.1)
+        for way in arrows
+    )
+    assert not list(root.iter(f"{SVG}script")) and len(film.readings) == 12
+
+
+def test_positions_that_do_not_exist_are_left_out_and_the_crank_goes_to_and_fro() -> None:
+    film = film_of(loads(ROCKERS, name="rockers"), "en", frames=36, plans=False)
+    end = 105.33820309628705
+    assert np.abs(film.positions).max() <= end + 360 and film.closed
+    assert np.abs((film.positions + 180) % 360 - 180).max() <= end
+    steps = np.diff([*film.positions, film.positions[0]])
+    assert set(np.round(np.abs(steps), 9)) == {10.0} and steps.sum() == 0
+    assert film.skipped.startswith("15 of 36 positions do not exist")
+    assert "from -100 to 100" in film.skipped
+
+
+def test_the_command_writes_every_frame_and_says_what_is_wrong(tmp_path: Path) -> None:
+    path = tmp_path / "rockers.toml"
+    path.write_text(ROCKERS, "utf-8")
+    args = ["animate", str(path), "-o", str(tmp_path), "--frames", "8", "--dpi", "40"]
+    done = CliRunner().invoke(cli, args)
+    assert done.exit_code == 0 and "do not exist and are skipped" in done.output
+    assert {p.suffix for p in tmp_path.glob("rockers-animated.*")} == {".gif", ".svg"}
+    count = len(film_of(loads(ROCKERS, name="rockers"), "en", frames=8, plans=False).positions)
+    with Image.open(tmp_path / "rockers-animated.gif") as picture:
+        shown = set()
+        for k in range(count):
+            picture.seek(k)
+            shown.add(picture.convert("L").tobytes())
+        # To and fro: all but both ends twice; as long as was asked.
+        assert getattr(picture, "n_frames", 0) == count and len(shown) > count // 2
+        assert picture.info["duration"] == round(600 / count) * 10
+    wrong = CliRunner().invoke(cli, [*args, "--format", "mp4"])
+    assert wrong.exit_code == ExitCode.USAGE and "gif, svg" in wrong.output
+    path.write_text(ROCKERS.replace("BC = 0.2", "BC = 0.02"), "utf-8")
+    assert CliRunner().invoke(cli, args).exit_code == ExitCode.ASSEMBLY
+    train = str(path_of("gears/gears-ex1"))
+    assert CliRunner().invoke(cli, ["animate", train]).exit_code == ExitCode.PROBLEM
