@@ -221,9 +221,9 @@ def dxf_text_option(command: F) -> F:
     return click.option(
         "--dxf-text",
         type=click.Choice(["text", "strokes"]),
-        default="text",
+        default="strokes",
         show_default=True,
-        help="Letters of DXF: text, or outlines that look the same everywhere.",
+        help="Letters of DXF: strokes that look the same everywhere, or text.",
     )(command)
 
 

@@ -71,7 +71,7 @@ def write_drawings(
     *,
     dpi: int = 100,
     author: str | None = None,
-    dxf_text: Literal["text", "strokes"] = "text",
+    dxf_text: Literal["text", "strokes"] = "strokes",
 ) -> None:
     """Write the sheets of a problem; files appear only when all are made.
 
