@@ -6,16 +6,15 @@ called, and the imports of the work stand in its functions.
 
 from __future__ import annotations
 
-import gc
 import io
 import sys
-import warnings
 from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import Any
 
 import click
 
+from planmethod.commands.output import settle_process
 from planmethod.errors import ExitCode
 
 COMMANDS = (
@@ -71,10 +70,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
-    # A command lives a fraction of a second and makes few cycles: the search costs a twentieth.
-    gc.set_threshold(100_000)
-    if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
-        warnings.simplefilter("ignore")
+    settle_process()
     try:
         cli()
     except SystemExit as end:
