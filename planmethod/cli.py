@@ -36,6 +36,7 @@ COMMANDS = (
     "check",
     "bench",
     "form",
+    "batch",
 )
 """Names of the commands; each is a function of the module of its name in `planmethod.commands`."""
 
