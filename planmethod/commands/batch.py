@@ -59,7 +59,7 @@ class Order:
 
     Attributes
     ----------
-    todo : Todo, optional
+    todo : Todo
         The problem with all that is asked of its sheets.
     sheets : mapping of str to object, optional
         Parameters of the command ``sheet``; no sheets when absent.
@@ -67,15 +67,12 @@ class Order:
         Text of the file that says what is on the sheets.
     settings : Settings, optional
         Of the key; no key when absent.
-    lang : str
-        Language of the key.
     """
 
-    todo: Todo | None
+    todo: Todo
     sheets: Mapping[str, Any] | None
     layout: bytes | None
     settings: Settings | None
-    lang: str
 
 
 def made(order: Order) -> Part[dict[str, bytes]]:
@@ -88,7 +85,6 @@ def made(order: Order) -> Part[dict[str, bytes]]:
 def _files(order: Order, folder: Path) -> dict[str, bytes]:
     out = folder / "out"
     files: dict[str, bytes] = {}
-    assert order.todo is not None
     if order.sheets is not None:
         params = {**order.sheets, "out": out}
         if order.layout is not None:
@@ -102,7 +98,7 @@ def _files(order: Order, folder: Path) -> dict[str, bytes]:
         from planmethod.note.wording import language
 
         key = key_of_problem(order.todo.kind, order.todo.problem, order.settings)
-        for ending, data in key_files([key], language(order.lang)):
+        for ending, data in key_files([key], language(order.todo.problem.sheet.lang or LANGUAGES[0])):
             files[f"{stem(order.todo.problem)}-key.{ending}"] = data
     return files
 
@@ -161,7 +157,8 @@ def batch(
     except ImportError:
         raise click.UsageError(NEEDS) from None
     from planmethod.check.marks import DEFAULT, load_settings
-    from planmethod.render.sheets.composition.reader import SHIPPED, composition
+    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.compositions import SHIPPED
 
     if not sheets and not keys:
         raise click.UsageError("--no-sheets leaves nothing to make: give --keys")
@@ -175,12 +172,11 @@ def batch(
     common = {n: v for n, v in click.get_current_context().params.items() if n not in own}
     common |= {"problems": (), "variant": None, "all_variants": False, "jobs": 1, "one_file": None}
     common |= {"config": None, "no_config": True, "watch": False}  # it is laid over problems here
-    whole = Order(
-        None,
-        common if sheets else None,
-        None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
-        None if not keys else DEFAULT if settings is None else load_settings(settings),
-        asked.sheet.get("lang") or LANGUAGES[0],
+    ordered = partial(
+        Order,
+        sheets=common if sheets else None,
+        layout=None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
+        settings=None if not keys else DEFAULT if settings is None else load_settings(settings),
     )
     settled = asked.settle()
     manifest = Manifest(out)
@@ -196,7 +192,7 @@ def batch(
             )
         orders = []
         for one in todo:
-            order = replace(whole, todo=replace(one, problem=settled(one.problem)))
+            order = ordered(replace(one, problem=settled(one.problem)))
             orders.append((order, _hash(order, phi)))
         if all(manifest.has(order, key) for order, key in orders):
             yield from (partial(manifest.keep) for _ in orders)
@@ -211,13 +207,12 @@ def batch(
 
 def _hash(order: Order, phi: Positions | None) -> str:
     """Return what tells whether files are made of the same."""
-    assert order.todo is not None
     one, problem = order.todo, order.todo.problem
     options = {**(order.sheets or {}), "phi": None if phi is None else phi.tolist()}
     parts = (
         installed(), read_source(one.path), problem.name, problem.variant,
         dict(problem.stamp), problem.sheet, order.sheets is None, sorted(options.items()),
-        order.layout, order.settings, order.lang,
+        order.layout, order.settings,
     )  # fmt: skip
     return hashlib.sha256(repr(parts).encode()).hexdigest()
 
@@ -239,12 +234,11 @@ class Manifest:
             for line in self.path.read_text("utf-8", errors="replace").splitlines():
                 with contextlib.suppress(ValueError, TypeError, KeyError):
                     told = json.loads(line)
-                    self._lines[told["problem"]] = told
+                    self._lines[str(told["problem"])] = told
 
     def has(self, order: Order, key: str) -> bool:
         """Tell whether the files of an order are there as they were made."""
-        assert order.todo is not None
-        told = self._lines.get(stem(order.todo.problem))
+            told = self._lines.get(stem(order.todo.problem))
         if told is None or told.get("key") != key:
             return False
         files = [(self.out / name, digest) for name, digest in told["files"].items()]
@@ -256,13 +250,13 @@ class Manifest:
 
     def add(self, order: Order, key: str, files: Mapping[str, bytes]) -> None:
         """Write the files of an order, then its line."""
-        assert order.todo is not None
-        for name, data in files.items():
+            for name, data in files.items():
             write(self.out / name, data)
             click.echo(str(self.out / name))
         digests = {name: _digest(data) for name, data in files.items()}
-        told = {"problem": stem(order.todo.problem), "key": key, "files": digests}
-        self._lines[told["problem"]] = told
+        name = stem(order.todo.problem)
+        told = {"problem": name, "key": key, "files": digests}
+        self._lines[name] = told
         with self.path.open("a", encoding="utf-8") as file:
             file.write("\n" * (not self.made) + _line(told))  # after a line cut short, a new one
         self.made += 1
@@ -348,7 +342,6 @@ def _taken(future: Future, order: Order, key: str, manifest: Manifest) -> None:
 
     from distributed import KilledWorker
 
-    assert order.todo is not None
     name = stem(order.todo.problem)
     try:
         part: Part[dict[str, bytes]] = future.result()
