@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import json
 import logging
+import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -53,6 +54,10 @@ AHEAD = 4
 """Variants for each thread of the cluster that are sent ahead."""
 
 
+_ONE = threading.Lock()
+"""Held by the thread of a worker that is at work: what it says is heard by the whole process."""
+
+
 @dataclass(frozen=True, slots=True)
 class Order:
     """What a machine is asked to make of one variant (заказ); nothing in it names a file here.
@@ -78,7 +83,7 @@ class Order:
 def made(order: Order) -> Part[dict[str, bytes]]:
     """Make the files of an order: called on the machines of the cluster."""
     settle_process()
-    with TemporaryDirectory(prefix="planmethod-") as name:
+    with _ONE, TemporaryDirectory(prefix="planmethod-") as name:
         return heard(partial(_files, order, Path(name)))
 
 
@@ -98,7 +103,8 @@ def _files(order: Order, folder: Path) -> dict[str, bytes]:
         from planmethod.note.wording import language
 
         key = key_of_problem(order.todo.kind, order.todo.problem, order.settings)
-        for ending, data in key_files([key], language(order.todo.problem.sheet.lang or LANGUAGES[0])):
+        words = language(order.todo.problem.sheet.lang or LANGUAGES[0])
+        for ending, data in key_files([key], words):
             files[f"{stem(order.todo.problem)}-key.{ending}"] = data
     return files
 
@@ -238,7 +244,7 @@ class Manifest:
 
     def has(self, order: Order, key: str) -> bool:
         """Tell whether the files of an order are there as they were made."""
-            told = self._lines.get(stem(order.todo.problem))
+        told = self._lines.get(stem(order.todo.problem))
         if told is None or told.get("key") != key:
             return False
         files = [(self.out / name, digest) for name, digest in told["files"].items()]
@@ -250,7 +256,7 @@ class Manifest:
 
     def add(self, order: Order, key: str, files: Mapping[str, bytes]) -> None:
         """Write the files of an order, then its line."""
-            for name, data in files.items():
+        for name, data in files.items():
             write(self.out / name, data)
             click.echo(str(self.out / name))
         digests = {name: _digest(data) for name, data in files.items()}

@@ -173,6 +173,9 @@ def shared(
                     yield None
                     number += 1
                 alone = not alone
+                if alone:
+                    told = "Warning: a process at work was killed; what it had is begun again."
+                    click.echo(told, err=True)
 
 
 @contextmanager
@@ -185,10 +188,9 @@ def _pool(
     try:
         yield pool
     except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
         for child in multiprocessing.active_children():
             if child not in before:
                 child.terminate()
         raise
     finally:
-        pool.shutdown()
+        pool.shutdown(cancel_futures=True)
