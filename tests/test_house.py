@@ -48,6 +48,8 @@ LATE_OF = {
     # Third parties that take long to import; a mistake in a file is rare.
     "difflib": "hints",
     "importlib.resources": "templates",
+    "json": "messages that are not in English",
+    "locale": "the language of a system without variables for it",
     "mpmath": "the referee",
     "openpyxl": "workbooks",
     "shapely": "areas",

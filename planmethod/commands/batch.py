@@ -19,11 +19,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import settle_process
 from planmethod.commands.problems import Todo, begin, finish, guarded, stem, through
 from planmethod.commands.processes import Part, heard
 from planmethod.errors import PlanMethodError
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say, speaking, spoken
 from planmethod.options import (
     Positions,
     dxf_text_option,
@@ -72,18 +73,21 @@ class Order:
         Text of the file that says what is on the sheets.
     settings : Settings, optional
         Of the key; no key when absent.
+    lang : str
+        Language of messages.
     """
 
     todo: Todo
     sheets: Mapping[str, Any] | None
     layout: bytes | None
     settings: Settings | None
+    lang: str
 
 
 def made(order: Order) -> Part[dict[str, bytes]]:
     """Make the files of an order: called on the machines of the cluster."""
     settle_process()
-    with _ONE, TemporaryDirectory(prefix="planmethod-") as name:
+    with _ONE, speaking(order.lang), TemporaryDirectory(prefix="planmethod-") as name:
         return heard(partial(_files, order, Path(name)))
 
 
@@ -114,7 +118,7 @@ def installed() -> str:
     return version("planmethod")
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @reading_options
 @out_option
@@ -161,17 +165,17 @@ def batch(
     try:
         import distributed  # noqa: F401
     except ImportError:
-        raise click.UsageError(NEEDS) from None
+        raise click.UsageError(say(NEEDS)) from None
     from planmethod.check.marks import DEFAULT, load_settings
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.compositions import SHIPPED
 
     if not sheets and not keys:
-        raise click.UsageError("--no-sheets leaves nothing to make: give --keys")
+        raise click.UsageError(say("--no-sheets leaves nothing to make: give --keys"))
     if settings is not None and not keys:
-        raise click.UsageError("--settings are of the keys: give --keys")
+        raise click.UsageError(say("--settings are of the keys: give --keys"))
     if scheduler is not None and jobs > 1:
-        raise click.UsageError("--jobs is of this machine; the --scheduler knows its own workers")
+        raise click.UsageError(say("--jobs is of this machine; --scheduler has workers of its own"))
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn
     own = ("problems", "variant", "sheets", "keys", "settings", "scheduler", "out")
@@ -183,6 +187,7 @@ def batch(
         sheets=common if sheets else None,
         layout=None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
         settings=None if not keys else DEFAULT if settings is None else load_settings(settings),
+        lang=spoken(),
     )
     settled = asked.settle()
     manifest = Manifest(out)
@@ -193,8 +198,11 @@ def batch(
         ]
         if twice:
             raise click.UsageError(
-                f"two problems are called {twice[0]}, their files would have the same names; write "
-                "them into two folders with --out"
+                say(
+                    "two problems are called {}, their files would have the same names; "
+                    "write them into two folders with --out",
+                    twice[0],
+                )
             )
         orders = []
         for one in todo:
@@ -272,7 +280,7 @@ class Manifest:
         if self.made:
             lines = (_line(told) for _, told in sorted(self._lines.items()))
             write(self.path, "".join(lines).encode())
-        click.echo(f"{self.made} made, {self.kept} there already.")
+        click.echo(say("{} made, {} there already.", self.made, self.kept))
 
 
 def _line(told: Mapping[str, Any]) -> str:
@@ -306,20 +314,35 @@ def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
             versions = client.run(installed)
         except (OSError, TimeoutError, ValueError) as error:
             raise click.UsageError(
-                f"--scheduler {scheduler}: no worker answers within {PATIENCE} s "
-                f"({type(error).__name__}). Start dask scheduler and dask worker there."
+                say(
+                    "--scheduler {}: no worker answers within {} s ({}). Start dask scheduler "
+                    "and dask worker there.",
+                    scheduler,
+                    PATIENCE,
+                    type(error).__name__,
+                )
             ) from None
         except ImportError as error:
             raise click.UsageError(
-                f"--scheduler {scheduler}: a worker cannot begin: {error}. Install there: pip "
-                "install 'planmethod[batch]'"
+                say(
+                    "--scheduler {}: a worker cannot begin: {}. Install there: pip install "
+                    "'planmethod[batch]'",
+                    scheduler,
+                    error,
+                )
             ) from None
         others = {address: own for address, own in versions.items() if own != installed()}
         if others:
             address, own = next(iter(others.items()))
             raise click.UsageError(
-                f"--scheduler {scheduler}: the worker {address} has planmethod {own}, here it is "
-                f"{installed()}. Install the same there."
+                say(
+                    "--scheduler {}: the worker {} has planmethod {}, here it is {}. Install the "
+                    "same there.",
+                    scheduler,
+                    address,
+                    own,
+                    installed(),
+                )
             )
         yield client
 
@@ -353,12 +376,18 @@ def _taken(future: Future, order: Order, key: str, manifest: Manifest) -> None:
         part: Part[dict[str, bytes]] = future.result()
     except KilledWorker:
         raise PlanMethodError(
-            f"{name}: every worker that took it was killed; perhaps it needs more memory than "
-            "there is. Ask for fewer positions at once."
+            "{}: every worker that took it was killed; perhaps it needs more memory than there "
+            "is. Ask for fewer positions at once.",
+            name,
         ) from None
     except (CancelledError, OSError) as error:
         raise click.UsageError(
-            f"the scheduler is gone ({type(error).__name__}) before {name}; {manifest.made} are "
-            "made, and the same command goes on from there"
+            say(
+                "the scheduler is gone ({}) before {}; {} are made, and the same command goes on "
+                "from there",
+                type(error).__name__,
+                name,
+                manifest.made,
+            )
         ) from None
     manifest.add(order, key, part.told() or {})

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded
+from planmethod.languages import say
 from planmethod.options import problem_options
 
 if TYPE_CHECKING:
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
 SECTIONS = ("speed", "forces", "drafting", "cycle", "machine", "checking")
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @click.option(
     "--only", type=click.Choice(SECTIONS), multiple=True, help="Only these sections of the report."
@@ -49,15 +51,17 @@ def bench(
             import mpmath  # noqa: F401  the judge
         except ImportError:
             raise click.UsageError(
-                "bench needs mpmath: pip install 'planmethod[referee]'; "
-                "--only drafting, cycle, machine and checking do not"
+                say(
+                    "bench needs mpmath: pip install 'planmethod[referee]'; --only drafting, "
+                    "cycle, machine and checking do not"
+                )
             ) from None
     loaded: list[Problem] = []
     finish(each(problems, variant, all_variants, loaded.append))
     from planmethod.bench import report
 
     for name in wanted:
-        click.echo(f"measuring: {name}", err=True)
+        click.echo(say("measuring: {}", name), err=True)
         if name == "checking":
             section = report.checking_section(loaded, works)
         else:

@@ -18,6 +18,7 @@ from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 from planmethod.kinds import Kind, KindProblem, kind_of
 from planmethod.kinds import load as load_linkage
+from planmethod.languages import say
 
 if TYPE_CHECKING:
     from planmethod.commands.processes import Part
@@ -45,7 +46,7 @@ MANY = 6
 
 def fail(error: PlanMethodError) -> None:
     """Say what went wrong."""
-    click.echo(f"Error: {error}", err=True)
+    click.echo(say("Error: {}", error), err=True)
 
 
 def guarded(command: F) -> F:
@@ -86,7 +87,7 @@ def variants_of(path: Path, variant: str | None, all_variants: bool) -> Sequence
     from planmethod.problem import variant_names
 
     if all_variants and variant is not None:
-        raise click.UsageError("give --variant or --all-variants, not both")
+        raise click.UsageError(say("give --variant or --all-variants, not both"))
     return (variant_names(path) or (None,)) if all_variants else (variant,)
 
 
@@ -182,7 +183,7 @@ def through(
             done += 1
     except KeyboardInterrupt:
         if len(todo) > 1:
-            told = f"Stopped: {done} of {len(todo)} problems are done; files there are, are whole."
+            told = say("Stopped: {} of {} problems are done; every file is whole.", done, len(todo))
             click.echo(f"\n{told}", err=True)
         raise
     return codes[0] if codes else ExitCode.DONE
@@ -229,8 +230,9 @@ def in_processes(todo: list[Todo], jobs: int) -> Iterator[Callable[[], Any]]:
 
 def _told_of_killed(one: Todo) -> NoReturn:
     raise PlanMethodError(
-        f"{stem(one.problem)}: the process at work on it was killed, twice; perhaps it needs more "
-        "memory than there is. Ask for fewer positions at once."
+        "{}: the process at work on it was killed, twice; perhaps it needs more memory than there "
+        "is. Ask for fewer positions at once.",
+        stem(one.problem),
     )
 
 
@@ -252,7 +254,11 @@ def refuse_plans(kind: Kind, **options: object) -> None:
     if given:
         told = ", ".join(given)
         raise click.UsageError(
-            f"{told}: only plans of linkages have such options; leave them out for [{kind.table}]"
+            say(
+                "{}: only plans of linkages have such options; leave them out for [{}]",
+                told,
+                kind.table,
+            )
         )
 
 
@@ -272,7 +278,7 @@ def stem(problem: Problem | KindProblem) -> str:
 
 def warn(problem: Problem, said: object) -> None:
     """Say what a user should know of a problem's results: a sentence, or a record of one."""
-    click.echo(f"Warning: {problem.name}: {said}", err=True)
+    click.echo(say("Warning: {}: {}", problem.name, said), err=True)
 
 
 def tell_changes(problem: Problem, phi: Positions | None) -> None:
@@ -319,7 +325,7 @@ def solution_of(
     except AssemblyError as error:
         if len(solution.positions) < 2:
             raise
-        raise AssemblyError(f"{error}{hint}") from error
+        raise AssemblyError(f"{error}{say(hint)}") from error
     for doubt in warnings(solution):
         warn(problem, doubt)
     return solution

@@ -18,6 +18,7 @@ import click
 
 from planmethod.commands.output import settle_process
 from planmethod.errors import PlanMethodError
+from planmethod.languages import say, speaking, spoken
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -39,7 +40,7 @@ class _Ear(io.StringIO):
     def write(self, text: str) -> int:
         """Keep a part."""
         if not isinstance(text, str):
-            raise TypeError("a text is expected")  # click tries which kind of stream this is
+            raise TypeError  # click tries which kind of stream this is
         if text:
             self._said.append((self._err, text))
         return len(text)
@@ -94,13 +95,14 @@ class _Here:
     """State of a process at work."""
 
     work: Callable[[Any], Any] | None = None
+    lang: str = ""
     busy: bool = False
 
 
 _here = _Here()
 
 
-def _start(begin: Callable[..., Callable[[T], R]], args: tuple[Any, ...]) -> None:
+def _start(lang: str, begin: Callable[..., Callable[[T], R]], args: tuple[Any, ...]) -> None:
     """Get ready for work; end with the process that gave it."""
 
     def stop(*_: object) -> None:
@@ -119,7 +121,9 @@ def _start(begin: Callable[..., Callable[[T], R]], args: tuple[Any, ...]) -> Non
     threading.Thread(target=watch, daemon=True).start()
     settle_process()
     try:
-        _here.work = begin(*args)
+        _here.lang = lang
+        with speaking(lang):
+            _here.work = begin(*args)
     except BaseException:  # the first process has begun the same before, and told of its faults
         os._exit(1)
 
@@ -128,7 +132,8 @@ def _do(item: T) -> Any:
     assert _here.work is not None
     _here.busy = True
     try:
-        return _here.work(item)
+        with speaking(_here.lang):
+            return _here.work(item)
     except SystemExit:
         os._exit(1)
     finally:
@@ -175,7 +180,7 @@ def shared(
                 alone = not alone
                 if alone:
                     told = "Warning: a process at work was killed; what it had is begun again."
-                    click.echo(told, err=True)
+                    click.echo(say(told), err=True)
 
 
 @contextmanager
@@ -184,7 +189,9 @@ def _pool(
 ) -> Iterator[ProcessPoolExecutor]:
     """Give processes at work; they are ended at once where their giver ends early."""
     before = multiprocessing.active_children()
-    pool = ProcessPoolExecutor(min(jobs, MOST), initializer=_start, initargs=(begin, args))
+    pool = ProcessPoolExecutor(
+        min(jobs, MOST), initializer=_start, initargs=(spoken(), begin, args)
+    )
     try:
         yield pool
     except BaseException:

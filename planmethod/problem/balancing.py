@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, read_keys, read_member, read_number, read_table
 from planmethod.problem.load_records import CounterweightTask, Dynamics, Weighing
@@ -38,7 +39,7 @@ def read_balancing(
     body = read_keys(faults, "balancing", table, keys.BALANCING)
     if drive is not None and not drive.is_crank:
         hint = "Counterweights stand on the links of a crank mechanism: give it phi and n."
-        faults.add("balancing", f"link {drive.link} slides and has no turn", hint)
+        faults.add("balancing", say("link {} slides and has no turn", drive.link), hint)
     elif drive is not None and not drive.rate:
         faults.add("balancing", "the crank stands", "Give its speed: [driver] n or omega.")
     if dynamics is None or not any(one.mass for one in dynamics.masses.values()):
@@ -61,8 +62,12 @@ def read_balancing(
         where = f"{path}.{segment(link)}"
         if link not in links:
             guess = near(link, links)
-            hint = f"Did you mean '{guess}'?" if guess else f"There are {listed(list(links))}."
-            faults.add(where, f"there is no link '{link}'", hint)
+            hint = (
+                say("Did you mean '{}'?", guess)
+                if guess
+                else say("There are {}.", listed(list(links)))
+            )
+            faults.add(where, say("there is no link '{}'", link), hint)
             continue
         found = read_number(faults, where, value, "a distance in metres", low=1e-6, high=1e4)
         if found is not None:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from enum import Enum
 from typing import Any, TypeVar
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -62,7 +63,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
     body = read_keys(faults, "machine", table, keys.MACHINE)
     if drive is not None and not drive.is_crank:
         hint = "The cycle of a machine is that of a driving crank: give it phi and n."
-        faults.add("machine", f"link {drive.link} slides and has no turn", hint)
+        faults.add("machine", say("link {} slides and has no turn", drive.link), hint)
     elif drive is not None and not drive.rate:
         faults.add("machine", "the crank stands", "Give its mean speed: [driver] n or omega.")
     if not given.get("loads"):
@@ -71,7 +72,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
     cycle = body.get("cycle_deg", 360)
     if not is_number(cycle) or cycle not in (360, 720):
         hint = "720 is for a four-stroke engine."
-        faults.add("machine.cycle_deg", f"expected 360 or 720, got {show(cycle)}", hint)
+        faults.expected("machine.cycle_deg", "360 or 720", cycle, hint)
         cycle = 360
     count = read_whole(faults, "machine.count", body.get("count", round(cycle / 30)), 4, _MOST)
     start = read_angle(faults, "machine.phi_0", body["phi_0"]) if "phi_0" in body else None
@@ -87,7 +88,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
         return read_member(faults, f"machine.{key}", body[key], type(default)) or default
 
     def scale(key: str, unit: str) -> float | None:
-        return number(key, 1.0, f"a scale in {unit}", 1e-12, 1e12) if key in body else None
+        return number(key, 1.0, say("a scale in {}", unit), 1e-12, 1e12) if key in body else None
 
     side = word("constant", Side.DRIVING)
     motor = _read_motor(faults, body["motor"]) if "motor" in body else None
@@ -134,12 +135,12 @@ def _read_delta(faults: Faults, body: Table, *, whole: bool) -> float | None:
         except (ValueError, ZeroDivisionError):
             value = math.nan
     if not is_number(value) or not math.isfinite(value):
-        message = f'expected a number or a fraction such as "1/18", got {show(body["delta"])}'
+        message = say('expected a number or a fraction such as "1/18", got {}', show(body["delta"]))
         faults.add(path, message, "A decimal fraction has a point: 0.05.")
         return None
     if not 0.0 < value < 1.0:
         hint = "delta = (omega_max - omega_min)/omega_mean: from 1/5 (pumps) to 1/300 (generators)."
-        faults.add(path, f"expected an irregularity between 0 and 1, got {value:g}", hint)
+        faults.add(path, say("expected an irregularity between 0 and 1, got {:g}", value), hint)
         return None
     return float(value)
 
@@ -170,7 +171,7 @@ def _read_motor(faults: Faults, value: object) -> Motor | None:
     body = read_keys(faults, path, read_table(faults, path, value, _MOTOR) or {}, keys.MOTOR)
     given = [form for form in keys.MOTOR_FORMS if form in body]
     if len(faults) == before and len(given) != 1:
-        faults.add(path, "expected kloss or line, one of them", f"For example: {_MOTOR}")
+        faults.add(path, "expected kloss or line, one of them", say("For example: {}", _MOTOR))
     ratio = read_number(
         faults, f"{path}.ratio", body.get("ratio", 1.0), "a ratio of speeds", low=1e-3, high=1e3
     )
@@ -183,8 +184,12 @@ def _read_motor(faults: Faults, value: object) -> Motor | None:
     ways = keys.MOTOR_FORMS[form]
     way = next((names for names in ways if set(names) == set(known)), None)
     if len(faults) == before and way is None:
-        asked = " or ".join(", ".join(names) for names in ways)
-        faults.add(where, f"expected {asked}; got {', '.join(known) or 'nothing'}", "Give all.")
+        asked = say(" or ").join(", ".join(names) for names in ways)
+        faults.add(
+            where,
+            say("expected {}; got {}", asked, ", ".join(known) or say("nothing")),
+            "Give all.",
+        )
     found = {
         key: read_number(faults, f"{where}.{key}", item, "a number", low=1e-9, high=1e9)
         for key, item in known.items()
@@ -195,14 +200,16 @@ def _read_motor(faults: Faults, value: object) -> Motor | None:
     idle = n["n_sync"] if form == "kloss" else n["n_idle"]
     slip = 1.0 - n.get("n_nom", 0.0) / idle
     if slip <= 0.0:
-        hint = f"Expected less than {idle:g} rev/min."
-        faults.add(f"{where}.n_nom", f"the motor is driven at {n['n_nom']:g} rev/min", hint)
+        hint = say("Expected less than {:g} rev/min.", idle)
+        faults.add(f"{where}.n_nom", say("the motor is driven at {:g} rev/min", n["n_nom"]), hint)
     factor = n.get("lambda", 2.0)
     if factor <= 1.0:
         hint = "lambda = M_max/M_nom, from 1.7 to 3."
-        faults.add(f"{where}.lambda", f"expected more than 1, got {factor:g}", hint)
+        faults.add(f"{where}.lambda", say("expected more than 1, got {:g}", factor), hint)
     if not 0.0 < n.get("s_k", 0.5) < 10.0:
-        faults.add(f"{where}.s_k", f"expected a slip up to 10, got {n['s_k']:g}", "From 0.05 to 1.")
+        faults.add(
+            f"{where}.s_k", say("expected a slip up to 10, got {:g}", n["s_k"]), "From 0.05 to 1."
+        )
     if len(faults) != before:
         return None
     speed = math.pi / 30.0

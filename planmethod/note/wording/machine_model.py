@@ -79,6 +79,7 @@ class MachineWording:
     stop_table: str
 
     balancing: str
+    run_up_wanted: str
     balancing_wanted: str
     structures: Mapping[str, str]
     weighings: Mapping[str, str]

@@ -36,8 +36,9 @@ _ASIDE = 4.0  # mm: between vectors of a polygon that lie in one line
 def _teller(solution: Solution, manner: Manner) -> BalancingTeller:
     if solution.problem.balancing is None:
         raise LayoutError(
-            f"{solution.problem.name}: a layout with balancing needs [balancing] in the problem "
-            'file. For example: [balancing] method = "full".'
+            "{}: a layout with balancing needs [balancing] in the problem file. For "
+            'example: [balancing] method = "full".',
+            solution.problem.name,
         )
     return BalancingTeller(solution, manner.words)
 

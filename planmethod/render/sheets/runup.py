@@ -18,7 +18,7 @@ from planmethod.render.layout.block import Block, Column, Row, heading, paragrap
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.texts import NBSP
+from planmethod.render.sheets.texts import NBSP, stated
 from planmethod.render.sheets.views import Viewed, named
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -33,17 +33,21 @@ def _teller(solution: Solution, words: Language) -> MachineTeller:
     machine = solution.problem.machine
     if machine is None or (machine.motor is None and machine.brake is None):
         raise LayoutError(
-            f"{solution.problem.name}: a layout with a run-up needs a motor or a brake in "
-            "[machine]. For example: motor = { kloss = { M_max = 60, s_k = 0.2, n_sync = 150 } }."
+            "{}: a layout with a run-up needs a motor or a brake in [machine]. For "
+            "example: motor = {{ kloss = {{ M_max = 60, s_k = 0.2, n_sync = 150 }} }}.",
+            solution.problem.name,
         )
     return MachineTeller(drawing_of(flywheel_of(solution), solution.profile), words)
 
 
 def run_up_text(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the motor, the run-up, the steady motion and the stop with numbers."""
+    """Return "Дано" and "Определить", the motor, run-up, steady motion and stop with numbers."""
     tell = _teller(solution, manner.words)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    blocks: list[Block] = [heading(manner.entry.title or tell.said.run_up, height)]
+    blocks: list[Block] = [
+        stated(tell.given(), tell.said.run_up_wanted, manner),
+        heading(manner.entry.title or tell.said.run_up, height),
+    ]
     blocks += [paragraph(line.replace(" = ", f"{NBSP}={NBSP}"), height, width)
                for line in run_up_lines(tell)]  # fmt: skip
     return Column(blocks, gap=3.0)

@@ -23,6 +23,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import choose_scale
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.diagrams.massmoments import MassMoments, build
 from planmethod.problem.load_records import Weighing
@@ -113,8 +114,8 @@ class Balancing(Remembering):
         may = (self.crank, self.rod if self.rocker_pivot is None else self.last)
         for link in self.task.radii:
             if link not in may:
-                hint = f"Counterweights are on {' and '.join(may)}."
-                raise self._fault(f"radii.{link}", f"link {link} gets no counterweight", hint)
+                hint = say("Counterweights are on {}.", say(" and ").join(may))
+                raise self._fault(f"radii.{link}", say("link {} gets no counterweight", link), hint)
 
     def _fault(self, key: str, message: str, hint: str) -> ProblemError:
         path = f"balancing.{key}" if key else "balancing"
@@ -141,8 +142,10 @@ class Balancing(Remembering):
                 return
         raise self._fault(
             "",
-            f"the mechanism of links {', '.join(problem.mechanism.links)} is neither a four-bar "
-            "nor a slider-crank",
+            say(
+                "the mechanism of links {} is neither a four-bar nor a slider-crank",
+                ", ".join(problem.mechanism.links),
+            ),
             "Counterweights are found for a crank, a rod, and a rocker or a slider on the frame.",
         )
 
@@ -194,7 +197,7 @@ class Balancing(Remembering):
             elif c is not None:
                 raise self._fault(
                     "share",
-                    f"link {self.last} is a rocker: a share is of a slider's mass",
+                    say("link {} is a rocker: a share is of a slider's mass", self.last),
                     "Leave the share out: the crank then balances the first harmonic.",
                 )
             else:

@@ -19,6 +19,7 @@ import numpy as np
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.load_records import (
     Dynamics,
@@ -154,15 +155,20 @@ class Flywheel(Remembering):
         if self.work_per_cycle > least:
             return
         driving = self.machine.constant is Side.DRIVING
-        does, other = ("resist", "resisting") if driving else ("drive", "driving")
+        told = (
+            "a constant driving moment cannot balance the work of the loads over the cycle: they "
+            "do {:.6g} J and must resist"
+            if driving
+            else "a constant resisting moment cannot balance the work of the loads over the cycle: "
+            "they do {:.6g} J and must drive"
+        )
         done = -self.sign * self.work_per_cycle  # by the loads; positive where they drive
         nothing = abs(done) <= least
-        message = (
-            f"a constant {self.machine.constant.value} moment cannot balance the work of the "
-            f"loads over the cycle: they do {0.0 if nothing else done:.6g} J and must {does}"
-        )
-        hint = "Check their directions and phases"
-        hint += "." if nothing else f', or say constant = "{other}".'
+        message = say(told, 0.0 if nothing else done)
+        hint = 'Check their directions and phases, or say constant = "{}".'
+        hint = say(hint, "resisting" if driving else "driving")
+        if nothing:
+            hint = "Check their directions and phases."
         raise ProblemError(self.problem.name, [Fault("machine.constant", message, hint)])
 
     # Exactly ---------------------------------------------------------------------------------

@@ -71,6 +71,7 @@ MACHINE = MachineWording(
     run_up_table="Run-up",
     stop_table="Stop",
     balancing="Static balancing",
+    run_up_wanted="To be found: time and angle of run-up and stop, the steady motion.",
     balancing_wanted="To be found: masses and places of counterweights, main vector of inertia.",
     structures={"four-bar": "four-bar linkage", "slider-crank": "slider-crank mechanism"},
     weighings={

@@ -4,12 +4,14 @@ from planmethod.note.numbers import Notation, raised
 
 UNITS = {
     "m": "m",
+    "cm": "cm",
     "mm": "mm",
     "mm²": "mm²",
     "s": "s",
     "m/s": "m/s",
     "m/s²": "m/s²",
     "1/min": "min⁻¹",
+    "rev/min": "rpm",
     "1/s": "s⁻¹",
     "1/s²": "s⁻²",
     "deg": "°",

@@ -4,12 +4,14 @@ from planmethod.note.numbers import Notation, raised
 
 UNITS = {
     "m": "м",
+    "cm": "см",
     "mm": "мм",
     "mm²": "мм²",
     "s": "с",
     "m/s": "м/с",
     "m/s²": "м/с²",
     "1/min": "мин⁻¹",
+    "rev/min": "об/мин",
     "1/s": "с⁻¹",
     "1/s²": "с⁻²",
     "deg": "°",
