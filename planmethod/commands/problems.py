@@ -215,7 +215,7 @@ def begin(command: str, params: Mapping[str, Any]) -> Callable[[Todo], Part[Any]
         return lambda one: heard(partial(do, one))
     finally:
         _beginning.reset(token)
-    raise AssertionError(f"{command} goes through no problems")
+    raise AssertionError(command)  # it goes through no problems
 
 
 def in_processes(todo: list[Todo], jobs: int) -> Iterator[Callable[[], Any]]:

@@ -86,7 +86,11 @@ def killed_by(folder: str) -> Callable[[int], int]:
 
 
 def slow() -> Callable[[int], int]:
-    return lambda number: time.sleep(60.0 * number) or number
+    def work(number: int) -> int:
+        time.sleep(60.0 * number)
+        return number
+
+    return work
 
 
 def test_what_kills_its_process_loses_none_of_the_others(
