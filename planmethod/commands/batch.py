@@ -224,9 +224,8 @@ def _hash(order: Order, phi: Positions | None) -> str:
     one, problem = order.todo, order.todo.problem
     options = {**(order.sheets or {}), "phi": None if phi is None else phi.tolist()}
     parts = (
-        installed(), read_source(one.path), problem.name, problem.variant,
-        dict(problem.stamp), problem.sheet, order.sheets is None, sorted(options.items()),
-        order.layout, order.settings,
+        installed(), read_source(one.path), repr(problem),  # with a table of variants beside it
+        order.sheets is None, sorted(options.items()), order.layout, order.settings,
     )  # fmt: skip
     return hashlib.sha256(repr(parts).encode()).hexdigest()
 
