@@ -179,6 +179,17 @@ def reading_options(command: F) -> F:
     return positions_option(MOST_POSITIONS)(hand_options(command))
 
 
+def jobs_option(command: F) -> F:
+    """Add the number of processes."""
+    return click.option(
+        "--jobs",
+        type=click.IntRange(1, 64),
+        default=1,
+        show_default=True,
+        help="Processes at work.",
+    )(command)
+
+
 def out_option(command: F) -> F:
     """Add the folder that files are written into."""
     return click.option(
