@@ -281,6 +281,7 @@ class _Drawing:
         w = gap * u.conjugate()
         _demand(abs(w.real) >= SINE * abs(gap))
         if w.real > 0 and rng.random() < 0.5:
+            draft.slotted.append((slider.name, host.name, slider.points[0], host.points[0]))
             return None
         turned = w / complex(-w.real, w.imag)
         if len(host.points) > 1 and rng.random() < 0.6:

@@ -41,6 +41,7 @@ class Draft:
     fixed: list[str] = field(default_factory=list)
     links: dict[str, Link] = field(default_factory=dict)
     rules: list[tuple[str, str | complex]] = field(default_factory=list)
+    slotted: list[tuple[str, str, str, str]] = field(default_factory=list)
     pivot: str = ""
     driver: str = "1"
     known: list[str] = field(default_factory=list)
@@ -89,6 +90,7 @@ class TextBuilder:
         parts = [f'title = "Случайный механизм"\n\n{self._frame()}']
         parts += [self._link(link) for link in self.draft.links.values()]
         parts.append(self._driver())
+        self._tell_sides()
         if self.draft.rules:
             lines = [f"{point} = {self._rule(rule)}" for point, rule in self.draft.rules]
             parts.append("\n".join(["[assembly]", *lines, ""]))
@@ -97,6 +99,19 @@ class TextBuilder:
             z = self.place[self.origin[name]]
             pose[name] = (z.real, z.imag, cmath.phase(self.axis[name]))
         return "\n".join(parts), pose
+
+    def _tell_sides(self) -> None:
+        """Say on which side points of a slotted link lie where its line does not tell it."""
+        place = self.draft.place
+        for slider, host, joint, other in self.draft.slotted:
+            line, points = self.draft.links[slider].line, self.draft.links[host].points
+            assert line is not None
+            base = place[line.base] if isinstance(line.base, str) else line.base
+            runs_on = ((base - place[other]) * line.u.conjugate()).real >= 0
+            untold = [] if runs_on else [point for point in points if point != other]
+            if not runs_on or len(points) == 1:
+                untold += [point for point in self.draft.links[slider].points if point != joint]
+            self.draft.rules += [(point, place[point]) for point in untold[:1]]
 
     def _choose_axes(self) -> None:
         """Own axis of every link: its slide, its first length, or the line it carries."""

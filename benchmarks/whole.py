@@ -11,10 +11,10 @@ from benchmarks.random_run import Tally, run, wrong_branches
 from benchmarks.scenes import loaded
 from planmethod.bench import forces
 from planmethod.bench.drawn import compare_all
-from planmethod.bench.report import Table, drafting_section, forces_section
+from planmethod.bench.report import Table, drafting_section, forces_section, machine_section
 from planmethod.problem.model import Problem
 
-SECTIONS = ("speed", "forces", "hard", "random", "drafting")
+SECTIONS = ("speed", "forces", "hard", "random", "machine", "drafting")
 
 
 def make(
@@ -53,6 +53,9 @@ def make(
         sections.append(hard_section())
     if "random" in wanted and count:
         sections.append(_random(count, say))
+    if "machine" in wanted and (found := machine_section(problems)):
+        say("flywheels")
+        sections.append(found)
     if "drafting" in wanted and problems:
         say("drafting errors")
         sections.append(drafting_section(compare_all(problems)))

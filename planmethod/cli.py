@@ -10,13 +10,15 @@ import gc
 import io
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from typing import Any
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.errors import ExitCode
+from planmethod.languages import LANGUAGES, say, speaking, spoken_to
 
 COMMANDS = (
     "sheet",
@@ -60,10 +62,45 @@ class Commands(Mapping[str, click.Command]):
 LAZY: Any = Commands()
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]}, commands=LAZY)
+FIRST = """\
+planmethod draws and computes a mechanism from a problem file. To begin with:
+
+  planmethod new four-bar my.toml   a problem file to fill in
+  planmethod solve my.toml          its numbers
+  planmethod sheet my.toml          its sheets, into the folder out
+
+All commands: planmethod --help. One of them: planmethod sheet --help."""
+"""What is said to who calls the program for the first time."""
+
+
+class Commanded(Spoken, click.Group):
+    """Group of commands that answers in the language it is spoken to in."""
+
+    def main(self, args: Sequence[str] | None = None, *rest: Any, **more: Any) -> Any:
+        """Run a command."""
+        words = sys.argv[1:] if args is None else args
+        with speaking(spoken_to(words)):
+            return super().main(args, *rest, **more)
+
+
+@click.group(
+    cls=Commanded,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    commands=LAZY,
+    invoke_without_command=True,
+)
 @click.version_option(package_name="planmethod")
-def cli() -> None:
+@click.option(
+    "--lang",
+    type=click.Choice(LANGUAGES),
+    expose_value=False,
+    help="Language of messages and help, before the command or after it.",
+)
+@click.pass_context
+def cli(ctx: click.Context) -> None:
     """Draw and compute linkages by the graphical plan method (метод планов)."""
+    if ctx.invoked_subcommand is None:
+        click.echo(say(FIRST))
 
 
 def main() -> None:
@@ -75,6 +112,11 @@ def main() -> None:
     gc.set_threshold(100_000)
     if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
         warnings.simplefilter("ignore")
+    with speaking(spoken_to(sys.argv[1:])):
+        _run()
+
+
+def _run() -> None:
     try:
         cli()
     except SystemExit as end:
@@ -84,12 +126,16 @@ def main() -> None:
     except BrokenPipeError:
         sys.exit(ExitCode.DONE)
     except OSError as error:
-        click.echo(f"Error: cannot write the output: {error.strerror or error}.", err=True)
+        click.echo(say("Error: cannot write the output: {}.", error.strerror or error), err=True)
         sys.exit(ExitCode.USAGE)
     except Exception as error:  # the last safety net
         click.echo(
-            f"Error: planmethod failed inside ({type(error).__name__}: {error}). Please report the "
-            "problem file and the command.",
+            say(
+                "Error: planmethod failed inside ({}: {}). Please report the problem file "
+                "and the command.",
+                type(error).__name__,
+                error,
+            ),
             err=True,
         )
         sys.exit(ExitCode.SELF_CHECK)

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
+from planmethod.languages import say
+
 
 class ExitCode(IntEnum):
     """Exit codes of the command line (коды завершения)."""
@@ -23,9 +25,12 @@ class ExitCode(IntEnum):
 
 
 class PlanMethodError(Exception):
-    """Root of all errors that the package raises on purpose."""
+    """Root of all errors that the package raises on purpose: a sentence, and its facts."""
 
     exit_code: ExitCode = ExitCode.SELF_CHECK
+
+    def __init__(self, message: str = "", *facts: object) -> None:
+        super().__init__(say(message, *facts))
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +45,10 @@ class Fault:
     message: str
     hint: str = ""
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "message", say(self.message))
+        object.__setattr__(self, "hint", say(self.hint))
+
     def __str__(self) -> str:
         text = f"{self.path}: {self.message}" if self.path else self.message
         return f"{text}. {self.hint}" if self.hint else text
@@ -49,13 +58,12 @@ class ProblemError(PlanMethodError):
     """A problem file is faulty; all its faults are in `faults`."""
 
     exit_code = ExitCode.PROBLEM
-    kind = "problem file"
+    head = "{0}: {1} fault{1:||s} in the problem file"
 
     def __init__(self, source: str, faults: Sequence[Fault]) -> None:
         self.source = source
         self.faults = tuple(faults)
-        count = len(self.faults)
-        head = f"{source}: {count} fault{'s' if count != 1 else ''} in the {self.kind}"
+        head = say(self.head, source, len(self.faults))
         super().__init__("\n".join([head, *(f"  {fault}" for fault in self.faults)]))
 
 
@@ -63,14 +71,14 @@ class CompositionError(ProblemError):
     """A file that says how sheets are composed is faulty (файл компоновки)."""
 
     exit_code = ExitCode.USAGE
-    kind = "layout file"
+    head = "{0}: {1} fault{1:||s} in the layout file"
 
 
 class ConfigError(ProblemError):
     """The user's config file is faulty; all its faults are in `faults`."""
 
     exit_code = ExitCode.USAGE
-    kind = "config file"
+    head = "{0}: {1} fault{1:||s} in the config file"
 
 
 class ProgramError(PlanMethodError):

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
@@ -30,14 +31,19 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     ------
     ProblemError
     """
-    problem: Problem = _of("planmethod.problem", "load")(path, variant=variant, train=_driven)
-    return problem
+    return _posed(_of("planmethod.problem", "load")(path, variant=variant, train=_driven))
 
 
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     """Read the same from a text; ``name`` stands for the stem of the file."""
     read = _of("planmethod.problem", "loads")
-    problem: Problem = read(text, name=name, variant=variant, train=_driven)
+    return _posed(read(text, name=name, variant=variant, train=_driven))
+
+
+def _posed(problem: Problem) -> Problem:
+    """Return a problem with the positions that its output tells."""
+    if problem.drive.posed is not None:
+        problem = _of("planmethod.solved.turn.posed", "pose")(problem)
     return problem
 
 
@@ -55,8 +61,15 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
     except ProblemError as error:
         part: Part = _of("planmethod.solved.part", "Part")(None, faults=error.faults, trouble=error)
         return "", part
+    faults = _of("planmethod.problem.fields", "Faults")()
     part = _of("planmethod.solved.part", "largest_part")(
-        table, source=str(path), name=path.stem, variant=variant, train=_driven, views=views
+        _of("planmethod.problem.table", "with_table")(faults, table, path.parent),
+        source=str(path),
+        name=path.stem,
+        variant=variant,
+        train=_driven,
+        views=views,
+        posed=_posed,
     )
     title = table.get("title")
     return title if isinstance(title, str) else "", part
@@ -214,7 +227,7 @@ class Kind:
             called = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}
             what = called.get(name, "checking of answers")
             fault = Fault(
-                self.table, f"such a problem has no {what}; its numbers: planmethod solve"
+                self.table, say("such a problem has no {}; its numbers: planmethod solve", what)
             )
             raise ProblemError(problem.name, [fault])
         return self._function(name)

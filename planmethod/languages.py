@@ -1,12 +1,131 @@
-"""Languages of all that is written (языки): the folders of `planmethod.note.wording`."""
+"""Languages of all that is written, and the saying of messages in them (языки).
+
+The languages are the folders of `planmethod.note.wording`; the sentences of messages stand in the
+code in English, and in the folders of the other languages by that.
+"""
 
 from __future__ import annotations
 
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import cache
+from itertools import pairwise
 from pathlib import Path
+from string import Formatter
+from typing import Any
 
-_FOLDERS = (Path(__file__).parent / "note" / "wording").glob("*/__init__.py")
+_WORDING = Path(__file__).parent / "note" / "wording"
 
 LANGUAGES = tuple(
-    sorted((path.parent.name for path in _FOLDERS), key=lambda lang: (lang != "ru", lang))
+    sorted(
+        (path.parent.name for path in _WORDING.glob("*/__init__.py")),
+        key=lambda lang: (lang != "ru", lang),
+    )
 )
 """Their names; the first is the one where none is asked for."""
+
+WRITTEN = "en"
+"""Language of the sentences in the code."""
+
+VARIABLES = ("PLANMETHOD_LANG", "LC_ALL", "LC_MESSAGES", "LANG")
+"""Variables of the environment that name a language, the first that outranks the others."""
+
+_spoken = WRITTEN
+
+
+class _Said(str):
+    """Sentence that has been said in a language; saying it again changes nothing (сказанное)."""
+
+    __slots__ = ()
+
+
+class _Sentences(Formatter):
+    """Puts facts into sentences; ``{0:|fault|faults}`` is the form that goes with a number."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        """Return a fact as its place wants it."""
+        if not format_spec.startswith("|"):
+            return format(value, format_spec)
+        forms, number = format_spec[1:].split("|"), abs(int(value))
+        if len(forms) == 2:  # English
+            return forms[number != 1]
+        if number % 10 in (0, 5, 6, 7, 8, 9) or number % 100 in (11, 12, 13, 14):
+            return forms[2]
+        return forms[number % 10 > 1]
+
+
+_SENTENCES = _Sentences()
+
+
+def say(sentence: str, *facts: object, **named: object) -> str:
+    """Say a sentence in the language that is spoken.
+
+    Parameters
+    ----------
+    sentence : str
+        In English, with places for the facts as in `str.format`: the key of the other languages.
+        Without facts it is taken as it stands, braces and all.
+    *facts, **named : object
+        Facts that are English phrases of their own are translated.
+    """
+    if isinstance(sentence, _Said):
+        return sentence
+    text = translated(sentence)
+    if facts or named:
+        if _spoken != WRITTEN:  # one word may be a name
+            facts = tuple(translated(f) if isinstance(f, str) and " " in f else f for f in facts)
+        fill = _SENTENCES.format if ":|" in text else str.format
+        text = fill(text, *facts, **named)
+    return _Said(text)
+
+
+def translated(sentence: str) -> str:
+    """Return a sentence, its places still empty, in the language that is spoken."""
+    return sentence if _spoken == WRITTEN else _messages(_spoken).get(sentence, sentence)
+
+
+@cache
+def _messages(lang: str) -> Mapping[str, str]:
+    """Return the sentences of a language by the English ones, of all rooms."""
+    import json
+
+    found: dict[str, str] = {}
+    for room in sorted((_WORDING / lang / "messages").glob("*.json")):
+        found |= json.loads(room.read_text(encoding="utf-8"))
+    return found
+
+
+def spoken() -> str:
+    """Return the language that messages are in."""
+    return _spoken
+
+
+def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> str:
+    """Return the language in which to answer a command line (язык сообщений).
+
+    That of ``--lang``, else of the first of `VARIABLES` that names a known one, else of the
+    system, else Russian.
+    """
+    asked = [word.partition("=")[2] for word in args if word.startswith("--lang=")]
+    asked += [after for word, after in pairwise(args) if word == "--lang"]
+    asked += [environ.get(name, "") for name in VARIABLES]
+    if sys.platform == "win32":
+        import locale
+
+        asked.append(locale.getlocale()[0] or "")  # Russian_Russia, English_United States
+    codes = (name.replace("-", "_").split("_")[0].split(".")[0].lower() for name in asked)
+    known = {lang: lang for lang in LANGUAGES} | {"russian": "ru", "english": "en"}
+    return next((known[code] for code in codes if code in known), LANGUAGES[0])
+
+
+@contextmanager
+def speaking(lang: str) -> Iterator[None]:
+    """Speak a language for a while; where nobody asks for one, English is spoken."""
+    global _spoken
+    before, _spoken = _spoken, lang
+    try:
+        yield
+    finally:
+        _spoken = before

@@ -140,16 +140,21 @@ def paper_format(name: str) -> Format:
     if match is None:
         basic = ", ".join(_BASIC)
         raise LayoutError(
-            f"Unknown paper format {name!r}. Choose {basic}, an elongated one such as A4x3, or "
-            "one that stands, such as A3:portrait."
+            "Unknown paper format {!r}. Choose {}, an elongated one such as A4x3, or one "
+            "that stands, such as A3:portrait.",
+            name,
+            basic,
         )
     base, times = match[1], match[2]
     if times is not None and int(times) not in _ELONGATED[base]:
         _refuse_times(base, times)
     if colon and turn.casefold() not in _TURNS:
         raise LayoutError(
-            f"Unknown orientation {turn!r} of the paper {name!r}. Write {size}:portrait "
-            f"(книжная) or {size}:landscape (альбомная)."
+            "Unknown orientation {0!r} of the paper {1!r}. Write {2}:portrait (книжная) "
+            "or {2}:landscape (альбомная).",
+            turn,
+            name,
+            size,
         )
     plain = match[0]
     stands = _TURNS[turn.casefold()] if colon else plain == "A4"
@@ -166,5 +171,8 @@ def paper_format(name: str) -> Format:
 def _refuse_times(base: str, times: str) -> NoReturn:
     known = ", ".join(f"{base}x{number}" for number in _ELONGATED[base])
     raise LayoutError(
-        f"There is no paper format {base}x{times} in GOST 2.301. {base} is elongated to {known}."
+        "There is no paper format {0}x{1} in GOST 2.301. {0} is elongated to {2}.",
+        base,
+        times,
+        known,
     )

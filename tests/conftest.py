@@ -57,5 +57,6 @@ def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Ite
     empty.touch()
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PLANMETHOD_CONFIG", str(empty))
+        patch.setenv("PLANMETHOD_LANG", "en")
         patch.setenv("PYTHONWARNINGS", "error")  # in processes that tests start, too
         yield

@@ -36,7 +36,10 @@ def loaded_text(text: str, pose: Pose, rng: random.Random) -> str:
     forces = []
     for link, table in tables.items():
         points: list[str] = list(table["points"])
-        new = [] if _is_bare(table) else rng.sample(("S", "P", "Q"), rng.randint(0, 3))
+        host = tables.get(table.get("slides", {}).get("on"), {"slides": ()})
+        # A new point of a stone in a block would have to be told on which side of it it lies.
+        untold = _is_bare(host) and not {*points} & {*read.get("assembly", {})}
+        new = [] if _is_bare(table) or untold else rng.sample(("S", "P", "Q"), rng.randint(0, 3))
         for letter in new:
             name = f"{letter}{link}"
             text = _with_point(text, link, name, points[0], size, rng)

@@ -22,6 +22,8 @@ from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 READMES = ("README.md", "README.ru.md")
+COMMANDS = ("docs/commands.md", "docs/ru/commands.md")
+PAGES = sorted(f"docs/ru/{path.name}" for path in (ROOT / "docs" / "ru").glob("*.md"))
 ADRS = sorted((ROOT / "docs" / "adr").glob("[0-9]*.md"))
 DOCUMENTS = sorted(
     [
@@ -51,7 +53,7 @@ def command_lines(name: str) -> list[list[str]]:
 
 
 def planmethod_lines(name: str) -> list[list[str]]:
-    return [words[1:] for words in command_lines(name) if words[0] == "planmethod"]
+    return [words[1:] for words in command_lines(name) if words[0] == "planmethod" and words[1:]]
 
 
 def first_cells(name: str, pattern: str) -> list[str]:
@@ -71,8 +73,8 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_tour_works_from_the_first_command_to_the_last(desk: Path) -> None:
-    """That of one README; the other has the same commands. Large sheets only with --thorough."""
-    lines = planmethod_lines(READMES[0])
+    """In one language; the other has the same commands. Large sheets only with --thorough."""
+    lines = planmethod_lines(COMMANDS[0])
     large = [words for words in lines if "--layout" in words or "meshing" in " ".join(words)]
     for words in lines if some(1, few=0) else [line for line in lines if line not in large]:
         run = CliRunner().invoke(cli, words)
@@ -82,25 +84,24 @@ def test_the_tour_works_from_the_first_command_to_the_last(desk: Path) -> None:
     assert {f"task12-variants-{letter}.pdf" for letter in "АБВГДЕ"} <= made
 
 
-@pytest.mark.parametrize("name", [*READMES, "CONTRIBUTING.md"])
+@each("name", [*READMES, *COMMANDS, *PAGES, "CONTRIBUTING.md"])
 def test_every_command_line_parses(name: str) -> None:
-    assert planmethod_lines(name)
     for command, *rest in planmethod_lines(name):
         cli.commands[command].make_context(command, rest)
 
 
-@pytest.mark.parametrize("name", READMES)
+@pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_is_listed_and_shown(name: str) -> None:
     assert sorted(first_cells(name, "`([a-z]+)`")) == sorted(cli.commands)
     assert {words[0] for words in planmethod_lines(name)} == set(cli.commands)
 
 
-@pytest.mark.parametrize("name", READMES)
+@pytest.mark.parametrize("name", COMMANDS)
 def test_exit_codes_are_listed(name: str) -> None:
     assert first_cells(name, r"(\d)") == [str(int(code)) for code in ExitCode]
 
 
-@pytest.mark.parametrize("name", [*READMES, "CONTRIBUTING.md"])
+@each("name", [*READMES, *COMMANDS, *PAGES, "CONTRIBUTING.md"])
 def test_options_that_the_text_speaks_of_exist(name: str) -> None:
     known = {
         option
@@ -122,7 +123,7 @@ def test_make_knows_the_targets(document: Path) -> None:
 # Examples ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", READMES)
+@pytest.mark.parametrize("name", COMMANDS)
 def test_python_examples_run(name: str, desk: Path, capsys: pytest.CaptureFixture[str]) -> None:
     names: dict[str, object] = {}
     for block in blocks(name, "python"):
@@ -149,15 +150,40 @@ def code_of(block: str) -> str:
     return "\n".join(map(ast.unparse, kept))
 
 
-def test_both_readmes_show_the_same() -> None:
-    one, other = READMES
+@pytest.mark.parametrize("names", [READMES, COMMANDS], ids=str)
+def test_both_languages_show_the_same(names: tuple[str, str]) -> None:
+    one, other = names
     assert command_lines(one) == command_lines(other)
-    (mine,), (theirs,) = blocks(one, "toml"), blocks(other, "toml")
-    assert tomllib.loads(mine) == tomllib.loads(theirs)
+    for mine, theirs in zip(blocks(one, "toml"), blocks(other, "toml"), strict=True):
+        assert tomllib.loads(mine) == tomllib.loads(theirs)
     for mine, theirs in zip(blocks(one, "python"), blocks(other, "python"), strict=True):
         assert code_of(mine) == code_of(theirs)
-    counts = {len(re.findall(r"(?m)^##+ ", text_of(name))) for name in READMES}
+    counts = {len(re.findall(r"(?m)^##+ ", text_of(name))) for name in names}
     assert len(counts) == 1
+
+
+@each("name", [name for name in PAGES if name not in COMMANDS])
+def test_the_russian_pages_work(name: str, tmp_path: Path) -> None:
+    """Their files are read, their commands run; sheets only with --thorough."""
+    folder = tmp_path / Path(name).stem
+    shutil.copytree(PROBLEMS / "linkages", folder / "problems" / "linkages")
+    layouts = [text for text in blocks(name, "toml") if "[[blocks]]" in text]
+    for file, texts in (
+        ("my.toml", [text for text in blocks(name, "toml") if text not in layouts]),
+        ("own.toml", layouts),
+        ("my.csv", blocks(name, "csv")),
+    ):
+        for text in texts:
+            (folder / file).write_text(text, encoding="utf-8")
+    lines = planmethod_lines(name)
+    lines += [["sheet", "problems/linkages/ex3.toml", "--layout", "own.toml"] for _ in layouts]
+    lines += [["solve", "my.toml"] for text in blocks(name, "toml") if text not in layouts]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        for words in lines:
+            if words[0] in ("solve", "protocol", "layouts") or some(1, few=0):
+                run = CliRunner().invoke(cli, ["--lang", "ru", *words])
+                assert run.exit_code == ExitCode.DONE, (words, run.output)
 
 
 # Links and names ---------------------------------------------------------------------------------

@@ -6,10 +6,11 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from planmethod.bench import checking, cycle, forces, speed
+from planmethod.bench import checking, cycle, forces, machine, speed
 from planmethod.bench.drawn import DRAWS, Compared, compare_all
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
+from planmethod.solved.machine.flywheel import Flywheel
 
 Table = list[str]
 
@@ -352,11 +353,41 @@ def _cycle(problems: Sequence[Problem]) -> Table:
     ]
 
 
+def machine_section(problems: Sequence[Problem]) -> Table:
+    """Return the section on flywheels; there is none where no problem has ``[machine]``."""
+    rows, cost = [], []
+    for problem in problems:
+        if problem.machine is None:
+            continue
+        wheel = Flywheel(problem)
+        if wheel.exact.inertia <= 0.0:
+            continue
+        for one in machine.constructed(wheel):
+            count = "all" if one.count is None else str(one.count)
+            rows.append((problem.name, count, *(f"{off:+.3f}" for off in one.off)))
+        cost += [(what, problem.name, span(seconds)) for what, seconds in machine.costs(problem)]
+    if not rows:
+        return []
+    head = [f"{method}, {way.value}" for way, method in machine.WAYS]
+    return [
+        "## Flywheels by construction",
+        "",
+        "By how many percent J_f of a construction without a pencil differs from the exact one: by "
+        "the number of positions, the tangents (slopes 1 ± delta, or 1) and the way of integration "
+        "(middle ordinates, or trapezoids). *all*: on the whole curves, where slopes alone err.",
+        "",
+        *table(("problem", "positions", *head), rows),
+        "",
+        *table(("flywheel", "problem", "time"), cost),
+    ]
+
+
 SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
     "speed": _speed,
     "forces": _forces,
     "drafting": _drafting,
     "cycle": _cycle,
+    "machine": machine_section,
     "checking": checking_section,
 }
 """What is measured of problems, by the name of the section."""

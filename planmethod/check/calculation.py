@@ -27,6 +27,7 @@ from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import Kind, KindProblem
+from planmethod.languages import say
 from planmethod.plans.model import Plan
 from planmethod.problem.figures import Figure, Figures
 from planmethod.problem.model import AnswerForm, AskedAnswer
@@ -126,7 +127,7 @@ class Calculation(Task):
         drawn = asked.form is not AnswerForm.VALUE
         question = self._question(asked.what, position, drawn=drawn, turns=asked.sense is not None)
         if question is None:
-            said = f"{asked.what} has no value in this problem"
+            said = say("{} has no value in this problem", asked.what)
             fault = Fault(
                 f"answers[{at}].what", said, "planmethod solve tells why; ask for another."
             )

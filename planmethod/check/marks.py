@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from planmethod.errors import ExitCode, ProblemError
+from planmethod.languages import say
 from planmethod.problem.fields import (
     Faults,
     is_number,
@@ -17,7 +18,6 @@ from planmethod.problem.fields import (
     read_number,
     read_text,
     read_word,
-    show,
 )
 from planmethod.problem.source import parse, read_source
 
@@ -36,7 +36,7 @@ class SettingsError(ProblemError):
     """The settings of a department are faulty; all their faults are in `faults`."""
 
     exit_code = ExitCode.USAGE
-    kind = "settings file"
+    head = "{0}: {1} fault{1:||s} in the settings file"
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,13 +155,13 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
     """Read marks: pairs of a share and a name, the best first, the last from 0."""
     example = 'For example: marks = [[0.85, "5"], [0.7, "4"], [0.5, "3"], [0, "2"]]'
     if not isinstance(value, list) or not 1 <= len(value) <= MARK_LIMIT:
-        faults.add("marks", f"expected 1 to {MARK_LIMIT} marks, got {show(value)}", example)
+        faults.expected("marks", say("1 to {} marks", MARK_LIMIT), value, example)
         return ()
     found: list[tuple[float, str]] = []
     for index, entry in enumerate(value):
         path = f"marks[{index}]"
         if not isinstance(entry, list) or len(entry) != 2:
-            faults.add(path, f"expected [share, mark], got {show(entry)}", example)
+            faults.expected(path, "[share, mark]", entry, example)
             continue
         share = read_number(
             faults, f"{path}[0]", entry[0], "a share", low=0.0, high=1.0, hint=_SHARE
@@ -176,11 +176,13 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
     for index, ((above, _), (below, mark)) in enumerate(pairwise(found)):
         if not below < above:
             hint = "The best mark stands first."
-            said = f"'{mark}' is from {below:g}, the mark before it from {above:g}"
+            said = say("'{}' is from {:g}, the mark before it from {:g}", mark, below, above)
             faults.add(f"marks[{index + 1}]", said, hint)
     if found[-1][0] != 0:
-        hint = f"Add the mark of what is worse: [0, \"2\"], or let '{found[-1][1]}' be from 0."
-        faults.add("marks", f"the last mark is from {found[-1][0]:g}, expected 0", hint)
+        hint = say(
+            "Add the mark of what is worse: [0, \"2\"], or let '{}' be from 0.", found[-1][1]
+        )
+        faults.add("marks", say("the last mark is from {:g}, expected 0", found[-1][0]), hint)
     return tuple(found)
 
 

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded, stem, warn
+from planmethod.languages import say
 from planmethod.options import lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
@@ -20,13 +22,13 @@ def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[st
     names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
     for name in names:
         if name not in FORMATS:
-            raise click.BadParameter(f"{name!r} is not one of {', '.join(FORMATS)}")
+            raise click.BadParameter(say("{!r} is not one of {}", name, ", ".join(FORMATS)))
     if not names:
-        raise click.BadParameter(f"no format given; choose from {', '.join(FORMATS)}")
+        raise click.BadParameter(say("no format given; choose from {}", ", ".join(FORMATS)))
     return names
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @click.option("--plans", is_flag=True, help="The velocity plan beside the scheme.")
 @click.option(

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
 from planmethod.commands.problems import each, finish, guarded
+from planmethod.languages import say
 from planmethod.options import lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from planmethod.problem.model import Problem
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @ruler_option
 @lang_option
@@ -41,7 +43,9 @@ def audit(
     from planmethod.note.audit.table import Document
 
     if file is not None and file.lower().endswith(".toml"):
-        raise click.UsageError(f"-o would write over the problem file {file}; name another one")
+        raise click.UsageError(
+            say("-o would write over the problem file {}; name another one", file)
+        )
     audits: list[tuple[Problem | KindProblem, Any]] = []
 
     def compare(problem: Problem) -> None:

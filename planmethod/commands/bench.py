@@ -7,16 +7,18 @@ from typing import TYPE_CHECKING
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded
+from planmethod.languages import say
 from planmethod.options import problem_options
 
 if TYPE_CHECKING:
     from planmethod.problem.model import Problem
 
-SECTIONS = ("speed", "forces", "drafting", "cycle", "checking")
+SECTIONS = ("speed", "forces", "drafting", "cycle", "machine", "checking")
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @click.option(
     "--only", type=click.Choice(SECTIONS), multiple=True, help="Only these sections of the report."
@@ -40,24 +42,26 @@ def bench(
 
     Motion, force plans and drafting errors: sweeps, single positions, the referee and the hand;
     the errors that are expected of a sheet beside those of random sheets; graphical
-    differentiation and integration by the number of positions; works drawn at random,
-    checked. Takes some seconds for each PROBLEM.
+    differentiation and integration by the number of positions; flywheels by construction
+    beside the exact ones; works drawn at random, checked. Takes some seconds for each PROBLEM.
     """
     wanted = [name for name in SECTIONS if name in (only or SECTIONS)]
-    if not set(wanted) <= {"drafting", "cycle", "checking"}:
+    if set(wanted) & {"speed", "forces"}:
         try:
             import mpmath  # noqa: F401  the judge
         except ImportError:
             raise click.UsageError(
-                "bench needs mpmath: pip install 'planmethod[referee]'; "
-                "--only drafting, --only cycle and --only checking do not"
+                say(
+                    "bench needs mpmath: pip install 'planmethod[referee]'; --only drafting, "
+                    "cycle, machine and checking do not"
+                )
             ) from None
     loaded: list[Problem] = []
     finish(each(problems, variant, all_variants, loaded.append))
     from planmethod.bench import report
 
     for name in wanted:
-        click.echo(f"measuring: {name}", err=True)
+        click.echo(say("measuring: {}", name), err=True)
         if name == "checking":
             section = report.checking_section(loaded, works)
         else:

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, is_narrow
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode
+from planmethod.languages import say, spoken
 from planmethod.options import lang_option, out_option
 
 if TYPE_CHECKING:
@@ -27,7 +29,7 @@ MANY_WORKS = 10
 FORMATS = ("html", "pdf")
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument(
     "files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=click.Path(path_type=Path)
 )
@@ -89,22 +91,26 @@ def check(
         _write_keys(files, variant, all_variants, settings, out, lang)
         return
     if all_variants:
-        raise click.UsageError("--all-variants goes with --key: every work names its own variant")
+        raise click.UsageError(
+            say("--all-variants goes with --key: every work names its own variant")
+        )
     problem, *paths = files
     if not paths:
-        raise click.UsageError("name a WORK after the PROBLEM, or ask for its --key")
+        raise click.UsageError(say("name a WORK after the PROBLEM, or ask for its --key"))
     from planmethod.check.group import Variants
 
     variants = Variants(problem, settings, variant)
     checked, works = _checked(variants, paths, jobs)
     from planmethod.check.model import Unread
     from planmethod.check.pages.overrides import overridden, read_overrides
+    from planmethod.check.pages.speech import Speech
+    from planmethod.note.wording import language
 
     by_hand = overrides or (None if as_json else out / "overrides.csv")
     if by_hand is not None:
         checked, unused = overridden(checked, read_overrides(by_hand))
         for where in unused:
-            click.echo(f"Warning: {where}: no such work or answer.", err=True)
+            click.echo(say("Warning: {}: no such work or answer.", where), err=True)
     _warn_of_others(problem, works)
     if as_json:
         _print_json(checked, paths)
@@ -112,13 +118,16 @@ def check(
         _write_results(variants, paths, checked, out, salt if anonymize else None, lang)
     unreadable = [a for work in checked for a in work.answers if a.verdict.value == "unreadable"]
     lost = [remark for work in checked for remark in work.work.remarks]
+    speech = Speech(language(spoken()))
     for judged in unreadable:
-        why = "" if judged.written is None else judged.written.unreadable
-        reason = why or f"no quantity {judged.id!r} that the problem has"
-        click.echo(f"Unreadable: {judged.where or judged.id}: {reason}", err=True)
+        reason = say("no quantity {!r} that the problem has", judged.id)
+        if judged.written is not None and judged.written.unreadable:
+            reason = speech.unread(judged.written)
+        click.echo(say("Unreadable: {}: {}", judged.where or judged.id, reason), err=True)
     for remark in lost:
-        word = "Not read" if remark.why in (Unread.COLUMN, Unread.KEY) else "Unreadable"
-        click.echo(f"{word}: {remark.where}: {remark.unreadable}", err=True)
+        aside = remark.why in (Unread.COLUMN, Unread.KEY)
+        told = "Not read: {}: {}" if aside else "Unreadable: {}: {}"
+        click.echo(say(told, remark.where, speech.unread(remark)), err=True)
     # A column or key that nobody knows is told of, but no answer is lost by it.
     lost = [remark for remark in lost if remark.why not in (Unread.COLUMN, Unread.KEY)]
     finish(ExitCode.FINDINGS if unreadable or lost else ExitCode.DONE)
@@ -172,8 +181,12 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
         named = Path(work.problem).stem if work.problem else problem.stem
         if named != problem.stem:
             click.echo(
-                f"Warning: {work.student or work.where}: the work is of {named}, it is checked as "
-                f"{problem.stem}.",
+                say(
+                    "Warning: {}: the work is of {}, it is checked as {}.",
+                    work.student or work.where,
+                    named,
+                    problem.stem,
+                ),
                 err=True,
             )
 

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.languages import say
 from planmethod.options import lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
 MOST_STUDENTS = 500
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @out_option
 @click.option(
@@ -55,7 +57,7 @@ def form(
     from planmethod.solved.solution import Solution
 
     if students is not None and names is not None:
-        raise click.UsageError("give --students or --names, not both")
+        raise click.UsageError(say("give --students or --names, not both"))
     who = [str(number) for number in range(1, (students or 0) + 1)]
     if names is not None:
         who = _read_names(names)
@@ -94,5 +96,7 @@ def _read_names(path: Path) -> list[str]:
     lines = decoded(read_bytes(path), path).splitlines()
     found = [" ".join(line.split()) for line in lines if line.strip()]
     if not 0 < len(found) <= MOST_STUDENTS:
-        raise click.UsageError(f"{path}: {len(found)} names; 1 to {MOST_STUDENTS} are expected")
+        raise click.UsageError(
+            say("{}: {} names; 1 to {} are expected", path, len(found), MOST_STUDENTS)
+        )
     return found

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
 from planmethod.options import lang_option
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("name", required=False)
 @click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--force", is_flag=True, help="Write over an existing file.")
@@ -30,7 +31,7 @@ def layouts(name: str | None, file: Path | None, force: bool, lang: str) -> None
         for shipped in SHIPPED:
             click.echo(f"{shipped.ljust(width)}  {about(shipped, lang)}")
         return
-    refuse_unknown("layout", name, SHIPPED)
+    refuse_unknown("no layout {!r}", name, SHIPPED)
     if file is None:
         click.echo(shipped_text(name, lang), nl=False)
     else:

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import is_narrow
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem
 from planmethod.errors import ExitCode
+from planmethod.languages import say
 from planmethod.options import (
     Positions,
     drawn_by,
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from planmethod.render.sheets.controlled import Controlled
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @reading_options
 @sheet_options
@@ -71,8 +73,10 @@ def lint(
 
     if structural and (phi is not None or errors or sigma or layout is not None):
         raise click.UsageError(
-            "--phi, --errors, --sigma and --layout are of the plans; "
-            "the sheet of --structure has none"
+            say(
+                "--phi, --errors, --sigma and --layout are of the plans; the sheet of "
+                "--structure has none"
+            )
         )
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import lang_option, out_option, problem_options
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from planmethod.problem.model import Problem
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @out_option
 @lang_option

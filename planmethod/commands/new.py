@@ -6,12 +6,14 @@ from pathlib import Path
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
+from planmethod.languages import say
 from planmethod.options import lang_option
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("family", required=False, metavar="[FAMILY|TASK]")
 @click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
@@ -41,14 +43,14 @@ def new(
         for name in known:
             click.echo(f"{name.ljust(width)}  {meanings[name]}")
         if not show:
-            raise click.UsageError("give one of these families: planmethod new FAMILY [FILE]")
+            raise click.UsageError(say("give one of these families: planmethod new FAMILY [FILE]"))
         return
     wanted = "-".join(family.casefold().split())
     template_name = next((one for one in known if one.casefold() == wanted), None)
     if template_name is not None:
         if variant is not None:
             raise click.UsageError(
-                f"{template_name} is a template and has no variants: leave out --variant"
+                say("{} is a template and has no variants: leave out --variant", template_name)
             )
         write_new(file or Path(f"{template_name}.toml"), template(template_name), force=force)
         return
@@ -57,12 +59,11 @@ def new(
     task = next((task for task in tasks() if task.name.casefold() == wanted), None)
     if task is None:
         names = (*known, *(task.name for task in tasks()))
-        noun = "task" if any(map(str.isdigit, family)) else "family"
-        refuse_unknown(noun, family, names, "planmethod new --list, planmethod tasks")
+        said = "no task {!r}" if any(map(str.isdigit, family)) else "no family {!r}"
+        refuse_unknown(said, family, names, "planmethod new --list, planmethod tasks")
         return
     if variant is not None:
-        refuse_unknown(
-            f"variant of {task.name}", variant, task.variants, "" if task.variants else "none"
-        )
+        none = "" if task.variants else say("none")
+        refuse_unknown("no variant {!r}", variant, task.variants, none)
     stem = task.name if variant is None else f"{task.name}-{variant}"
     write_new(file or Path(f"{stem}.toml"), text_for(task, variant), force=force)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
+from planmethod.languages import say
+
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
 
@@ -40,20 +42,21 @@ def put_parts(parts: Iterable[str], file: str) -> None:
     click.echo(file)
 
 
-def refuse_unknown(noun: str, name: str, known: Sequence[str], told: str = "") -> None:
-    """Refuse a name that is not known, and tell the nearest; ``told`` if there are too many."""
+def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -> None:
+    """Refuse a name (``no layout {!r}``), and tell the nearest; ``told`` if they are too many."""
     if name not in known:
         from difflib import get_close_matches
 
         near = get_close_matches(name, known, 1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise click.UsageError(f"no {noun} {name!r}{hint} Known: {told or ', '.join(known)}.")
+        hint = say("; did you mean {!r}?", near[0]) if near else "."
+        listed = told or ", ".join(known)
+        raise click.UsageError(say("{}{} Known: {}.", say(said, name), hint, listed))
 
 
 def write_new(path: Path, text: str, *, force: bool) -> None:
     """Write a file to start from, over an existing one by ``force`` only."""
     if path.exists() and not force:
-        raise click.UsageError(f"{path} exists; name another file or give --force")
+        raise click.UsageError(say("{} exists; name another file or give --force", path))
     from planmethod.render.backends.output import write
 
     write(path, text.encode())

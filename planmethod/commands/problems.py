@@ -15,6 +15,7 @@ from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 from planmethod.kinds import Kind, KindProblem, kind_of
 from planmethod.kinds import load as load_linkage
+from planmethod.languages import say
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -31,7 +32,7 @@ MANY = 6
 
 def fail(error: PlanMethodError) -> None:
     """Say what went wrong."""
-    click.echo(f"Error: {error}", err=True)
+    click.echo(say("Error: {}", error), err=True)
 
 
 def guarded(command: F) -> F:
@@ -72,7 +73,7 @@ def variants_of(path: Path, variant: str | None, all_variants: bool) -> Sequence
     from planmethod.problem import variant_names
 
     if all_variants and variant is not None:
-        raise click.UsageError("give --variant or --all-variants, not both")
+        raise click.UsageError(say("give --variant or --all-variants, not both"))
     return (variant_names(path) or (None,)) if all_variants else (variant,)
 
 
@@ -139,7 +140,11 @@ def refuse_plans(kind: Kind, **options: object) -> None:
     if given:
         told = ", ".join(given)
         raise click.UsageError(
-            f"{told}: only plans of linkages have such options; leave them out for [{kind.table}]"
+            say(
+                "{}: only plans of linkages have such options; leave them out for [{}]",
+                told,
+                kind.table,
+            )
         )
 
 
@@ -159,7 +164,7 @@ def stem(problem: Problem | KindProblem) -> str:
 
 def warn(problem: Problem, said: object) -> None:
     """Say what a user should know of a problem's results: a sentence, or a record of one."""
-    click.echo(f"Warning: {problem.name}: {said}", err=True)
+    click.echo(say("Warning: {}: {}", problem.name, said), err=True)
 
 
 def tell_changes(problem: Problem, phi: Positions | None) -> None:
@@ -206,7 +211,7 @@ def solution_of(
     except AssemblyError as error:
         if len(solution.positions) < 2:
             raise
-        raise AssemblyError(f"{error}{hint}") from error
+        raise AssemblyError(f"{error}{say(hint)}") from error
     for doubt in warnings(solution):
         warn(problem, doubt)
     return solution

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, solution_of, stem
+from planmethod.languages import say
 from planmethod.options import (
     Positions,
     drawn_by,
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     from planmethod.problem.model import Problem
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @reading_options
 @click.option(
@@ -52,7 +54,7 @@ def protocol(
         solution = solution_of(problem, phi, drawn_by(profile, ruler))
         count = len(solution.positions)
         if position > count:
-            raise click.UsageError(f"--position {position}: {problem.name} has {count}")
+            raise click.UsageError(say("--position {}: {} has {}", position, problem.name, count))
         text = narrate(solution, lang=lang, position=position - 1)
         written(problem, text)
 

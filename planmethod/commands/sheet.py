@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Literal, Protocol
 import click
 
 from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import write_drawings, write_set
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem, tell_changes
 from planmethod.commands.watch import watch_option
+from planmethod.languages import say
 from planmethod.options import (
     Positions,
     drawn_by,
@@ -40,11 +42,11 @@ class _Draw(Protocol):
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
     """Return the name of a PDF file."""
     if value is not None and Path(value).suffix.lower() != ".pdf":
-        raise click.BadParameter(f"{value!r} does not end in .pdf")
+        raise click.BadParameter(say("{!r} does not end in .pdf", value))
     return value
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @reading_options
 @out_option

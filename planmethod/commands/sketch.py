@@ -6,11 +6,13 @@ from pathlib import Path
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import fail, finish, guarded, variants_of
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
 from planmethod.kinds import kind_of, part_of
+from planmethod.languages import say
 from planmethod.options import format_option, lang_option, out_option, problem_options
 
 PAGE = (
@@ -20,7 +22,7 @@ PAGE = (
 """What shows a picture that is drawn again and again."""
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @out_option
 @format_option("svg")
@@ -64,7 +66,7 @@ def _draw(
     """Draw the sketch of a file; return what is wrong with the file."""
     kind = kind_of(path)
     if kind is not None:
-        hint = f"Its picture: planmethod sheet {path}"
+        hint = say("Its picture: planmethod sheet {}", path)
         raise ProblemError(str(path), [Fault(kind.table, "only linkages have a sketch", hint)])
     from planmethod.note.wording import language
     from planmethod.render.sketch import VIEWS

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, is_narrow, is_terminal, put_parts
 from planmethod.commands.problems import (
     each,
@@ -21,6 +22,7 @@ from planmethod.commands.problems import (
 )
 from planmethod.commands.watch import watch_option
 from planmethod.errors import AssemblyError, ExitCode
+from planmethod.languages import say
 from planmethod.options import (
     MOST_POSITIONS,
     MOST_SWEPT,
@@ -53,7 +55,7 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
 """Count of numbers that take about a second to write."""
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @positions_option(MOST_SWEPT)
 @hand_options
@@ -136,26 +138,34 @@ def solve(
 
         others = (all_variants, phi is not None, as_json, csv_file, npz_file, ask, covariance_file)
         if any(others) or len(problems) > 1:
-            raise click.UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
+            raise click.UsageError(
+                say("--compare goes with one PROBLEM, --variant and --lang alone")
+            )
         compare(problems[0], work, variant, lang)
         return
     swept = npz_file is not None or ask is not None
     _refuse_contradictions(as_json, csv_file, npz_file, ask)
     told = swept or csv_file is not None
     if told and (sigma or referee is not None):
-        raise click.UsageError("--sigma and --referee go with the tables of a terminal or --json")
+        raise click.UsageError(
+            say("--sigma and --referee go with the tables of a terminal or --json")
+        )
     if covariance_file is not None and (told or as_json):
-        raise click.UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
+        raise click.UsageError(
+            say("--covariance is a table of its own: no --json, --csv, --npz, --ask")
+        )
     if covariance_file is not None and covariance_file.lower().endswith(".toml"):
-        raise click.UsageError(f"--covariance would write over {covariance_file}; put it last")
+        raise click.UsageError(
+            say("--covariance would write over {}; put it last", covariance_file)
+        )
     if referee is not None:
         _need_mpmath()
     drawn: list[Solution] = []
     if partial and not swept and csv_file is None:
-        raise click.UsageError("--partial goes with --csv, --npz or --ask")
+        raise click.UsageError(say("--partial goes with --csv, --npz or --ask"))
     if phi is not None and len(phi) > MOST_POSITIONS and not swept:
         raise click.UsageError(
-            f"--phi: more than {MOST_POSITIONS} positions; so many only with --npz or --ask"
+            say("--phi: more than {} positions; so many only with --npz or --ask", MOST_POSITIONS)
         )
     records: list[dict[str, Any]] = []
     tables: list[Table] = []
@@ -217,7 +227,7 @@ def solve(
     def compute_other(kind: Kind, problem: KindProblem) -> None:
         for option, given in linkage_only.items():
             if given:
-                raise click.UsageError(f"{option} is for linkages, {problem.name} is none")
+                raise click.UsageError(say("{} is for linkages, {} is none", option, problem.name))
         if as_json:
             records.append(kind.record(problem, lang))
         else:
@@ -245,7 +255,7 @@ def _need_mpmath() -> None:
         import mpmath  # noqa: F401
     except ImportError:
         raise click.UsageError(
-            "--referee needs mpmath: pip install 'planmethod[referee]'"
+            say("--referee needs mpmath: pip install 'planmethod[referee]'")
         ) from None
 
 
@@ -256,14 +266,18 @@ def _refuse_contradictions(
     forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
     given = [name for name, is_given in forms.items() if is_given]
     if len(given) > 1:
-        raise click.UsageError(f"give {' or '.join(given)}, not both")
+        raise click.UsageError(say("give {}, not both", say(" or ").join(given)))
     if as_json and ask is not None:
-        raise click.UsageError("--json is always whole; --ask goes with --csv, --npz or a table")
+        raise click.UsageError(
+            say("--json is always whole; --ask goes with --csv, --npz or a table")
+        )
     for name, file in (("--csv", csv_file), ("--npz", npz_file)):
         if file is not None and file.lower().endswith(".toml"):
-            raise click.UsageError(f"{name} would write over the problem file {file}; put it last")
+            raise click.UsageError(
+                say("{} would write over the problem file {}; put it last", name, file)
+            )
     if npz_file in ("", "-"):
-        raise click.UsageError("--npz needs the name of a file")
+        raise click.UsageError(say("--npz needs the name of a file"))
 
 
 # Tables -----------------------------------------------------------------------------------------
@@ -294,7 +308,7 @@ def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool)
 def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:
     """Refuse or report positions without results; report the doubts about the others."""
     if gaps.count and not partial:
-        raise AssemblyError(gaps.refusal() + (HINT if len(gaps.reason) > 1 else ""))
+        raise AssemblyError(gaps.refusal() + (say(HINT) if len(gaps.reason) > 1 else ""))
     if gaps.count:
         warn(problem, gaps.warning())
     for said in doubts:
@@ -323,7 +337,7 @@ def _sweep(
     try:
         made = GappedSweep(problem, _asked(problem, phi), ask)
     except UnknownResultError as error:
-        raise click.UsageError(f"--ask: {problem.name}: {error}") from None
+        raise click.UsageError(say("--ask: {}: {}", problem.name, error)) from None
     _tell(problem, made.gaps, made.doubts, partial)
     return made
 
@@ -331,7 +345,7 @@ def _sweep(
 def _refuse_long(rows: int) -> None:
     if rows > MOST_SHOWN:
         raise click.UsageError(
-            f"a table of {rows} rows is not for reading: give --csv FILE or --npz FILE"
+            say("a table of {} rows is not for reading: give --csv FILE or --npz FILE", rows)
         )
 
 
@@ -340,9 +354,15 @@ def _refuse_huge(made: GappedSweep) -> None:
     if numbers > MOST_NUMBERS:
         most = MOST_NUMBERS // len(made.names)
         raise click.UsageError(
-            f"--npz: {len(made.names)} results in {len(made.positions)} positions are {numbers} "
-            f"numbers, at most {MOST_NUMBERS} are written. Ask at most {most} positions, or fewer "
-            "results with --ask."
+            say(
+                "--npz: {} results in {} positions are {} numbers, at most {} are written. "
+                "Ask at most {} positions, or fewer results with --ask.",
+                len(made.names),
+                len(made.positions),
+                numbers,
+                MOST_NUMBERS,
+                most,
+            )
         )
 
 
@@ -375,7 +395,10 @@ def _prefixes(problems: list[Problem]) -> list[str]:
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise click.UsageError(
-            f"--npz: two problems are called {twice[0]}, their arrays would have the same names; "
-            "write them into two files"
+            say(
+                "--npz: two problems are called {}, their arrays would have the same names; "
+                "write them into two files",
+                twice[0],
+            )
         )
     return [f"{name}:" for name in names]

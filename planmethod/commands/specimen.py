@@ -8,8 +8,10 @@ from typing import Literal
 import click
 
 from planmethod.commands.asked import lettering_option, stamp_option
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import guarded
+from planmethod.languages import say
 from planmethod.options import dxf_text_option, format_option, lang_option, out_option
 
 
@@ -25,14 +27,14 @@ def read_specimens(
             from difflib import get_close_matches
 
             near = get_close_matches(name, SPECIMENS, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else "."
+            hint = say("; did you mean {!r}?", near[0]) if near else "."
             raise click.BadParameter(
-                f"no specimen sheet {name!r}{hint} Known: {', '.join(SPECIMENS)}."
+                say("no specimen sheet {!r}{} Known: {}.", name, hint, ", ".join(SPECIMENS))
             )
     return names or tuple(SPECIMENS)
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("sheets", nargs=-1, metavar="[SHEET]...", callback=read_specimens)
 @out_option
 @format_option("svg,pdf")

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import is_narrow, write_drawings
 from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.languages import say
 from planmethod.options import (
     dxf_text_option,
     format_option,
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     from planmethod.problem.model import Problem
 
 
-@click.command()
+@click.command(cls=Spoken)
 @problem_options
 @out_option
 @click.option("--json", "as_json", is_flag=True, help="Print the analysis as one JSON object.")
@@ -85,7 +87,7 @@ def structure(
         lang = str(asked.sheet["lang"] or LANGUAGES[0])
         told = kind.structure_record(problem) if as_json else kind.structure_text(problem, lang)
         if told is None:
-            raise click.UsageError(f"{problem.name} is no mechanism, it has no structure")
+            raise click.UsageError(say("{} is no mechanism, it has no structure", problem.name))
         click.echo(told if isinstance(told, str) else json.dumps(told, ensure_ascii=is_narrow()))
 
     finish(each(problems, variant, all_variants, show, show_other))

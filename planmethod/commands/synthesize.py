@@ -13,9 +13,11 @@ import click
 from click.core import ParameterSource
 
 from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import is_narrow, refuse_unknown, write_drawings, write_new
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
+from planmethod.languages import say
 from planmethod.options import drawn_by, dxf_text_option, format_option, hand_options
 
 LEAST, MOST = 1e-6, 1e4
@@ -27,9 +29,9 @@ def _number(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
-        raise click.BadParameter(f"{text.strip()!r} is not a number") from None
+        raise click.BadParameter(say("{!r} is not a number", text.strip())) from None
     if not abs(value) < 1e9:
-        raise click.BadParameter(f"{text.strip()!r} is out of range: below 1e9 is expected")
+        raise click.BadParameter(say("{!r} is out of range: below 1e9 is expected", text.strip()))
     return value
 
 
@@ -42,7 +44,9 @@ def read_length(ctx: click.Context, param: click.Parameter, value: str | None) -
     """Return a positive length, m."""
     number = read_number(ctx, param, value)
     if number is not None and not LEAST <= number <= MOST:
-        raise click.BadParameter(f"{number:g} m: a length from {LEAST:g} to {MOST:g} m is expected")
+        raise click.BadParameter(
+            say("{:g} m: a length from {:g} to {:g} m is expected", number, LEAST, MOST)
+        )
     return number
 
 
@@ -72,7 +76,7 @@ def read_line(
     if rows is None:
         return None
     if len(rows) != 1 or len(rows[0]) != 3:
-        raise click.BadParameter(f"{value!r} is not x,y,angle")
+        raise click.BadParameter(say("{!r} is not x,y,angle", value))
     return rows[0]
 
 
@@ -104,7 +108,7 @@ def asked_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return command
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("kind")
 @asked_options
 @click.option("--json", "as_json", is_flag=True, help="Print lengths and checks as a JSON object.")
@@ -152,7 +156,7 @@ def synthesize(
     from planmethod.synthesis.measured import checks
     from planmethod.synthesis.record import synthesis_record
 
-    refuse_unknown("kind of synthesis", kind, KINDS)
+    refuse_unknown("no kind of synthesis {!r}", kind, KINDS)
     given = {name: options[f"of_{name}"] for name, *_ in _OPTIONS}
     known = takes(kind)
     strange = [
@@ -160,7 +164,7 @@ def synthesize(
     ]
     if strange:
         taken = ", ".join(f"--{name}" for name in known)
-        raise click.UsageError(f"{kind} takes {taken}, not {', '.join(strange)}.")
+        raise click.UsageError(say("{} takes {}, not {}.", kind, taken, ", ".join(strange)))
     wanted = {name: given[name] for name in known}
     made = find(kind, wanted)
     words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
@@ -168,7 +172,7 @@ def synthesize(
     try:
         problem = asked.settle()(loads(text, name=out.stem if out else kind))
     except ProblemError as error:
-        raise AssemblyError(f"Sizes were found that no problem file takes. {error}") from error
+        raise AssemblyError("Sizes were found that no problem file takes. {}", error) from error
     found = {**checks(made, problem), **made.facts}
     drawing = Drawn(made, drawn_by(profile, ruler))
     source = click.get_current_context().get_parameter_source("formats")
@@ -204,7 +208,7 @@ def synthesize(
     if found.get("missed", 0.0) is None or not all(
         made.facts.get(k, True) for k in ("branch", "order")
     ):
-        click.echo(f"Warning: {words.synthesis.interrupted.format(name=kind)}", err=True)
+        click.echo(say("Warning: {}", words.synthesis.interrupted.format(name=kind)), err=True)
         finish(ExitCode.FINDINGS)
 
 

@@ -7,12 +7,14 @@ from itertools import groupby
 
 import click
 
+from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import is_narrow
 from planmethod.commands.problems import guarded
+from planmethod.languages import say
 from planmethod.options import lang_option
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.option("--group", metavar="GROUPS", help="With these Assur groups in a row: RRR+RPR.")
 @click.option("--search", metavar="WORDS", help="With all these words in title, source or remarks.")
 @click.option("--json", "as_json", is_flag=True, help="Print the list as one JSON object.")
@@ -35,7 +37,7 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
         for signature in asked:
             if signature not in known:
                 told = ", ".join(known)
-                raise click.UsageError(f"no task has a group {signature!r}. Known: {told}.")
+                raise click.UsageError(say("no task has a group {!r}. Known: {}.", signature, told))
         found = tuple(task for task in found if task.has(asked))
     if search is not None:
         found = tuple(task for task in found if task.says(search))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from planmethod.languages import say
 from planmethod.problem.names import fold, listed, looks_latin, near, short
 
 PLAIN = ("W", "q")
@@ -44,15 +45,15 @@ def parse(text: str, known: Collection[str]) -> Asked:
     whole, hat, carrier = name.partition("^")
     kind = next((k for k in COUNTS if whole.startswith(f"{k}_")), None)
     if kind is None:
-        raise AskedError(f"unknown quantity '{short(text)}'")
+        raise AskedError(say("unknown quantity '{}'", short(text)))
     labels = _labels(whole.removeprefix(f"{kind}_"), COUNTS[kind], known)
     if hat and kind not in RELATIVE:
-        raise AskedError(f"'{kind}' is not taken relative to a carrier")
+        raise AskedError(say("'{}' is not taken relative to a carrier", kind))
     for label in (*labels, *([carrier] if hat else [])):
         if label not in known:
             guess = near(label, known)
-            hint = f"the nearest is '{guess}'" if guess else f"known: {listed(known)}"
-            raise AskedError(f"the train has no '{short(label)}' ({hint})")
+            hint = say("the nearest is '{}'", guess) if guess else say("known: {}", listed(known))
+            raise AskedError(say("the train has no '{}' ({})", short(label), hint))
     return Asked(kind, labels, carrier if hat else None)
 
 
@@ -64,5 +65,7 @@ def _labels(text: str, count: int, known: Collection[str]) -> tuple[str, ...]:
         if len(found) == 1:
             return found[0]
     if len(parts) != count:
-        raise AskedError(f"expected {count} labels with _ between them, got '{short(text)}'")
+        raise AskedError(
+            say("expected {} labels with _ between them, got '{}'", count, short(text))
+        )
     return parts

@@ -11,6 +11,7 @@ from planmethod.errors import Fault
 from planmethod.gears.linear import Row, Solved, solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles
+from planmethod.languages import say
 
 MOST_CHOSEN = 10
 """Most meshes in loops between wheels off the main axis: each may be on either side."""
@@ -66,7 +67,7 @@ def find_axes(train: Train, roles: Roles) -> tuple[Axes | None, list[Fault]]:
     for mesh in meshes:
         one, other = train.ends(mesh)
         if lines.line[one] == lines.line[other]:
-            told = f"{mesh.first} and {mesh.second} mesh, and would turn about one axis"
+            told = say("{} and {} mesh, and would turn about one axis", mesh.first, mesh.second)
             return None, [Fault("gears.meshes", told, HINT)]
     return _solve(train, lines, meshes)
 
@@ -156,7 +157,9 @@ def _solve(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[Axes | 
     likely = {mesh: _likely_side(train, lines, mesh, meshes) for mesh in beside}
     chosen = [mesh for mesh in _in_loops(train, lines, meshes) if mesh in likely]
     if len(chosen) > MOST_CHOSEN:
-        told = f"{len(chosen)} meshes in loops off the main axis, the limit is {MOST_CHOSEN}"
+        told = say(
+            "{} meshes in loops off the main axis, the limit is {}", len(chosen), MOST_CHOSEN
+        )
         return None, [Fault("gears.meshes", told)]
     unknown = [("z", label) for label in train.unknown]
     reached = dict.fromkeys(lines.line[b] for mesh in meshes for b in train.ends(mesh))
@@ -261,15 +264,17 @@ def _judge(
     for kind, label in unknown:
         value = found.values.get((kind, label))
         if value is None:
-            told = f"coaxiality does not tell the teeth of {label}"
+            told = say("coaxiality does not tell the teeth of {}", label)
             return Fault(
                 "gears.unknown", told, 'Say what it is coaxial with: coaxial = [["1","3"]].'
             )
         if value <= 0:
-            told = f"coaxiality gives wheel {label} the size {value}"
+            told = say("coaxiality gives wheel {} the size {}", label, value)
             return Fault("gears.unknown", told, HINT)
         if train.toothed and value.denominator != 1:
-            told = f"coaxiality gives wheel {label} {value} = {float(value):g} teeth, not whole"
+            told = say(
+                "coaxiality gives wheel {} {} = {:g} teeth, not whole", label, value, float(value)
+            )
             return Fault("gears.unknown", told, HINT)
     return None
 
@@ -294,12 +299,12 @@ def _positive(train: Train, axes: Axes, meshes: Sequence[Mesh]) -> Fault | None:
         first, second = train.ends(mesh)
         apart = axes.heights.get(first, Fraction(0)) - axes.heights.get(second, Fraction(0))
         if mesh.kind is MeshKind.INTERNAL and one == other:
-            told = f"{mesh.first} and {mesh.second} mesh internally and are of one size"
+            told = say("{} and {} mesh internally and are of one size", mesh.first, mesh.second)
             return Fault("gears.meshes", told, HINT)
         wanted = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
         known = first in axes.heights and second in axes.heights
         if known and abs(apart) != wanted:
-            return Fault("gears.wheels", f"the train is not coaxial at {mesh.name}", HINT)
+            return Fault("gears.wheels", say("the train is not coaxial at {}", mesh.name), HINT)
     return None
 
 
@@ -314,9 +319,14 @@ def _say_why(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> Fault | Non
         (name,) = names
         before, height = seen.setdefault(name, (mesh, size))
         if height != size:
-            told = (
-                f"the train is not coaxial: the axis of {name} is {_shown(height)} from the main "
-                f"axis by the mesh {before.name}, and {_shown(size)} by {mesh.name}"
+            told = say(
+                "the train is not coaxial: the axis of {} is {} from the main axis by the "
+                "mesh {}, and {} by {}",
+                name,
+                _shown(height),
+                before.name,
+                _shown(size),
+                mesh.name,
             )
             return Fault("gears.wheels", told, HINT)
     return None

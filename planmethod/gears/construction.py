@@ -27,6 +27,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.gears.asked import parse
 from planmethod.gears.motion import Motion
 from planmethod.gears.picture import Picture, carrier_of
+from planmethod.languages import say
 
 LETTERS = "abcdefghklmnqrstuvwxz"
 """Letters of contact points, in the order of the meshes; ``p`` is the pole."""
@@ -179,8 +180,10 @@ def read(drawn: Construction, profile: Profile) -> Reading:
     for one in drawn.found:
         got, due = float(exact.value[one.read]), float(one.exact)
         if not abs(got - due) <= NEAR * max(1.0, abs(due)):
-            told = f"the pictures give {one.name} = {got:.12g}, the mesh equations {due:.12g}"
-            raise PictureError(f"{told}. Please report the problem file.")
+            told = say(
+                "the pictures give {} = {:.12g}, the mesh equations {:.12g}", one.name, got, due
+            )
+            raise PictureError("{}. Please report the problem file.", told)
     return Reading(exact, evaluate(program, data, Hand(ruler=profile.ruler)), sigma)
 
 

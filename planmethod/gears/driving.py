@@ -11,6 +11,7 @@ from planmethod.gears.meshes import read_label
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import read_train
+from planmethod.languages import say
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Geared, SheetSettings
 
@@ -37,7 +38,7 @@ def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | 
     if body is None:
         return None
     if train.body_of[body] in train.racks:
-        faults.add("driver.train", f"{body} is a rack, it does not turn")
+        faults.add("driver.train", say("{} is a rack, it does not turn", body))
         return None
     try:
         motion = solve_motion(GearProblem("", "", "", "", {}, SheetSettings(), train, ()))

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from planmethod.gears.model import FLEXIBLE, HALF_MODULES, Mesh, MeshKind, Wheel
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -77,10 +78,10 @@ def read_label(
     if isinstance(text, str):
         text = text.replace("′", "'").replace("’", "'")
     if not isinstance(text, str) or not is_label(text):
-        faults.add(path, f"expected the label of a wheel, got {show(value)}", _NAME)
+        faults.expected(path, "the label of a wheel", value, _NAME)
         return None
     if known is not None and text not in known:
-        report_unknown(faults, path, text, known, noun="wheel")
+        report_unknown(faults, path, text, known, said="unknown wheel '{}'")
         return None
     return text
 
@@ -88,7 +89,7 @@ def read_label(
 def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[str, ...]:
     """Read a list of labels."""
     if not isinstance(value, list) or len(value) > limit:
-        faults.add(path, f"expected a list of labels, got {show(value)}", 'For example: ["3"]')
+        faults.expected(path, "a list of labels", value, 'For example: ["3"]')
         return ()
     found = [read_label(faults, f"{path}[{i}]", label) for i, label in enumerate(value)]
     return tuple(dict.fromkeys(label for label in found if label is not None))
@@ -98,7 +99,7 @@ def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Dr
     """Read ``wheels``: teeth by label, or a table."""
     table = read_table(faults, "gears.wheels", value, "wheels = { 1 = 20, 2 = 36 }") or {}
     if len(table) > WHEEL_LIMIT:
-        faults.add("gears.wheels", f"{len(table)} wheels, the limit is {WHEEL_LIMIT}")
+        faults.add("gears.wheels", say("{} wheels, the limit is {}", len(table), WHEEL_LIMIT))
         return
     bodies = [entry for entry in table.values() if isinstance(entry, dict)]
     draft.toothed = not (bodies and len(bodies) == len(table) and all("r" in b for b in bodies))
@@ -108,14 +109,14 @@ def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Dr
         if label is None:
             continue
         if label in draft.wheels:
-            faults.add(path, f"wheel {label} is given twice")
+            faults.add(path, say("wheel {} is given twice", label))
         wheel = _read_wheel(faults, path, label, entry, draft)
         if label in unknown:
             if wheel.size is not None:
-                faults.add(path, f"wheel {label} has a size, and is listed in unknown")
+                faults.add(path, say("wheel {} has a size, and is listed in unknown", label))
         elif wheel.size is None:
             hint = "Give its teeth, or list it in unknown."
-            faults.add(path, f"wheel {label} has no teeth", hint)
+            faults.add(path, say("wheel {} has no teeth", label), hint)
         draft.wheels[label] = wheel
     for label in unknown:
         draft.wheels.setdefault(label, Wheel(label, None))
@@ -147,7 +148,7 @@ def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, 
         return None
     numbers = value if isinstance(value, list) else []
     if len(numbers) != 3 or not all(is_number(n) and abs(n) <= 1e6 for n in numbers):
-        faults.add(f"{path}.axis", f"expected [x, y, z], got {show(value)}")
+        faults.expected(f"{path}.axis", "[x, y, z]", value)
         return None
     x, y, z = map(float, numbers)
     if not any((x, y, z)):
@@ -160,8 +161,8 @@ def read_meshes(faults: Faults, value: object, draft: Draft) -> tuple[Mesh, ...]
     """Read ``meshes``: pairs of wheels with what kind they are and who carries their axes."""
     example = '{ of = [1, 2], kind = "external" }'
     if not isinstance(value, list) or not 1 <= len(value) <= WHEEL_LIMIT:
-        told = f"expected 1 to {WHEEL_LIMIT} meshes, got {show(value)}"
-        faults.add("gears.meshes", told, f"For example: [{example}]")
+        told = say("expected 1 to {} meshes, got {}", WHEEL_LIMIT, show(value))
+        faults.add("gears.meshes", told, say("For example: [{}]", example))
         return ()
     found: list[Mesh] = []
     for index, entry in enumerate(value):
@@ -170,13 +171,13 @@ def read_meshes(faults: Faults, value: object, draft: Draft) -> tuple[Mesh, ...]
         mesh = None if table is None else _read_mesh(faults, path, table, draft)
         if mesh is not None:
             if {mesh.first, mesh.second} in [{m.first, m.second} for m in found]:
-                faults.add(path, f"the mesh {mesh.name} is given twice")
+                faults.add(path, say("the mesh {} is given twice", mesh.name))
             found.append(mesh)
     _check_radii(faults, found, draft)
     meshing = {label for mesh in found for label in (mesh.first, mesh.second)}
     for label in draft.wheels:
         if label not in meshing and len(found) == len(value):
-            faults.add(f"gears.wheels.{segment(label)}", f"wheel {label} meshes with none")
+            faults.add(f"gears.wheels.{segment(label)}", say("wheel {} meshes with none", label))
     return tuple(found)
 
 
@@ -193,14 +194,14 @@ def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: Draft) -> None:
                 hint = "Give module = ... (mm), or every wheel by its radius."
                 faults.add(path, "a radius beside teeth needs the module", hint)
             elif wheel.size.denominator != 1:
-                faults.add(path, f"2r/m = {float(wheel.size):g} teeth, not whole")
+                faults.add(path, say("2r/m = {:g} teeth, not whole", float(wheel.size)))
 
 
 def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | None:
     given = read_keys(faults, path, table, keys.MESH)
     of = given.get("of")
     if not isinstance(of, list) or len(of) != 2:
-        faults.add(f"{path}.of", f"expected two wheels, got {show(of)}", "For example: [1, 2]")
+        faults.expected(f"{path}.of", "two wheels", of, "For example: [1, 2]")
         return None
     kind = read_member(faults, f"{path}.kind", given.get("kind", "external"), MeshKind)
     rack = kind is MeshKind.RACK
@@ -219,14 +220,16 @@ def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | No
     if None in (kind, first, second, hand) or first is None or second is None or kind is None:
         return None
     if first.rstrip("'") == second.rstrip("'"):
-        faults.add(f"{path}.of", f"{first} and {second} are one body, and mesh with each other")
+        faults.add(
+            f"{path}.of", say("{} and {} are one body, and mesh with each other", first, second)
+        )
         return None
     if rack:
         if carrier is not None:
             faults.add(f"{path}.carrier", "a rack is guided in the frame and has no carrier")
         if second in wheels:
             hint = "The second of a rack is the rack; it has no teeth to count."
-            faults.add(f"{path}.of[1]", f"{second} is a wheel", hint)
+            faults.add(f"{path}.of[1]", say("{} is a wheel", second), hint)
         elif second not in draft.racks:
             draft.racks.append(second)
     if carrier is not None and carrier not in draft.carriers:

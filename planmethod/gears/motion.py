@@ -12,6 +12,7 @@ from planmethod.gears.axes import Axes, find_axes
 from planmethod.gears.linear import Row, solve
 from planmethod.gears.model import GearProblem, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles, find_roles
+from planmethod.languages import say
 
 
 class TrainKind(Enum):
@@ -98,7 +99,7 @@ def analyse(problem: GearProblem) -> tuple[Roles, Axes, Structure]:
     rank = solve(moving, _rows(train, roles, axes)).rank
     mobility = len(moving) - rank
     if mobility < 1:
-        told = f"nothing can move: {len(moving)} moving bodies, {rank} independent meshes"
+        told = say("nothing can move: {} moving bodies, {} independent meshes", len(moving), rank)
         raise ProblemError(problem.source_file, [Fault("gears.fixed", told, "Free a body.")])
     structure = Structure(
         _kind(train, roles, mobility), len(moving), len(moving), len(train.meshes), mobility
@@ -119,8 +120,8 @@ def solve_motion(problem: GearProblem) -> Motion:
     given = {body: speed for body, speed in train.inputs.items() if body not in train.fixed}
     path, count = f"gears.{train.unit}", structure.mobility
     if len(given) > count:
-        told = f"over-determined: W = {count}, and {len(given)} speeds are given"
-        raise ProblemError(problem.source_file, [Fault(path, told, f"Keep {count}.")])
+        told = say("over-determined: W = {}, and {} speeds are given", count, len(given))
+        raise ProblemError(problem.source_file, [Fault(path, told, say("Keep {}.", count))])
     moving = [body for body in train.bodies if body not in train.fixed]
     rows = _rows(train, roles, axes)
     rows += [({body: Fraction(1)}, speed) for body, speed in given.items()]
@@ -129,8 +130,8 @@ def solve_motion(problem: GearProblem) -> Motion:
         told = "over-determined: the speeds given contradict each other"
         raise ProblemError(problem.source_file, [Fault(path, told, "Give others.")])
     if found.free:
-        told = f"undetermined: W = {count}, and {len(given)} speeds are given; "
-        told += f"the speed of {found.free[0]} does not follow"
+        told = "undetermined: W = {}, and {} speeds are given; the speed of {} does not follow"
+        told = say(told, count, len(given), found.free[0])
         hint = "For ratios alone, give one wheel the speed 1: n = { 1 = 1 }."
         raise ProblemError(problem.source_file, [Fault(path, told, hint)])
     zero = dict.fromkeys(train.fixed, Fraction(0))

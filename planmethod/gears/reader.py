@@ -18,6 +18,7 @@ from planmethod.gears.meshes import (
     read_wheels,
 )
 from planmethod.gears.model import GearProblem, PictureSettings, Train
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.extras import NOTE_LIMIT, read_heading
@@ -29,7 +30,6 @@ from planmethod.problem.fields import (
     read_text,
     read_whole,
     report_unknown,
-    show,
 )
 from planmethod.problem.model import Published
 from planmethod.problem.names import fold, is_label, joined, segment
@@ -82,7 +82,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     draft = Draft(module)
     for key, example in (("wheels", "{ 1 = 20, 2 = 36 }"), ("meshes", "[{ of = [1, 2] }]")):
         if key not in given:
-            faults.add(f"gears.{key}", "missing", f"For example: {key} = {example}")
+            faults.add(f"gears.{key}", "missing", say("For example: {} = {}", key, example))
     unknown = read_labels(faults, "gears.unknown", given.get("unknown", []), GROUP_LIMIT)
     read_wheels(faults, given.get("wheels", {}), unknown, draft)
     meshes = read_meshes(faults, given.get("meshes", []), draft)
@@ -96,14 +96,14 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     unit, inputs = _read_inputs(faults, given, known)
     for label in fixed:
         if body_of.get(label) in {body_of.get(name) for name, speed in inputs.items() if speed}:
-            faults.add("gears.fixed", f"{label} is fixed, and a speed of it is given")
+            faults.add("gears.fixed", say("{} is fixed, and a speed of it is given", label))
     satellites = _read_satellites(faults, given.get("satellites", {}), draft)
     output = None
     if "output" in given:
         output = read_label(faults, "gears.output", given["output"], known)
         for what, held in (("fixed", fixed), ("an input", tuple(inputs))):
             if output is not None and body_of[output] in {body_of[label] for label in held}:
-                faults.add("gears.output", f"{output} is {what}, no power comes out of it")
+                faults.add("gears.output", say("{} is {}, no power comes out of it", output, what))
     picture = _read_picture(faults, given.get("picture", {}))
     ask = _read_ask(faults, given.get("ask", []), known)
     if len(faults) != before:
@@ -111,7 +111,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     speeds: dict[str, Fraction] = {}
     for label, speed in inputs.items():
         if speeds.setdefault(body_of[label], speed) != speed:
-            faults.add(f"gears.{unit}", f"{label} is given another speed than its own body")
+            faults.add(f"gears.{unit}", say("{} is given another speed than its own body", label))
     return Train(
         wheels=draft.wheels,
         meshes=meshes,
@@ -137,7 +137,7 @@ def _known(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> 
     found = read_labels(faults, path, value, GROUP_LIMIT)
     for index, label in enumerate(found):
         if label not in known:
-            report_unknown(faults, f"{path}[{index}]", label, known, noun="wheel")
+            report_unknown(faults, f"{path}[{index}]", label, known, said="unknown wheel '{}'")
     return tuple(label for label in found if label in known)
 
 
@@ -155,7 +155,7 @@ def _read_groups(
     faults: Faults, path: str, value: object, known: tuple[str, ...]
 ) -> list[tuple[str, ...]]:
     if not isinstance(value, list) or len(value) > GROUP_LIMIT:
-        faults.add(path, f"expected a list of lists, got {show(value)}", '[["3", "H"]]')
+        faults.expected(path, "a list of lists", value, '[["3", "H"]]')
         return []
     return [_known(faults, f"{path}[{i}]", group, known) for i, group in enumerate(value)]
 
@@ -207,7 +207,7 @@ def _read_picture(faults: Faults, value: object) -> PictureSettings:
 
 def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[str, ...]:
     if not isinstance(value, list) or len(value) > ASK_LIMIT:
-        faults.add("gears.ask", f"expected a list of names, got {show(value)}", '["U_1_5", "n_5"]')
+        faults.expected("gears.ask", "a list of names", value, '["U_1_5", "n_5"]')
         return ()
     found: list[str] = []
     for index, name in enumerate(value):
@@ -244,7 +244,9 @@ def _read_published(faults: Faults, value: object, train: Train | None) -> tuple
     """Read what the source prints; ``what`` is a name that can be asked."""
     entries = read_table(faults, "published", value, '[published."n_5"] value = -375') or {}
     if len(entries) > keys.PUBLISHED_LIMIT:
-        faults.add("published", f"{len(entries)} values, the limit is {keys.PUBLISHED_LIMIT}")
+        faults.add(
+            "published", say("{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT)
+        )
         return ()
     found: list[Published] = []
     for name, entry in entries.items():

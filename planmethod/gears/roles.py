@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from planmethod.errors import Fault
 from planmethod.gears.model import Mesh, MeshKind, Train
+from planmethod.languages import say
 
 Vector = tuple[float, float, float]
 
@@ -47,11 +48,11 @@ def find_roles(train: Train) -> tuple[Roles, list[Fault]]:
         middle, around = _split(train, carrier)
         central[carrier], satellites[carrier] = tuple(middle), tuple(around)
         if not around:
-            told = f"no wheel on the carrier {carrier} is a satellite"
+            told = say("no wheel on the carrier {} is a satellite", carrier)
             faults.append(Fault("gears.meshes", told, "Name the carrier of each mesh, and check."))
     for mesh in train.meshes:
         if train.carrier(mesh) in train.ends(mesh):
-            told = f"a wheel of {mesh.name} is one body with the carrier {mesh.carrier}"
+            told = say("a wheel of {} is one body with the carrier {}", mesh.name, mesh.carrier)
             faults.append(Fault("gears.meshes", told, "It cannot roll on it: check bodies."))
     senses, across = _bevels(train, satellites, faults)
     return Roles(central, satellites, senses, across), faults
@@ -121,7 +122,9 @@ def _bevels(
         across.setdefault(one, turned)
         across.setdefault(other, not turned)
         if across[one] == across[other]:
-            told = f"the axes of {mesh.first} and {mesh.second} are parallel, they cannot be bevel"
+            told = say(
+                "the axes of {} and {} are parallel, they cannot be bevel", mesh.first, mesh.second
+            )
             faults.append(Fault("gears.meshes", told))
             continue
         axial, crossing = (other, one) if across[one] else (one, other)

@@ -64,8 +64,11 @@ def _table(motion: Motion, carrier: str) -> Turns:
     for body in bodies:
         if together[body] + held[body] != motion.speeds[body]:
             raise PlanMethodError(
-                f"the tabular method gives {body} the speed {together[body] + held[body]}, the "
-                f"mesh equations {motion.speeds[body]}; please report the problem file"
+                "the tabular method gives {} the speed {}, the mesh equations {}; please "
+                "report the problem file",
+                body,
+                together[body] + held[body],
+                motion.speeds[body],
             )
     return Turns(
         carrier, tuple(started), {carrier: locked} | together, {carrier: Fraction(0)} | held

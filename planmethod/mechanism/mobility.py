@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Collection, Iterable
 
 from planmethod.errors import StructureError
+from planmethod.languages import say
 from planmethod.mechanism.decompose import Node, Rigidity
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic
 
@@ -25,18 +26,24 @@ def refuse_immovable(mechanism: Mechanism) -> None:
     mobility = 3 * n - 2 * p1
     if mobility == 1:
         return
-    text = f"Mobility W = 3n - 2p1 = 3·{n} - 2·{p1} = {mobility}, but 1 driver is given: "
     if mobility > 1:
         ends = [link for link in mechanism.links if _count_pairs(mechanism, link) == 1]
         ends = [link for link in ends if link != mechanism.driver]
-        text += "pairs are missing. "
+        loose = ""
         if ends:
-            text += f"{_name(ends).capitalize()} {_have(ends)} only one pair. "
-        text += "Give the links more common points or slides, or remove the loose links."
+            loose = say("{0} {1:|has|have} only one pair. ", _name(ends).capitalize(), len(ends))
+        cause = say(
+            "pairs are missing. {}Give the links more common points or slides, or remove the loose "
+            "links.",
+            loose,
+        )
     else:
-        text += "there are too many pairs, or links are missing. "
-        text += "Look for points given the same name by mistake and for slides given twice."
-    raise StructureError(text)
+        cause = say(
+            "there are too many pairs, or links are missing. Look for points given the same name "
+            "by mistake and for slides given twice."
+        )
+    told = "Mobility W = 3n - 2p1 = 3·{} - 2·{} = {}, but 1 driver is given: {}"
+    raise StructureError(told, n, p1, mobility, cause)
 
 
 def refuse_unbalanced(mechanism: Mechanism) -> None:
@@ -91,10 +98,13 @@ def refuse_unbalanced(mechanism: Mechanism) -> None:
         tight.add(driver)
     over = [link for link in (FRAME, *mechanism.links) if link in tight]
     raise StructureError(
-        f"Mobility W = 3n - 2p1 = 1, but only by count: {_name(over)} {_have(over)} too many pairs "
-        f"among themselves, while {_name(loose)} {_have(loose)} too few and do not follow the "
-        "driver. Check which links share a point or a slide, and move a pair from the first to "
-        "the second."
+        "Mobility W = 3n - 2p1 = 1, but only by count: {0} {1:|has|have} too many pairs among "
+        "themselves, while {2} {3:|has|have} too few and do not follow the driver. Check which "
+        "links share a point or a slide, and move a pair from the first to the second.",
+        _name(over),
+        len(over),
+        _name(loose),
+        len(loose),
     )
 
 
@@ -112,9 +122,11 @@ def _refuse_unconnected(mechanism: Mechanism) -> None:
     lost = [link for link in mechanism.links if link not in reached]
     if lost:
         raise StructureError(
-            f"{_name(lost).capitalize()} {_are(lost)} not connected with the frame by any chain of "
-            "pairs. Check the names of the points: links are joined by points that share a name, "
-            "by slides and by the points of [frame]."
+            "{0} {1:|is|are} not connected with the frame by any chain of pairs. Check the "
+            "names of the points: links are joined by points that share a name, by slides and "
+            "by the points of [frame].",
+            _name(lost).capitalize(),
+            len(lost),
         )
 
 
@@ -122,23 +134,30 @@ def _refuse_driver(mechanism: Mechanism) -> None:
     driver = mechanism.driver
     if driver not in mechanism.links:
         raise StructureError(
-            f"Driver {driver} is not among the moving links {', '.join(mechanism.links)}. "
-            "Name one of them as the driving link."
+            "Driver {} is not among the moving links {}. Name one of them as the driving link.",
+            driver,
+            ", ".join(mechanism.links),
         )
     pairs = _pairs_with_frame(mechanism, driver)
     if len(pairs) == 1:
         return
     if pairs:
         raise StructureError(
-            f"Driver {driver} is joined with the frame by {len(pairs)} pairs ({', '.join(pairs)}) "
-            "and cannot move. Keep one of them."
+            "Driver {} is joined with the frame by {} pairs ({}) and cannot move. Keep "
+            "one of them.",
+            driver,
+            len(pairs),
+            ", ".join(pairs),
         )
     others = sorted({link for ends in _joined(mechanism) if driver in ends for link in ends})
     beside = [link for link in mechanism.links if link in others and link != driver]
     able = [link for link in mechanism.links if len(_pairs_with_frame(mechanism, link)) == 1]
     raise StructureError(
-        f"Driver {driver} is not joined with the frame: its pairs are with {_name(beside)}. "
-        + f"Drive a link that turns about a fixed point or slides on the frame: {_name(able)}."
+        "Driver {} is not joined with the frame: its pairs are with {}. Drive a link that "
+        "turns about a fixed point or slides on the frame: {}.",
+        driver,
+        _name(beside),
+        _name(able),
     )
 
 
@@ -149,9 +168,11 @@ def _refuse_sliding_contour(mechanism: Mechanism) -> None:
         if not classes.join(pair.slider, pair.host):
             contour = _path(before, pair.slider, pair.host)
             raise StructureError(
-                f"{_name(contour).capitalize()} close a contour of {len(contour)} prismatic pairs "
-                "only (PPP): it is not an Assur group, because nothing in it turns and one pair "
-                "repeats what the others say of the angles. Make one of the pairs revolute."
+                "{} close a contour of {} prismatic pairs only (PPP): it is not an Assur "
+                "group, because nothing in it turns and one pair repeats what the others say "
+                "of the angles. Make one of the pairs revolute.",
+                _name(contour).capitalize(),
+                len(contour),
             )
         before.append(pair)
 
@@ -206,12 +227,12 @@ def _joined(mechanism: Mechanism) -> list[tuple[str, ...]]:
 
 def _pairs_with_frame(mechanism: Mechanism, link: str) -> list[str]:
     found = [
-        f"point {revolute.point}"
+        say("point {}", revolute.point)
         for revolute in mechanism.revolutes
         if FRAME in revolute.links and link in revolute.links
     ]
     return found + [
-        f"the slide of {pair.slider}"
+        say("the slide of {}", pair.slider)
         for pair in mechanism.prismatics
         if {pair.slider, pair.host} == {FRAME, link}
     ]
@@ -222,15 +243,6 @@ def _count_pairs(mechanism: Mechanism, link: str) -> int:
 
 
 def _name(links: Collection[str]) -> str:
-    named = ["the frame" if link == FRAME else link for link in links]
-    moving = [link for link in named if link != "the frame"]
-    text = f"link{'s' if len(moving) != 1 else ''} {', '.join(moving)}"
-    return text if len(moving) == len(named) else f"the frame and {text}"
-
-
-def _are(links: Collection[str]) -> str:
-    return "is" if len(links) == 1 else "are"
-
-
-def _have(links: Collection[str]) -> str:
-    return "has" if len(links) == 1 else "have"
+    moving = [link for link in links if link != FRAME]
+    text = say("link{0:||s} {1}", len(moving), ", ".join(moving))
+    return text if len(moving) == len(links) else say("the frame and {}", text)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from planmethod.construct.scale import series_near
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.moving.bounded import Reals
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, Why, move
@@ -126,7 +127,7 @@ def course_of(problem: PointProblem) -> Course:
     interval = problem.show or _interval(problem)
     dense = at(problem, np.linspace(*interval, DENSE + 1))
     if np.isnan(dense.columns["x"]).all():
-        said = f"the point is nowhere from t = {interval[0]:g} s to {interval[1]:g} s"
+        said = say("the point is nowhere from t = {:g} s to {:g} s", interval[0], interval[1])
         hint = "Give an interval in which the formulas have values: show = [0, 1]."
         raise ProblemError(problem.name, [Fault("point.show", said, hint)])
     ways = [places_of(dense, f"{plan}x", f"{plan}y") for plan in "va"]

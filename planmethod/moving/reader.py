@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from planmethod.errors import ProblemError
+from planmethod.languages import say
 from planmethod.moving.bounded import ROUNDOFF
-from planmethod.moving.formula import Formula, is_exact, read_formula
+from planmethod.moving.formula import Formula, read_formula
 from planmethod.moving.model import FORMULAS, Law, PointProblem, Wheel
 from planmethod.moving.series import evaluate
 from planmethod.problem import keys
@@ -27,9 +28,9 @@ from planmethod.problem.fields import (
     read_length,
     read_number,
     read_table,
-    show,
     unmask,
 )
+from planmethod.problem.formula import is_exact
 from planmethod.problem.model import Published
 from planmethod.problem.names import listed, near, segment, short
 from planmethod.problem.reader import unknown_variant
@@ -95,7 +96,7 @@ def loads(
 def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem | None:
     given = read_keys(faults, "", table, TOP)
     if "point" not in given:
-        faults.add("point", "missing", f"For example: {_EXAMPLE}")
+        faults.add("point", "missing", say("For example: {}", _EXAMPLE))
     told = read_table(faults, "point", given.get("point", {}), _EXAMPLE)
     before = len(faults)
     point = read_keys(faults, "point", told or {}, keys.MOVING)
@@ -154,17 +155,17 @@ def _read_law(faults: Faults, point: Mapping[str, Any], *, is_whole: bool) -> La
     elif Law.ROLLING in found:
         found.remove(Law.ROLLING)
     if len(found) > 1:
-        both = " and ".join(f"{', '.join(FORMULAS[law])}" for law in found)
-        faults.add("point", f"the motion is stated twice: {both}", "Keep one of them.")
+        both = say(" and ").join(f"{', '.join(FORMULAS[law])}" for law in found)
+        faults.add("point", say("the motion is stated twice: {}", both), "Keep one of them.")
         return None
     if not found:
         if is_whole:
             ways = "expected x and y, r and phi, or s, or a wheel and phi"
-            faults.add("point", ways, f"For example: {_EXAMPLE}")
+            faults.add("point", ways, say("For example: {}", _EXAMPLE))
         return None
     for key in FORMULAS[found[0]]:
         if key not in point and is_whole:
-            faults.add(f"point.{key}", "missing", f'A formula of t: {key} = "4*t*(1 + t/2)".')
+            faults.add(f"point.{key}", "missing", say('A formula of t: {} = "4*t*(1 + t/2)".', key))
     return found[0]
 
 
@@ -183,11 +184,11 @@ def _read_wheel(faults: Faults, value: object) -> Wheel | None:
         faults.add(f"{path}.radius", "missing", "The radius of the wheel, m: radius = 0.5")
     tracks = [key for key in ("on", "within", "arm") if key in given]
     if len(tracks) > 1:
-        both = " and ".join(tracks)
-        faults.add(f"{path}.{tracks[-1]}", f"{both} are both given", "Keep one of them.")
+        both = say(" and ").join(tracks)
+        faults.add(f"{path}.{tracks[-1]}", say("{} are both given", both), "Keep one of them.")
     radius, within = lengths.get("radius"), lengths.get("within")
     if radius and within and within <= radius * (1 + 1e-9):
-        said = f"a circle of {within:g} m has no room for a wheel of {radius:g} m"
+        said = say("a circle of {:g} m has no room for a wheel of {:g} m", within, radius)
         faults.add(f"{path}.within", said, "It must be larger than the wheel.")
     if len(faults) != before or radius is None or angle is None:
         return None
@@ -199,13 +200,15 @@ def _read_show(faults: Faults, value: object) -> tuple[float, float] | None:
     """Read the interval that is drawn; None after noting a fault."""
     path = "point.show"
     if not isinstance(value, list) or len(value) != 2:
-        faults.add(path, f"expected [from, to], s, got {show(value)}", "For example: [0, 2].")
+        faults.expected(path, "[from, to], s", value, "For example: [0, 2].")
         return None
     start, end = (_read_time(faults, f"{path}[{k}]", item) for k, item in enumerate(value))
     if start is None or end is None:
         return None
     if not end - start > 1e-9 * max(abs(start), abs(end)):
-        faults.add(path, f"{end:g} s is not after {start:g} s", "Give the earlier moment first.")
+        faults.add(
+            path, say("{:g} s is not after {:g} s", end, start), "Give the earlier moment first."
+        )
         return None
     return start, end
 
@@ -244,7 +247,7 @@ def _read_times(faults: Faults, value: object) -> tuple[float, ...]:
         return ()
     if set(given) not in ({"from", "to", "count"}, {"from", "to", "step"}):
         ways = "{ from, to, step } or { from, to, count }"
-        faults.add(path, f"expected {ways}, got {{ {listed(given)} }}")
+        faults.add(path, say("expected {}, got {{ {} }}", ways, listed(given)))
         return ()
     start = _read_time(faults, f"{path}.from", given["from"])
     end = _read_time(faults, f"{path}.to", given["to"])
@@ -264,7 +267,7 @@ def _read_time(faults: Faults, path: str, value: object) -> float | None:
             return None
         number = _number_of(formula)
         if not math.isfinite(number):
-            faults.add(path, f"'{short(value)}' has no value")
+            faults.add(path, say("'{}' has no value", short(value)))
             return None
     what = "a moment in seconds"
     return read_number(faults, path, number, what, low=-1e6, high=1e6, hint="Seconds.")
@@ -295,25 +298,31 @@ def _read_published(faults: Faults, table: object, moments: int) -> tuple[Publis
         if item.name in whats:
             what = _read_what(faults, f"{path}.what", whats[item.name])
             if moments > 1 and item.position is None:
-                faults.add(f"{path}.position", "missing", f"There are {moments} moments: from 0.")
+                faults.add(
+                    f"{path}.position", "missing", say("There are {} moments: from 0.", moments)
+                )
         told.append(replace(item, what=what))
     return tuple(told)
 
 
 def _scene(moments: int) -> Plain:
     def fault(name: str) -> str:
-        return "" if column_of(name) else f"a moving point has no '{short(name)}'"
+        return "" if column_of(name) else say("a moving point has no '{}'", short(name))
 
-    return Plain(fault, lambda name: False, f"Known here: {listed(WHAT, limit=20)}.", moments)
+    return Plain(fault, lambda name: False, say("Known here: {}.", listed(WHAT, limit=20)), moments)
 
 
 def _read_what(faults: Faults, path: str, value: object) -> str:
     if not isinstance(value, str):
-        faults.add(path, f"expected the name of a quantity, got {show(value)}")
+        faults.expected(path, "the name of a quantity", value)
         return ""
     name = unmask(faults, path, value)
     if name not in WHAT:
         guess = near(name, WHAT)
-        hint = f"Did you mean '{guess}'?" if guess else f"Known here: {listed(WHAT, limit=20)}."
-        faults.add(path, f"a moving point has no '{short(name)}'", hint)
+        hint = (
+            say("Did you mean '{}'?", guess)
+            if guess
+            else say("Known here: {}.", listed(WHAT, limit=20))
+        )
+        faults.add(path, say("a moving point has no '{}'", short(name)), hint)
     return WHAT.get(name, "")

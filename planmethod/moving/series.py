@@ -13,7 +13,8 @@ import numpy as np
 
 from planmethod.construct.jet import Jet
 from planmethod.moving.bounded import ELEMENTARY, ROUNDOFF, Bounded, Reals, bounded
-from planmethod.moving.formula import Formula, Kind
+from planmethod.moving.formula import Formula
+from planmethod.problem.formula import Kind
 
 Derivatives = tuple[Any, Any, Any, Any]
 """A function and its first three derivatives, at given values."""
@@ -211,7 +212,7 @@ CALLS: Mapping[str, Callable[[Jet], Jet]] = MappingProxyType(
         "abs": _abs,
     }
 )
-"""Functions of jets by the names of `planmethod.moving.formula.FUNCTIONS`."""
+"""Functions of jets by the names of `planmethod.problem.formula.FUNCTIONS`."""
 
 DEGREES: Mapping[str, Callable[[Jet], Jet]] = MappingProxyType(
     {

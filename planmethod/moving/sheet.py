@@ -403,5 +403,5 @@ def _laid_out(
     if any(given is not None for given in (mu.mu_l, mu.mu_v, mu.mu_a)):
         advice = "Take coarser scales in [scales], or leave them out."
     raise LayoutError(
-        f"{problem.name}: the motion of the point does not fit {papers[-1]}. {advice}"
+        "{}: the motion of the point does not fit {}. {}", problem.name, papers[-1], advice
     )

@@ -89,6 +89,10 @@ class _Writer(Steps):
             self.lines += ["", *cycle_protocol(self.solution, language(words.lang))]
         if problem.machine is not None:
             self._machine()
+        if problem.balancing is not None:
+            from planmethod.note.tables.balancing import balancing_tables
+
+            self.lines += ["", *balancing_tables(self.solution, words)]
         return self.lines
 
     # Content ---------------------------------------------------------------------------------

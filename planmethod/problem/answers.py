@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.problem import keys
 from planmethod.problem.extras import check_what, read_position
@@ -19,7 +20,6 @@ from planmethod.problem.fields import (
     read_number,
     read_text,
     read_whole,
-    show,
     unmask,
 )
 from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense, Drive, Slide
@@ -159,10 +159,10 @@ def read_answers(
         read_flag(faults, "compare", given["compare"])
     value = given.get("answers", [])
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
-        faults.add("answers", f"expected tables [[answers]], got {show(value)}")
+        faults.expected("answers", "tables [[answers]]", value)
         return ()
     if len(value) > keys.ANSWER_LIMIT:
-        faults.add("answers", f"{len(value)} answers, the limit is {keys.ANSWER_LIMIT}")
+        faults.add("answers", say("{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT))
         return ()
     found: list[AskedAnswer] = []
     ids: dict[str, int] = {}
@@ -176,7 +176,7 @@ def read_answers(
         if ids.setdefault(answer.id, index) != index:
             faults.add(
                 path,
-                f"answers[{ids[answer.id]}] is called '{short(answer.id)}' too",
+                say("answers[{}] is called '{}' too", ids[answer.id], short(answer.id)),
                 "Give one of them an id of its own.",
             )
         for spelling in answer.letters:
@@ -184,7 +184,7 @@ def read_answers(
             if twin != index:
                 faults.add(
                     f"{path}.letters",
-                    f"'{short(spelling)}' stands for answers[{twin}] too",
+                    say("'{}' stands for answers[{}] too", short(spelling), twin),
                     "Give each of them letters of its own.",
                 )
     return tuple(found)
@@ -224,7 +224,7 @@ def _read_answer(
         faults,
         f"{path}.points",
         given.get("points", 1.0),
-        "points",
+        "a number of points",
         low=0.0,
         high=POINTS_LIMIT,
         hint="Points are those of a right answer.",
@@ -233,7 +233,7 @@ def _read_answer(
     if form is AnswerForm.MM and selector is not None and _has_no_segment(selector):
         faults.add(
             f"{path}.form",
-            f"'{short(name)}' is no segment of a plan",
+            say("'{}' is no segment of a plan", short(name)),
             'Leave it, or form = "value".',
         )
     asked = AskedAnswer(
@@ -256,21 +256,23 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
     """Check a quantity, and the joint of a reaction, which its words do not name."""
     if name in scene.points:
         faults.add(
-            path, f"'{name}' is a place, which is two numbers", f"Ask for x {name}, y {name}."
+            path,
+            say("'{}' is a place, which is two numbers", name),
+            say("Ask for x {0}, y {0}.", name),
         )
         return None
     before = len(faults)
     selector = check_what(faults, path, words, scene.points, scene.links, scene.dynamics)
     if selector is not None and selector.kind in MACHINE:
-        faults.add(path, f"'{words}' is of the flywheel", "Ask for the motion or the forces.")
+        faults.add(path, say("'{}' is of the flywheel", words), "Ask for the motion or the forces.")
     reaction = _REACTION_RE.match(name)
     if reaction and scene.points and len(faults) == before:
         joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}
         if not _joined(joint, pair, scene):
             faults.add(
                 path,
-                f"links {reaction['on']} and {reaction['by']} have no joint {joint}",
-                f"Without it: '{words}'.",
+                say("links {} and {} have no joint {}", reaction["on"], reaction["by"], joint),
+                say("Without it: '{}'.", words),
             )
     return selector
 
@@ -292,17 +294,19 @@ def _read_id(faults: Faults, path: str, value: object) -> str:
         return ""
     text = unmask(faults, path, text)
     if text in _TAKEN:
-        faults.add(path, f"'{text}' is a row of its own in tables of answers", "Take another id.")
+        faults.add(
+            path, say("'{}' is a row of its own in tables of answers", text), "Take another id."
+        )
     elif not _ID_RE.match(text):
         hint = "A letter first, then letters, digits and _ . / @ ' - without spaces: v_B3."
-        faults.add(path, f"expected the id of an answer, got {show(text)}", hint)
+        faults.expected(path, "the id of an answer", text, hint)
     return text
 
 
 def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
     entries = [value] if isinstance(value, str) else value
     if not isinstance(entries, list) or len(entries) > SPELLING_LIMIT:
-        faults.add(path, f"expected a string or up to {SPELLING_LIMIT} of them, got {show(value)}")
+        faults.expected(path, say("a string or up to {} of them", SPELLING_LIMIT), value)
         return ()
     found: list[str] = []
     for index, entry in enumerate(entries):
@@ -328,7 +332,7 @@ def _read_sense(
     if value is not True:
         if not isinstance(value, str):
             words = ", ".join(f"'{kind.value}'" for kind in AskedSense)
-            faults.add(path, f"expected true, false or one of {words}, got {show(value)}")
+            faults.expected(path, say("true, false or one of {}", words), value)
             return None
         asked = read_member(faults, path, value, AskedSense)
         if asked is None:
@@ -337,10 +341,10 @@ def _read_sense(
         return asked
     if own is None:
         hint = "Leave sense out: the sign of a number, or the size of a load, says all."
-        faults.add(path, f"'{what}' has no sense to be asked for", hint)
+        faults.add(path, say("'{}' has no sense to be asked for", what), hint)
     elif asked is not None and (asked is AskedSense.TURN) != (own is AskedSense.TURN):
-        told = "turns" if own is AskedSense.TURN else "is a vector"
-        faults.add(path, f"'{what}' {told}", f'Write sense = "{own.value}".')
+        told = "'{}' turns" if own is AskedSense.TURN else "'{}' is a vector"
+        faults.add(path, say(told, what), say('Write sense = "{}".', own.value))
     return asked or own
 
 
@@ -367,9 +371,7 @@ def _read_segment(faults: Faults, path: str, value: object) -> str:
     ends = tuple(text.replace("-", " ").split())
     ends = (split_pair(text) or ends) if len(ends) == 1 else ends
     if len(ends) != 2 or ends[0] == ends[1]:
-        faults.add(
-            path, f"expected the two ends of a segment, got {show(value)}", 'For example: "p b3".'
-        )
+        faults.expected(path, "the two ends of a segment", value, 'For example: "p b3".')
         return ""
     return "-".join(ends)
 

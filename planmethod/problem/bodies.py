@@ -5,9 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 
+from planmethod.languages import say
 from planmethod.problem.fields import Faults
-from planmethod.problem.links import Length, LinkText, PointForm
-from planmethod.problem.model import Body
+from planmethod.problem.links import Length, LinkText
+from planmethod.problem.model import Body, PointForm
 from planmethod.problem.names import listed
 
 COLLINEAR = 1e-9
@@ -84,7 +85,10 @@ class _Placement:
             return None
         points = self._in_own_axes()
         self._check_lengths(points)
-        return Body({name: points[name] for name in link.points}, self._axis_letters())
+        placed = {name: points[name] for name in link.points}
+        angles = {angle.key: angle.value for angle in link.angles}
+        arc = link.arc[1] if link.arc else None
+        return Body(placed, self._axis_letters(), dict(link.forms), angles, arc)
 
     def _axis_letters(self) -> tuple[str, str] | None:
         if self.axis is not None:
@@ -107,10 +111,10 @@ class _Placement:
     def _refuse_double_places(self) -> None:
         for name, form in self.link.forms.items():
             if name in self.placed and form.kind != "side":
-                why = f"it is an end of {self.base.key}" if self.base else "it is the origin"
+                why = say("it is an end of {}", self.base.key) if self.base else "it is the origin"
                 self.faults.add(
                     f"{self.link.path}.{name}",
-                    f"point {name} has its place already: {why}",
+                    say("point {} has its place already: {}", name, why),
                     "Remove the table, or list another length or point first.",
                 )
 
@@ -154,7 +158,8 @@ class _Placement:
         """Place of a point, or None while what it depends on is not placed."""
         form = self.link.forms.get(point)
         if form is None or form.kind == "side":
-            return self._by_distances(point, form)
+            place = self._by_angle(point, form)
+            return self._by_distances(point, form) if place is None else place
         if form.kind == "from":
             direction, start = self._direction(), self.placed.get(form.point)
             if direction is None or start is None:
@@ -166,7 +171,7 @@ class _Placement:
         if start == end:
             raise _ContradictionError(
                 f"{self.link.path}.{point}",
-                f"{form.line[0]} and {form.line[1]} coincide and give no line",
+                say("{} and {} coincide and give no line", form.line[0], form.line[1]),
             )
         if form.kind == "on":
             return start + complex(form.at, form.across) * _unit(end - start)
@@ -177,10 +182,29 @@ class _Placement:
                 raise _ContradictionError(
                     f"{self.link.path}.{point}.distance",
                     "missing",
-                    f"Give distance = ..., or the length {form.point}{point} of the link.",
+                    say("Give distance = ..., or the length {}{} of the link.", form.point, point),
                 )
             distance = given[0].value
         return start + distance * _unit(end - start) * rotation(form.angle)
+
+    def _by_angle(self, point: str, form: PointForm | None) -> complex | None:
+        """Place a point by its distance from a point and the angle of the line to it."""
+        for angle in self.link.angles:
+            for line, other, degrees in (
+                (angle.two, angle.one, angle.value),
+                (angle.one, angle.two, -angle.value),
+            ):
+                vertex = line[0] if line[1] == point else line[1]
+                start, end = (self.placed.get(name) for name in other)
+                known = [length for at, length in self._distances(point) if at == vertex]
+                if point not in line or not known or start is None or end is None or start == end:
+                    continue
+                if form is not None:  # a side tells which way the angle opens
+                    degrees = abs(degrees) if form.left else -abs(degrees)
+                sense = 1.0 if line[1] == point else -1.0
+                turned = _unit(end - start) * rotation(degrees)
+                return self.placed[vertex] + sense * known[0].value * turned
+        return None
 
     def _by_distances(self, point: str, form: PointForm | None) -> complex | None:
         known = self._distances(point)
@@ -192,11 +216,11 @@ class _Placement:
         a, b = r1.value, r2.value
         size = max(a, b, d)
         slack = COLLINEAR * size
-        given = f"{r1.key} = {a:g} m, {r2.key} = {b:g} m, |{one}{two}| = {d:g} m"
+        given = say("{} = {:g} m, {} = {:g} m, |{}{}| = {:g} m", r1.key, a, r2.key, b, one, two, d)
         if d <= slack or d > a + b + slack or d < abs(a - b) - slack:
             raise _ContradictionError(
                 f"{self.link.path}.{r2.key}",
-                f"the triangle {one}{two}{point} cannot be closed: {given}",
+                say("the triangle {}{}{} cannot be closed: {}", one, two, point, given),
                 "Check these lengths.",
             )
         along = _unit(q - p)
@@ -207,8 +231,8 @@ class _Placement:
         if form is None:
             raise _ContradictionError(
                 f"{self.link.path}.{point}",
-                f"two places fit {given}",
-                f'Say on which side: {point}.side = "left of {one}{two}" (or right).',
+                say("two places fit {}", given),
+                say('Say on which side: {}.side = "left of {}{}" (or right).', point, one, two),
             )
         start, end = (self.placed.get(name) for name in form.line)
         if start is None or end is None:
@@ -224,12 +248,14 @@ class _Placement:
             if (_across(place, start, end) > 0) == form.left
         ]
         if len(fits) != 1:
-            how = "both" if fits else "neither"
-            side = f"{'left' if form.left else 'right'} of {''.join(form.line)}"
+            told = "both of the two places of {} lie {}"
+            if not fits:
+                told = "neither of the two places of {} lie {}"
+            side = say("left of {}" if form.left else "right of {}", "".join(form.line))
             raise _ContradictionError(
                 f"{self.link.path}.{point}.side",
-                f"{how} of the two places of {point} lie {side}",
-                f"Name the side of the line {one}{two}.",
+                say(told, point, side),
+                say("Name the side of the line {}{}.", one, two),
             )
         return fits[0]
 
@@ -248,27 +274,30 @@ class _Placement:
             if form is not None and form.kind != "side":
                 self.faults.add(
                     f"{link.path}.{point}",
-                    f"point {point} is measured from points that are not placed",
+                    say("point {} is measured from points that are not placed", point),
                     "Points must not be measured from one another in a circle.",
                 )
             elif known:
                 more = next((b for b in bases if b not in {other for other, _ in known}), None)
                 second = f"{more}{point} = ..." if more else "a second distance"
-                side = f' and {point}.side = "left of {line}"' if line else ""
-                tail = f", or use {example}" if example else ""
+                side = say(' and {}.side = "left of {}"', point, line) if line else ""
+                tail = say(", or use {}", example) if example else ""
                 self.faults.add(
                     f"{link.path}.points",
-                    f"point {point} is not placed: {known[0][1].key} alone is given",
-                    f"Add {second}{side}{tail}.",
+                    say("point {} is not placed: {} alone is given", point, known[0][1].key),
+                    say("Add {}{}{}.", second, side, tail),
                 )
             else:
                 first = bases[0] if bases else link.points[0]
-                add = f"Add its lengths ({first}{point} = ...)"
-                tail = f" or {example}" if example else ""
+                tail = say(" or {}", example) if example else ""
                 self.faults.add(
                     f"{link.path}.points",
-                    f"point {point} is not placed: no length leads to it from {listed(bases)}",
-                    f"{add}{tail}.",
+                    say(
+                        "point {} is not placed: no length leads to it from {}",
+                        point,
+                        listed(bases),
+                    ),
+                    say("Add its lengths ({}{} = ...){}.", first, point, tail),
                 )
 
     def _in_own_axes(self) -> dict[str, complex]:
@@ -287,13 +316,35 @@ class _Placement:
         return turned
 
     def _check_lengths(self, points: dict[str, complex]) -> None:
+        for angle in self.link.angles:
+            one, two = (points[line[1]] - points[line[0]] for line in (angle.one, angle.two))
+            got = heading(two / one) if one and two else math.nan
+            sided = any(form.kind == "side" for form in self.link.forms.values())
+            missed = abs(got) - abs(angle.value) if sided else got - angle.value
+            if not abs((missed + 180.0) % 360.0 - 180.0) <= AGREE * 180.0:
+                self.faults.add(
+                    f"{self.link.path}.angle.{angle.key}",
+                    say(
+                        "{} = {:g} degrees, but the other data of the link make it {:g}",
+                        angle.key,
+                        angle.value,
+                        got,
+                    ),
+                    "Angles count counter-clockwise from the first line: correct one of them.",
+                )
         for length in self.link.lengths:
             got = abs(points[length.a] - points[length.b])
             if abs(got - length.value) > AGREE * max(got, length.value):
                 self.faults.add(
                     f"{self.link.path}.{length.key}",
-                    f"{length.key} = {length.value:g} m, but the other data of the link put "
-                    f"{length.a} and {length.b} {got:g} m apart",
+                    say(
+                        "{} = {:g} m, but the other data of the link put {} and {} {:g} m apart",
+                        length.key,
+                        length.value,
+                        length.a,
+                        length.b,
+                        got,
+                    ),
                     "Remove or correct one of them.",
                 )
 

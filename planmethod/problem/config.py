@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from planmethod.errors import ConfigError, Fault, ProblemError
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, read_keys
 from planmethod.problem.model import SheetSettings
@@ -68,7 +69,7 @@ def load_config(path: Path) -> Config:
     name = str(path)
     try:
         if not path.exists():
-            hint = f"Check --config or {VARIABLE}, or go without: --no-config."
+            hint = say("Check --config or {}, or go without: --no-config.", VARIABLE)
             raise ConfigError(name, [Fault("", "there is no such file", hint)])
         if path.is_dir():
             raise ConfigError(
@@ -81,7 +82,7 @@ def load_config(path: Path) -> Config:
         raise ConfigError(name, error.faults) from None
     except OSError as error:
         raise ConfigError(
-            name, [Fault("", f"the file cannot be read: {error.strerror}", "Check the path.")]
+            name, [Fault("", say("the file cannot be read: {}", error.strerror), "Check the path.")]
         ) from None
     faults = Faults()
     given = read_keys(faults, "", table, keys.CONFIG)

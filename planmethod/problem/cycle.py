@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.fields import (
@@ -16,7 +17,6 @@ from planmethod.problem.fields import (
     read_whole,
     read_word,
     report_unknown,
-    show,
     unmask,
 )
 from planmethod.problem.model import Body, CycleTask, Differentiation, Drive, Slide, Zero
@@ -49,7 +49,7 @@ def read_cycle(
     if drive is not None and not drive.is_crank:
         faults.add(
             "cycle",
-            f"the driver, link {drive.link}, slides: it has no turn",
+            say("the driver, link {}, slides: it has no turn", drive.link),
             "A cycle is a turn of a crank. Delete [cycle], or let a crank drive.",
         )
     output = None
@@ -62,10 +62,8 @@ def read_cycle(
         word = read_word(faults, "cycle.zero", given["zero"], _NAMED)
         zero = None if word is None else _NAMED[word]
     elif "zero" in given:
-        wanted = " or ".join(f'"{word}"' for word in _NAMED)
-        faults.add(
-            "cycle.zero", f"expected {wanted} or an angle in degrees, got {show(given['zero'])}"
-        )
+        wanted = say(" or ").join(f'"{word}"' for word in _NAMED)
+        faults.expected("cycle.zero", say("{} or an angle in degrees", wanted), given["zero"])
     count = read_whole(faults, "cycle.count", given.get("count", 12), 3, keys.CYCLE_LIMIT)
     length = _read_mm(faults, "cycle.length", given.get("length", 288), 20.0, 2000.0)
     poles = read_table(faults, "cycle.pole", given.get("pole", {}), "pole = { v = 36, a = 36 }")
@@ -101,26 +99,26 @@ def _read_output(
     """Read the output: a link, or a point of a link that moves along a guide of the frame."""
     path = "cycle.output"
     if not isinstance(value, str):
-        hint = f'Write output = "{value}".' if isinstance(value, int) else ""
-        faults.add(path, f"expected a point or a link, got {show(value)}", hint)
+        hint = say('Write output = "{}".', value) if isinstance(value, int) else ""
+        faults.expected(path, "a point or a link", value, hint)
         return None
     moving = [link for link in bodies if link != FRAME]
     name = value if value in moving else unmask(faults, path, value)
     if name in moving:
         if drive is not None and name == drive.link:
-            faults.add(path, f"link {name} drives", "The output is a link that is driven.")
+            faults.add(path, say("link {} drives", name), "The output is a link that is driven.")
             return None
         return name
     points = [point for link in moving for point in bodies[link].points]
     if name not in points:
-        report_unknown(faults, path, name, [*points, *moving], noun="point or link")
+        report_unknown(faults, path, name, [*points, *moving], said="unknown point or link '{}'")
         return None
     if guiding(name, bodies, slides) is None:
         links = [link for link in moving if name in bodies[link].points]
         faults.add(
             path,
-            f"point {name} moves along no guide of the frame",
-            f"Name a point of a slider, or a link whose angle is meant: {', '.join(links)}.",
+            say("point {} moves along no guide of the frame", name),
+            say("Name a point of a slider, or a link whose angle is meant: {}.", ", ".join(links)),
         )
         return None
     return name

@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.fields import (
@@ -21,12 +22,12 @@ from planmethod.problem.fields import (
     read_place,
     read_table,
     report_unknown,
-    show,
     unmask,
 )
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
+from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
 
 Span = tuple[float, ...]
 
@@ -44,7 +45,8 @@ def read_drive(
     given = read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
     if given is None:
         return None
-    given = read_keys(faults, "driver", given, keys.DRIVER)
+    posing = [key for key in given if is_posed(key)]
+    given = read_keys(faults, "driver", given, (*keys.DRIVER, *posing))
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = _read_link(faults, given, links)
@@ -55,9 +57,11 @@ def read_drive(
         if link.sound:
             faults.add(
                 "driver.link",
-                f"link {link.name} is not joined to the frame",
-                f"A driver turns about a fixed point ({listed(fixed)}) or slides on a guide of "
-                "the frame.",
+                say("link {} is not joined to the frame", link.name),
+                say(
+                    "A driver turns about a fixed point ({}) or slides on a guide of the frame.",
+                    listed(fixed),
+                ),
             )
         return None
     if pivots and hosts.get(link.name) == FRAME:
@@ -66,11 +70,18 @@ def read_drive(
     kind = "a crank" if pivots else "a driving slider"
     for key in given:
         if key in other:
-            hint = f"Link {link.name} is {kind}: {listed(own)}."
-            faults.add(f"driver.{key}", f"does not go with {kind}", hint)
-    required: tuple[str, ...] = ("phi",) if pivots else ("s", "v")
-    if pivots and not {"n", "train"} & {*given}:
+            hint = say("Link {} is {}: {}.", link.name, kind, listed(own))
+            faults.add(f"driver.{key}", say("does not go with {}", kind), hint)
+    posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
+    required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
+    acted = any(is_rate(key) or is_length(key) for key in given)
+    if not pivots and not acted:
+        required += ("v",)
+    if pivots and not acted and not {"n", "train"} & {*given}:
         required += ("omega",)
+    for key in given:
+        if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
+            faults.add(f"driver.{key}", "does not go with an actuator, whose rate drives")
     for key in required:
         if key not in given and whole:
             faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
@@ -83,24 +94,27 @@ def read_drive(
         positions = _read_positions(faults, given, "s")
         rate = _read_rate(faults, given, "v", "a velocity in m/s")
         acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
+    if posed is not None:
+        positions = (math.nan,) * len(posed.values)  # found when the mechanism is assembled
     if len(faults) != before or positions is None or rate is None or acceleration is None:
         return None
-    pivot = pivots[0] if pivots else None
-    return Drive(link.name, pivot, positions, rate, acceleration, geared if pivots else None)
+    turns = rate * 30.0 / math.pi if "n" in given else None
+    pivot, geared = (pivots[0], geared) if pivots else (None, None)
+    return Drive(link.name, pivot, positions, rate, acceleration, geared, turns, posed)
 
 
 def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:
     if "link" not in given:
-        faults.add("driver.link", "missing", f"Name the driving link: {listed(links)}.")
+        faults.add("driver.link", "missing", say("Name the driving link: {}.", listed(links)))
         return None
     value = given["link"]
     if not isinstance(value, str):
-        hint = f'Write link = "{value}".' if isinstance(value, int) else ""
-        faults.add("driver.link", f"expected the name of a link, got {show(value)}", hint)
+        hint = say('Write link = "{}".', value) if isinstance(value, int) else ""
+        faults.expected("driver.link", "the name of a link", value, hint)
         return None
     name = value if value in links else unmask(faults, "driver.link", value)
     if name not in links:
-        report_unknown(faults, "driver.link", name, links, noun="link")
+        report_unknown(faults, "driver.link", name, links, said="unknown link '{}'")
         return None
     return links[name]
 
@@ -113,12 +127,16 @@ def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
     if first.a == pivot:
         return
     if first.b == pivot:
-        hint = f"Write {pivot}{first.a} instead of {first.key}: from the pivot outwards."
+        hint = say("Write {}{} instead of {}: from the pivot outwards.", pivot, first.a, first.key)
     else:
-        hint = f"Put first the length that starts at the pivot {pivot}."
+        hint = say("Put first the length that starts at the pivot {}.", pivot)
     faults.add(
         f"{link.path}.{first.key}",
-        f"the own axis of the crank starts at {first.a}, phi is measured at the pivot {pivot}",
+        say(
+            "the own axis of the crank starts at {}, phi is measured at the pivot {}",
+            first.a,
+            pivot,
+        ),
         hint,
     )
 
@@ -146,7 +164,7 @@ def _read_positions(faults: Faults, given: Table, key: str) -> Span | None:
 def _read_position(faults: Faults, path: str, value: object, key: str) -> float | None:
     if not is_number(value) and not isinstance(value, str) and "[" not in path:
         want = "a number, a list, or { from, to, step } or { from, count }"
-        faults.add(path, f"expected {want}, got {show(value)}")
+        faults.expected(path, want, value)
         return None
     return read_angle(faults, path, value) if key == "phi" else read_coordinate(faults, path, value)
 
@@ -156,7 +174,7 @@ def too_many(faults: Faults, path: str, count: int) -> bool:
     if count <= keys.POSITION_LIMIT:
         return False
     shown = f"{count}" if count < 10**9 else "over a billion"
-    faults.add(path, f"{shown} positions, the limit is {keys.POSITION_LIMIT}")
+    faults.add(path, say("{} positions, the limit is {}", shown, keys.POSITION_LIMIT))
     return True
 
 
@@ -171,8 +189,8 @@ def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None
     if not full_turn and names not in ({"from", "to", "count"}, {"from", "to", "step"}):
         ways = "{ from, to, step } or { from, to, count }"
         if key == "phi":
-            ways = "{ from, count } (a full turn), " + ways
-        faults.add(path, f"expected {ways}, got {{ {listed(given)} }}")
+            ways = say("{{ from, count }} (a full turn), {}", ways)
+        faults.add(path, say("expected {}, got {{ {} }}", ways, listed(given)))
         return None
     start = _read_position(faults, f"{path}.from", given["from"], key)
     end = 0.0 if full_turn else _read_position(faults, f"{path}.to", given["to"], key)
@@ -193,7 +211,7 @@ def spread(
         count = given["count"]
         least = 1 if full_turn else 2
         if not isinstance(count, int) or isinstance(count, bool) or count < least:
-            faults.add(f"{path}.count", f"expected a whole number from {least}, got {show(count)}")
+            faults.expected(f"{path}.count", say("a whole number from {}", least), count)
             return None
         if too_many(faults, f"{path}.count", count) or start is None or end is None:
             return None
@@ -204,7 +222,9 @@ def spread(
     if start is None or end is None or step is None:
         return None
     if step == 0 or (end - start) / step < 0:
-        faults.add(f"{path}.step", f"the step {step:g} does not lead from {start:g} to {end:g}")
+        faults.add(
+            f"{path}.step", say("the step {:g} does not lead from {:g} to {:g}", step, start, end)
+        )
         return None
     # a step of 0.1 must reach its end in spite of rounding
     last = math.floor((end - start) / step + 1e-9) if (end - start) / step < 1e9 else 10**9
@@ -220,9 +240,13 @@ def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | Non
 
 def _read_turning(faults: Faults, given: Table, geared: Geared | None) -> float | None:
     """Angular velocity, 1/s, from omega, n or the train."""
+    if any(map(is_length, given)):
+        return 0.0  # found with the position
     one, *others = [key for key in ("omega", "n", "train") if key in given] or ["omega"]
     for other in others:
-        faults.add(f"driver.{other}", f"{one} and {other} are both given", "Keep one of them.")
+        faults.add(
+            f"driver.{other}", say("{} and {} are both given", one, other), "Keep one of them."
+        )
     if others:
         return None
     if "train" in given:
@@ -245,6 +269,8 @@ _POINT_WORDS = {
     "left": Where.LEFT,
     "above": Where.ABOVE,
     "below": Where.BELOW,
+    "towards": Where.TOWARDS,
+    "away": Where.AWAY,
 }
 _LINE_WORDS = {"left": Where.LEFT_OF, "right": Where.RIGHT_OF}
 
@@ -271,10 +297,10 @@ def read_assembly(
         path = f"assembly.{segment(key)}"
         name = unmask(faults, path, key)
         if name in fixed:
-            faults.add(path, f"point {name} is fixed", "Rules are for points that move.")
+            faults.add(path, say("point {} is fixed", name), "Rules are for points that move.")
             continue
         if name not in moving:
-            report_unknown(faults, path, name, moving, noun="point")
+            report_unknown(faults, path, name, moving, said="unknown point '{}'")
             continue
         rule = _read_rule(faults, path, name, value, known)
         if rule is not None:
@@ -289,35 +315,35 @@ def _read_rule(
         return _read_rule_table(faults, path, point, value, known)
     want = '"right of D", "left of CB", "above D" or { near = [x, y] }'
     if not isinstance(value, str) or len(value) > 80:
-        faults.add(path, f"expected {want}, got {show(value)}")
+        faults.expected(path, want, value)
         return None
     words = [unmask(faults, path, word) for word in value.split()]
-    if len(words) == 3 and words[1] == "of":
+    if len(words) == 3 and words[1] == ("from" if words[0] == "away" else "of"):
         del words[1]
     if len(words) != 2 or words[0] not in _POINT_WORDS:
         guess = near(words[0], _POINT_WORDS) if words else None
-        hint = f"Did you mean '{guess}'?" if guess and guess != words[0] else ""
-        faults.add(path, f"expected {want}, got {show(value)}", hint)
+        hint = say("Did you mean '{}'?", guess) if guess and guess != words[0] else ""
+        faults.expected(path, want, value, hint)
         return None
     side, name = words
     if is_point_name(name):
         ref = read_known_point(faults, path, name, known, of="the mechanism")
         if ref == point:
-            faults.add(path, f"{point} cannot be compared with itself")
+            faults.add(path, say("{} cannot be compared with itself", point))
             return None
         return None if ref is None else Rule(point, _POINT_WORDS[side], (ref,))
     if split_pair(name) is None:
-        faults.add(path, f"expected {want}, got {show(value)}")
+        faults.expected(path, want, value)
         return None
     line = read_line_name(faults, path, name, known, of="the mechanism")
     if line is None:
         return None
     if side not in _LINE_WORDS:
-        hint = f"A point is above or below one point: {side} {line[1]}."
-        faults.add(path, f"'{side}' does not go with the line {name}", hint)
+        hint = say("A point is above or below one point: {} {}.", side, line[1])
+        faults.add(path, say("'{}' does not go with the line {}", side, name), hint)
         return None
     if point in line:
-        faults.add(path, f"the line {name} goes through {point} itself")
+        faults.add(path, say("the line {} goes through {} itself", name, point))
         return None
     return Rule(point, _LINE_WORDS[side], line)
 
@@ -328,8 +354,8 @@ def _read_rule_table(
     given = read_keys(faults, path, value, keys.RULE)
     keep = given.get("keep")
     if "keep" in given and keep not in keys.KEEP:
-        wanted = " or ".join(f'"{word}"' for word in keys.KEEP)
-        faults.add(f"{path}.keep", f"expected {wanted}, got {show(keep)}")
+        wanted = say(" or ").join(f'"{word}"' for word in keys.KEEP)
+        faults.expected(f"{path}.keep", wanted, keep)
         return None
     first = [key for key in ("near", "rule") if key in given]
     if keep == "parallel":
@@ -339,12 +365,12 @@ def _read_rule_table(
         return Rule(point, Where.PARALLEL)
     if len(first) != 1:
         said = "give near or rule, not both" if first else "missing"
-        faults.add(f"{path}.near", said, f"For example: {point} = {{ near = [0.1, 0.2] }}")
+        faults.add(f"{path}.near", said, say("For example: {} = {{ near = [0.1, 0.2] }}", point))
         return None
     if "rule" in given:
         phrase = given["rule"]
         if isinstance(phrase, Mapping):
-            faults.add(f"{path}.rule", f"expected a phrase, got {show(phrase)}")
+            faults.expected(f"{path}.rule", "a phrase", phrase)
             return None
         found = _read_rule(faults, f"{path}.rule", point, phrase, known)
     else:
@@ -364,8 +390,8 @@ def read_scales(faults: Faults, table: object) -> Scales:
         value = given["convention"]
         known = [item.value for item in Convention]
         if value not in known:
-            names = " or ".join(f'"{item}"' for item in known)
-            faults.add("scales.convention", f"expected {names}, got {show(value)}")
+            names = say(" or ").join(f'"{item}"' for item in known)
+            faults.expected("scales.convention", names, value)
         else:
             convention = Convention(value)
     values: dict[str, float | None] = {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -73,7 +74,7 @@ def _read_gravity(faults: Faults, value: object) -> float:
         faults.add(
             path,
             "expected a number in m/s² or false, got the boolean true",
-            f"Leave it out for {GRAVITY}.",
+            say("Leave it out for {}.", GRAVITY),
         )
         return 0.0
     what = "an acceleration of free fall in m/s²"
@@ -90,7 +91,9 @@ def _read_masses(faults: Faults, table: object, scene: Scene) -> dict[str, Mass]
         if link is None or body is None:
             continue
         if link.name in masses:
-            faults.add(where, f"the mass of link {link.name} is given twice", "Keep one of them.")
+            faults.add(
+                where, say("the mass of link {} is given twice", link.name), "Keep one of them."
+            )
             continue
         mass = _read_mass(faults, where, body, link, scene)
         if mass is not None:
@@ -115,8 +118,12 @@ def _read_mass(faults: Faults, path: str, body: Table, link: LinkText, scene: Sc
         faults.add(
             f"{path}.centre",
             "missing",
-            f"Name the centre of mass among the points of link {link.name} "
-            f"({listed(link.points)}), or give the link another point there.",
+            say(
+                "Name the centre of mass among the points of link {} ({}), or give the link "
+                "another point there.",
+                link.name,
+                listed(link.points),
+            ),
         )
     if len(faults) != before or mass is None or inertia is None:
         return None
@@ -125,6 +132,6 @@ def _read_mass(faults: Faults, path: str, body: Table, link: LinkText, scene: Sc
 
 def _read_amount(faults: Faults, path: str, value: object, what: str) -> float | None:
     if is_number(value) and value < 0:
-        faults.add(path, f"expected {what}, 0 or greater, got {value:g}")
+        faults.add(path, say("expected {}, 0 or greater, got {:g}", what, value))
         return None
     return read_number(faults, path, value, what, low=0.0, high=1e12)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -12,7 +13,6 @@ from planmethod.problem.fields import (
     read_number,
     read_table,
     read_text,
-    show,
 )
 from planmethod.problem.model import Published
 from planmethod.problem.names import TITLE_LIMIT, listed, near, segment, short
@@ -60,7 +60,9 @@ def read_published(
     """
     entries = read_table(faults, "published", table, '[published."v_B"] value = 3') or {}
     if len(entries) > keys.PUBLISHED_LIMIT:
-        faults.add("published", f"{len(entries)} values, the limit is {keys.PUBLISHED_LIMIT}")
+        faults.add(
+            "published", say("{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT)
+        )
         return ()
     found: list[Published] = []
     for name, entry in entries.items():
@@ -104,10 +106,10 @@ def read_position(faults: Faults, path: str, value: object, positions: int) -> i
     if value is None:
         return None
     if not isinstance(value, int) or isinstance(value, bool) or value < 0:
-        faults.add(path, f"expected a whole number from 0, got {show(value)}")
+        faults.expected(path, "a whole number from 0", value)
         return None
     if positions and value >= positions:
-        faults.add(path, f"position {value} of {positions}", "The first position is 0.")
+        faults.add(path, say("position {} of {}", value, positions), "The first position is 0.")
         return None
     return value
 
@@ -131,18 +133,22 @@ def check_what(
     if is_force(selector) and dynamics is None:
         faults.add(
             path,
-            f"'{short(what)}' is of the force analysis, and the file has no masses and no loads",
+            say(
+                "'{}' is of the force analysis, and the file has no masses and no loads",
+                short(what),
+            ),
             "Give [dynamics] or [[loads]].",
         )
         return selector
     loads = [load.name for load in dynamics.loads] if dynamics else []
     for name in unknown_names(selector, points, links, loads):
         guess = near(name, [*points, *links, *loads])
-        known = f"Points: {listed(points)}"
+        known = [say("Points: {}", listed(points))]
         if is_force(selector):
-            known += f"; links: {listed(links)}" + (f"; loads: {listed(loads)}" if loads else "")
-        hint = f"Did you mean '{guess}'?" if guess else f"{known}."
-        faults.add(path, f"the mechanism has no '{name}'", hint)
+            known += [say("links: {}", listed(links))]
+            known += [say("loads: {}", listed(loads))] if loads else []
+        hint = say("Did you mean '{}'?", guess) if guess else f"{'; '.join(known)}."
+        faults.add(path, say("the mechanism has no '{}'", name), hint)
     return selector
 
 

@@ -8,6 +8,9 @@ from enum import Enum
 from typing import Any, TypeGuard, TypeVar
 
 from planmethod.errors import Fault
+from planmethod.languages import say
+from planmethod.problem import keys
+from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.names import (
     describe_lookalikes,
     fold,
@@ -29,9 +32,19 @@ M = TypeVar("M", bound=Enum)
 
 
 class Faults:
-    """Collect the faults of a file, so that all are reported at once (сбор ошибок)."""
+    """Collect the faults of a file, so that all are reported at once (сбор ошибок).
+
+    Attributes
+    ----------
+    unit : str
+        Unit of the lengths of the file, a key of `keys.UNITS`.
+    stated : dict of str to str
+        Arithmetic that stands for a number, as written, by path.
+    """
 
     def __init__(self) -> None:
+        self.unit = "m"
+        self.stated: dict[str, str] = {}
         self._found: list[Fault] = []
         self.count = 0
 
@@ -50,29 +63,33 @@ class Faults:
         if self.count <= FAULT_LIMIT:
             self._found.append(fault)
 
+    def expected(self, path: str, what: str, value: object, hint: str = "") -> None:
+        """Note that something else stands where ``what`` is expected."""
+        self.add(path, say("expected {}, got {}", what, show(value)), hint)
+
     @property
     def found(self) -> tuple[Fault, ...]:
         """Faults in the order of finding."""
         left = self.count - len(self._found)
         if left <= 0:
             return tuple(self._found)
-        return (*self._found, Fault("", f"and {left} more faults", "Fix these first."))
+        return (*self._found, Fault("", say("and {} more faults", left), "Fix these first."))
 
 
 def show(value: object) -> str:
     """Describe a TOML value for a message: ``the string 'abc'``, ``the integer 3``, ``a table``."""
     if isinstance(value, bool):
-        return f"the boolean {str(value).lower()}"
+        return say("the boolean {}", str(value).lower())
     if isinstance(value, str):
-        return f"the string {short(value)!r}"
+        return say("the string {!r}", short(value))
     if isinstance(value, int):
-        return f"the integer {value}" if abs(value) < 10**15 else "a huge integer"
+        return say("the integer {}", value) if abs(value) < 10**15 else "a huge integer"
     if isinstance(value, float):
-        return f"the number {value:g}"
+        return say("the number {:g}", value)
     if isinstance(value, Mapping):
         return "a table"
     if isinstance(value, list):
-        return f"a list of {len(value)}" if value else "an empty list"
+        return say("a list of {}", len(value)) if value else "an empty list"
     return "a date or time"
 
 
@@ -90,7 +107,7 @@ def _unquoted(value: object) -> str:
         number = float(text)
     except ValueError:
         return ""
-    return f"Write {text} without quotes." if math.isfinite(number) else ""
+    return say("Write {} without quotes.", text) if math.isfinite(number) else ""
 
 
 def read_number(
@@ -115,24 +132,30 @@ def read_number(
     hint : str
         What to do about a number that is out of bounds.
     """
+    if isinstance(value, str) and not _unquoted(value) and any(map(str.isdecimal, value)):
+        try:
+            number = work_out(value)
+        except FormulaError as error:
+            said = say("expected {}, got {}: {}", what, show(value), str(error))
+            faults.add(path, said, error.hint)
+            return None
+        faults.stated[path], value = value, number
     if not is_number(value):
-        faults.add(path, f"expected {what}, got {show(value)}", _unquoted(value))
+        faults.expected(path, what, value, _unquoted(value))
         return None
     try:
         number = float(value)
     except OverflowError:
         number = math.inf if value > 0 else -math.inf
     if not math.isfinite(number):
-        faults.add(path, f"expected {what}, got {number:g}", "The number must be finite.")
+        faults.add(path, say("expected {}, got {:g}", what, number), "The number must be finite.")
         return None
     if positive and number <= 0:
-        faults.add(path, f"expected {what} greater than 0, got {number:g}")
+        faults.add(path, say("expected {} greater than 0, got {:g}", what, number))
         return None
     if not low <= number <= high:
         faults.add(
-            path,
-            f"expected {what} from {low:g} to {high:g}, got {number:g}",
-            hint,
+            path, say("expected {} from {:g} to {:g}, got {:g}", what, low, high, number), hint
         )
         return None
     return number
@@ -141,7 +164,7 @@ def read_number(
 def read_whole(faults: Faults, path: str, value: object, low: int, high: int) -> int | None:
     """Read a whole number within bounds; None after noting a fault."""
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        faults.add(path, f"expected a whole number from {low} to {high}, got {show(value)}")
+        faults.expected(path, say("a whole number from {} to {}", low, high), value)
         return None
     return value
 
@@ -151,20 +174,53 @@ def read_flag(faults: Faults, path: str, value: object) -> bool | None:
     if isinstance(value, bool):
         return value
     hint = "Write it without quotes." if value in ("true", "false") else ""
-    faults.add(path, f"expected true or false, got {show(value)}", hint)
+    faults.expected(path, "true or false", value, hint)
     return None
 
 
+_SAID: Mapping[str, Mapping[str, str]] = {
+    "m": {
+        "length": "a length in metres",
+        "distance": "a distance in metres",
+        "coordinate": "a coordinate in metres",
+        "place": "[x, y] in metres",
+    },
+    "cm": {
+        "length": "a length in centimetres",
+        "distance": "a distance in centimetres",
+        "coordinate": "a coordinate in centimetres",
+        "place": "[x, y] in centimetres",
+    },
+    "mm": {
+        "length": "a length in millimetres",
+        "distance": "a distance in millimetres",
+        "coordinate": "a coordinate in millimetres",
+        "place": "[x, y] in millimetres",
+    },
+}
+"""What is expected of a length, by the unit of the file."""
+
+
 def read_length(faults: Faults, path: str, value: object) -> float | None:
-    """Read a length of a link, m."""
-    return read_number(faults, path, value, "a length in metres", low=1e-9, high=1e6, positive=True)
+    """Read a length of a link in the unit of the file; it is returned in m."""
+    return _read_metres(faults, path, value, "length", low=1e-9, positive=True)
 
 
 def read_coordinate(
-    faults: Faults, path: str, value: object, what: str = "a distance in metres"
+    faults: Faults, path: str, value: object, kind: str = "distance"
 ) -> float | None:
-    """Read a coordinate or a signed distance, m."""
-    return read_number(faults, path, value, what, low=-1e6, high=1e6)
+    """Read a coordinate or a signed distance in the unit of the file; it is returned in m."""
+    return _read_metres(faults, path, value, kind, low=-1e6)
+
+
+def _read_metres(
+    faults: Faults, path: str, value: object, kind: str, *, low: float, positive: bool = False
+) -> float | None:
+    per, what = keys.UNITS[faults.unit], _SAID[faults.unit][kind]
+    number = read_number(
+        faults, path, value, what, low=low * per, high=1e6 * per, positive=positive
+    )
+    return None if number is None else number / per
 
 
 def read_angle(faults: Faults, path: str, value: object) -> float | None:
@@ -175,19 +231,23 @@ def read_angle(faults: Faults, path: str, value: object) -> float | None:
 def read_text(faults: Faults, path: str, value: object, *, limit: int) -> str | None:
     """Read a line of text without control characters."""
     if not isinstance(value, str):
-        hint = "Put it in quotes." if is_number(value) or show(value).startswith("a date") else ""
-        faults.add(path, f"expected a string, got {show(value)}", hint)
+        hint = (
+            "Put it in quotes." if is_number(value) or show(value) == say("a date or time") else ""
+        )
+        faults.expected(path, "a string", value, hint)
         return None
     if len(value) > limit:
         faults.add(
-            path, f"the text has {len(value)} characters, the limit is {limit}", "Shorten it."
+            path,
+            say("the text has {} characters, the limit is {}", len(value), limit),
+            "Shorten it.",
         )
         return None
     bad = next((c for c in value if ord(c) < 32 or 0x7F <= ord(c) < 0xA0), None)
     if bad is not None:
         faults.add(
             path,
-            f"the text has the control character U+{ord(bad):04X}",
+            say("the text has the control character U+{:04X}", ord(bad)),
             "Write it on one line, without tabs.",
         )
         return None
@@ -198,18 +258,18 @@ def read_table(faults: Faults, path: str, value: object, example: str = "") -> T
     """Read a table."""
     if isinstance(value, Mapping):
         return value
-    hint = f"For example: {example}" if example else ""
-    faults.add(path, f"expected a table, got {show(value)}", hint)
+    hint = say("For example: {}", example) if example else ""
+    faults.expected(path, "a table", value, hint)
     return None
 
 
 def read_place(faults: Faults, path: str, value: object) -> complex | None:
     """Read ``[x, y]``, m."""
     if not isinstance(value, list) or len(value) != 2:
-        faults.add(path, f"expected [x, y] in metres, got {show(value)}")
+        faults.expected(path, _SAID[faults.unit]["place"], value)
         return None
-    x = read_coordinate(faults, f"{path}[0]", value[0], "a coordinate in metres")
-    y = read_coordinate(faults, f"{path}[1]", value[1], "a coordinate in metres")
+    x = read_coordinate(faults, f"{path}[0]", value[0], "coordinate")
+    y = read_coordinate(faults, f"{path}[1]", value[1], "coordinate")
     return None if x is None or y is None else complex(x, y)
 
 
@@ -227,23 +287,23 @@ def read_keys(faults: Faults, path: str, table: Table, known: Iterable[str]) -> 
 
 
 def report_unknown(
-    faults: Faults, path: str, name: str, known: Iterable[str], *, noun: str = "key"
+    faults: Faults, path: str, name: str, known: Iterable[str], *, said: str = "unknown key"
 ) -> None:
-    """Note an unknown key or name with the nearest known one."""
+    """Note an unknown key or name, as ``unknown link '{}'``, with the nearest known one."""
     names = tuple(known)
     # the nearest name is searched for only if the fault will be listed
     guess = near(name, names) if faults.count < FAULT_LIMIT else None
-    hint = f"Did you mean '{guess}'?" if guess else ""
+    hint = say("Did you mean '{}'?", guess) if guess else ""
     if not hint and names:
-        hint = f"Known here: {listed(names)}."
-    faults.add(path, f"unknown {noun}" + (f" '{short(name)}'" if noun != "key" else ""), hint)
+        hint = say("Known here: {}.", listed(names))
+    faults.add(path, say(said, short(name)), hint)
 
 
 def unmask(faults: Faults, path: str, name: str) -> str:
     """Note the look-alike letters of a name and return the name that was meant."""
     if lookalikes(name) and fold(name).isascii():
         meant = short(fold(name))
-        faults.add(path, describe_lookalikes(name), f"Type '{meant}' in the Latin layout.")
+        faults.add(path, describe_lookalikes(name), say("Type '{}' in the Latin layout.", meant))
     return fold(name) if fold(name).isascii() else name
 
 
@@ -251,13 +311,13 @@ def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) ->
     """Read one of a few words."""
     words = tuple(known)
     if not isinstance(value, str):
-        faults.add(path, f"expected {_either(words)}, got {show(value)}")
+        faults.expected(path, _either(words), value)
         return None
     word = unmask(faults, path, value)
     if word not in words:
         guess = near(word, words)
-        hint = f"Did you mean '{guess}'?" if guess else ""
-        faults.add(path, f"expected {_either(words)}, got {show(value)}", hint)
+        hint = say("Did you mean '{}'?", guess) if guess else ""
+        faults.expected(path, _either(words), value, hint)
         return None
     return word
 
@@ -270,19 +330,20 @@ def read_member(faults: Faults, path: str, value: object, kind: type[M]) -> M | 
 
 def _either(words: tuple[str, ...]) -> str:
     *first, last = (f"'{word}'" for word in words)
-    return f"{', '.join(first)} or {last}"
+    return say("{} or {}", ", ".join(first), last)
 
 
 def read_point_name(faults: Faults, path: str, value: object) -> str | None:
     """Read the name of a point."""
     if not isinstance(value, str):
-        faults.add(path, f"expected the name of a point, got {show(value)}", "Put it in quotes.")
+        faults.expected(path, "the name of a point", value, "Put it in quotes.")
         return None
     name = unmask(faults, path, value)
     if not is_point_name(name):
-        faults.add(
+        faults.expected(
             path,
-            f"expected the name of a point, got {show(value)}",
+            "the name of a point",
+            value,
             "A point is a Latin letter, perhaps with digits or primes: B, O3, S2, C'.",
         )
         return None
@@ -299,8 +360,10 @@ def read_known_point(
     points = tuple(known)
     if name not in points:
         guess = near(name, points)
-        hint = f"Did you mean '{guess}'?" if guess else f"Its points are {listed(points)}."
-        faults.add(path, f"{of} has no point '{name}'", hint if points else "")
+        hint = (
+            say("Did you mean '{}'?", guess) if guess else say("Its points are {}.", listed(points))
+        )
+        faults.add(path, say("{} has no point '{}'", of, name), hint if points else "")
         return None
     return name
 
@@ -310,16 +373,16 @@ def read_line_name(
 ) -> tuple[str, str] | None:
     """Read a line named by two points, ``BC``: from B towards C."""
     if not isinstance(value, str):
-        faults.add(path, f'expected two points such as "BC", got {show(value)}')
+        faults.expected(path, 'two points such as "BC"', value)
         return None
     pair = split_pair(unmask(faults, path, value))
     if pair is None or pair[0] == pair[1]:
-        faults.add(path, f'expected two different points such as "BC", got {show(value)}')
+        faults.expected(path, 'two different points such as "BC"', value)
         return None
     points = tuple(known)
     for name in pair:
         if name not in points:
-            hint = f"Its points are {listed(points)}." if points else ""
-            faults.add(path, f"{of} has no point '{name}'", hint)
+            hint = say("Its points are {}.", listed(points)) if points else ""
+            faults.add(path, say("{} has no point '{}'", of, name), hint)
             return None
     return pair

@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.fields import (
@@ -17,7 +18,6 @@ from planmethod.problem.fields import (
     read_text,
     read_word,
     report_unknown,
-    show,
     unmask,
 )
 from planmethod.problem.links import LinkText
@@ -54,17 +54,17 @@ class Scene:
     def find_link(self, faults: Faults, path: str, value: object, verb: str) -> LinkText | None:
         """Return a moving link by its name; ``verb`` says what such links do."""
         if not isinstance(value, str):
-            hint = f'Write link = "{value}".' if type(value) is int else ""
-            faults.add(path, f"expected the name of a link, got {show(value)}", hint)
+            hint = say('Write link = "{}".', value) if type(value) is int else ""
+            faults.expected(path, "the name of a link", value, hint)
             return None
         name = value if value in self.links else unmask(faults, path, value)
         if name == FRAME:
-            hint = f"Moving links {verb}: {listed(self.links)}."
+            hint = say("Moving links {}: {}.", verb, listed(self.links))
             faults.add(path, "0 is the frame (стойка), which stands still", hint)
             return None
         if name not in self.links:
             if self.links:
-                report_unknown(faults, path, name, self.links, noun="link")
+                report_unknown(faults, path, name, self.links, said="unknown link '{}'")
             return None
         return self.links[name]
 
@@ -74,26 +74,28 @@ class Scene:
         if name is None or name in link.points or not link.whole:
             return name
         others = [other.name for other in self.links.values() if name in other.points]
-        points = f"the points of link {link.name} are {listed(link.points)}"
+        points = say("the points of link {} are {}", link.name, listed(link.points))
         if others:
-            noun = "link" if len(others) == 1 else "links"
-            hint = f"{name} is a point of {noun} {listed(others)}; {points}."
+            told = "{0} is a point of link{1:||s} {2}; {3}."
+            hint = say(told, name, len(others), listed(others), points)
         elif name in self.fixed:
-            hint = f"{name} is a point of the frame; {points}."
+            hint = say("{} is a point of the frame; {}.", name, points)
         else:
             guess = near(name, link.points)
-            hint = f"Did you mean '{guess}'?" if guess else f"{points[:1].upper()}{points[1:]}."
-        faults.add(path, f"link {link.name} has no point '{name}'", hint)
+            hint = (
+                say("Did you mean '{}'?", guess) if guess else f"{points[:1].upper()}{points[1:]}."
+            )
+        faults.add(path, say("link {} has no point '{}'", link.name, name), hint)
         return None
 
 
 def read_loads(faults: Faults, value: object, scene: Scene) -> tuple[Load | Couple, ...]:
     """Read ``[[loads]]``, in file order."""
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
-        faults.add("loads", f"expected tables [[loads]], got {show(value)}")
+        faults.expected("loads", "tables [[loads]]", value)
         return ()
     if len(value) > keys.LOAD_LIMIT:
-        faults.add("loads", f"{len(value)} loads, the limit is {keys.LOAD_LIMIT}")
+        faults.add("loads", say("{} loads, the limit is {}", len(value), keys.LOAD_LIMIT))
         return ()
     names = _read_names(faults, value)
     taken = {name for name in names if name is not None}
@@ -114,15 +116,15 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
         if "name" in body:
             name = read_text(faults, path, body["name"], limit=NAME_LIMIT)
         if name is not None and not _NAME_RE.match(name):
-            faults.add(
-                path,
-                f"expected a letter with its indices, got {show(name)}",
-                "For example: F_{5}, P, M_{1}^{c}.",
+            faults.expected(
+                path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
             )
             name = None
         if name is not None and name in names:
             twin = names.index(name)
-            faults.add(path, f"loads[{twin}] is called {name} too", "Give it another letter.")
+            faults.add(
+                path, say("loads[{}] is called {} too", twin, name), "Give it another letter."
+            )
         names.append(name)
     return names
 
@@ -153,7 +155,7 @@ def _read_load(
     if "link" in given:
         link = scene.find_link(faults, f"{path}.link", given["link"], "carry loads")
     elif whole:
-        faults.add(f"{path}.link", "missing", f"Name the link: {listed(scene.links)}.")
+        faults.add(f"{path}.link", "missing", say("Name the link: {}.", listed(scene.links)))
     load: Load | Couple | None = None
     if "force" in given and "couple" in given:
         hint = "Write them as two [[loads]]."
@@ -183,7 +185,9 @@ def _read_force(
     at = None
     if "at" not in given:
         if whole and link is not None:
-            hint = f"Name the point of link {link.name} where it acts: {listed(link.points)}."
+            hint = say(
+                "Name the point of link {} where it acts: {}.", link.name, listed(link.points)
+            )
             faults.add(f"{path}.at", "missing", hint)
     elif link is not None:
         at = scene.find_point(faults, f"{path}.at", given["at"], link)
@@ -199,7 +203,7 @@ def _read_force(
         sense = _read_against(faults, f"{path}.against", given["against"], "velocity")
         if fixed:
             hint = "Give the direction as an angle."
-            faults.add(f"{path}.against", f"point {at} is fixed and has no velocity", hint)
+            faults.add(f"{path}.against", say("point {} is fixed and has no velocity", at), hint)
     elif whole:
         hint = 'Give angle = -90 (degrees from +x) or against = "velocity".'
         faults.add(path, "expected a direction, got neither angle nor against", hint)
@@ -239,11 +243,13 @@ def _read_against(faults: Faults, path: str, value: object, wanted: str) -> Agai
     if word is None:
         return None
     if word != wanted:
-        kind = "A force" if wanted == "velocity" else "A couple"
-        message = f"expected '{wanted}', got '{word}'"
-        faults.add(path, message, f"{kind} acts against the {wanted} of its {_WHOSE[wanted]}.")
+        message = say("expected '{}', got '{}'", wanted, word)
+        faults.add(path, message, _AGAINST[wanted])
         return None
     return Against()
 
 
-_WHOSE = {"velocity": "point", "rotation": "link"}
+_AGAINST = {
+    "velocity": "A force acts against the velocity of its point.",
+    "rotation": "A couple acts against the rotation of its link.",
+}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from itertools import combinations
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.problem.fields import Faults
 from planmethod.problem.links import LinkText
@@ -64,7 +65,7 @@ def coincident_points(slides: Iterable[Slide]) -> list[str]:
 
 
 def _called(link: str) -> str:
-    return "the frame" if link == FRAME else f"link {link}"
+    return "the frame" if link == FRAME else say("link {}", link)
 
 
 def _refuse_doubles(
@@ -78,8 +79,12 @@ def _refuse_doubles(
         if len(points) > 1:
             faults.add(
                 f"links.{two}.points",
-                f"{_called(one)} and link {two} share the points {' and '.join(points)}: "
-                "they make one rigid body",
+                say(
+                    "{} and link {} share the points {}: they make one rigid body",
+                    _called(one),
+                    two,
+                    say(" and ").join(points),
+                ),
                 "Two links are joined at one point; give the other points other names.",
             )
     for slide in prismatics:
@@ -88,10 +93,17 @@ def _refuse_doubles(
         if points:
             faults.add(
                 f"links.{slide.slider}.slides",
-                f"link {slide.slider} slides on {_called(slide.host)} and is pivoted to it in "
-                f"{points[0]}: they make one rigid body",
-                f"The pin of a slider is not a point of the link that carries its line; "
-                f"remove {points[0]} from one of them.",
+                say(
+                    "link {} slides on {} and is pivoted to it in {}: they make one rigid body",
+                    slide.slider,
+                    _called(slide.host),
+                    points[0],
+                ),
+                say(
+                    "The pin of a slider is not a point of the link that carries its line; "
+                    "remove {} from one of them.",
+                    points[0],
+                ),
             )
 
 
@@ -121,15 +133,18 @@ def _check_reach(
         if name not in reached:
             faults.add(
                 link.path,
-                f"link {name} is not joined to the frame through other links",
-                "Links are joined by points of the same name and by slides: check the names "
-                f"{listed(link.points)}.",
+                say("link {} is not joined to the frame through other links", name),
+                say(
+                    "Links are joined by points of the same name and by slides: check the names "
+                    "{}.",
+                    listed(link.points),
+                ),
             )
         elif name != driver and len(touching[name]) < 2:
             where = next((p for p in link.points if any(j.point == p for j in revolutes)), None)
             faults.add(
                 link.path,
-                f"link {name} has one joint only" + (f", {where}" if where else ""),
+                say("link {} has one joint only{}", name, f", {where}" if where else ""),
                 "It would move freely: join another of its points, or make them points of the "
                 "link it is joined to.",
             )
@@ -143,9 +158,14 @@ def _check_coincident(
         if slide.host != FRAME and name in members:
             faults.add(
                 f"links.{slide.slider}.slides",
-                f"the point of link {slide.host} under the pin {slide.pin} is called {name}, "
-                "and another point has this name",
-                f"Rename the point {name}.",
+                say(
+                    "the point of link {} under the pin {} is called {}, and another point has "
+                    "this name",
+                    slide.host,
+                    slide.pin,
+                    name,
+                ),
+                say("Rename the point {}.", name),
             )
 
 
@@ -157,7 +177,11 @@ def _check_letters(faults: Faults, points: Iterable[str]) -> None:
         if twin != point:
             faults.add(
                 "links",
-                f"the points {twin} and {point} differ only in case: on the plans both are "
-                f"{point.lower()}",
-                f"Rename the point {point}.",
+                say(
+                    "the points {} and {} differ only in case: on the plans both are {}",
+                    twin,
+                    point,
+                    point.lower(),
+                ),
+                say("Rename the point {}.", point),
             )

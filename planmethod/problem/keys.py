@@ -10,6 +10,7 @@ from planmethod.languages import LANGUAGES
 TOP = (
     "title",
     "source",
+    "units",
     "frame",
     "links",
     "driver",
@@ -24,15 +25,20 @@ TOP = (
     "dynamics",
     "loads",
     "machine",
+    "balancing",
     "gears",
     "point",
     "cycle",
     "meshing",
 )
+UNITS: Mapping[str, float] = MappingProxyType({"m": 1.0, "cm": 100.0, "mm": 1000.0})
+"""Units in which a file may give its lengths: how many of them a metre has."""
 FRAME = ("guides",)
 GUIDE = ("through", "angle")
-LINK = ("points", "slides")
-SLIDES = ("on", "along", "through", "angle", "offset", "length")
+LINK = ("points", "slides", "angle")
+SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")
+ARC = ("on", "centre", "radius")
+"""Keys of a slide along a circle."""
 POINT_FORMS = {
     "side": ("side",),
     "on": ("on", "at", "across"),
@@ -43,7 +49,18 @@ POINT_FORMS = {
 POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
 CRANK = ("phi", "omega", "n", "train", "epsilon")
 SLIDER = ("s", "v", "a")
-DRIVER = ("link", *CRANK, *SLIDER)
+POSED = ("x", "y", "phi")
+"""Keys of the driver that tell a position by the output, each with a name: ``x_B``, ``phi_3``."""
+GOING = {
+    "x": ("right", "left"),
+    "y": ("up", "down"),
+    "phi": ("ccw", "cw"),
+    "stroke": ("forth", "back"),
+}
+"""Which way the output goes: forward of its coordinate, and back."""
+EXTREMES = ("left", "right", "upper", "lower")
+PLACES = ("phi", "s", "stroke", "at")
+DRIVER = ("link", *CRANK, *SLIDER, "stroke", "at", "root")
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
@@ -121,7 +138,19 @@ MACHINE = (
     "method",
     "phi_0",
     "flywheel",
+    "motor",
+    "brake",
 )
+MOTOR_FORMS = {
+    "kloss": (("M_max", "s_k", "n_sync"), ("P_nom", "n_nom", "n_sync", "lambda")),
+    "line": (("M_start", "n_idle"), ("M_nom", "n_nom", "n_idle")),
+}
+"""Numbers of each way to give a motor's characteristic."""
+KLOSS, LINE = (
+    tuple(dict.fromkeys(key for form in forms for key in form)) for forms in MOTOR_FORMS.values()
+)
+MOTOR = (*MOTOR_FORMS, "ratio")
+BALANCING = ("method", "share", "radii")
 FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
@@ -200,6 +229,10 @@ KNOWN: dict[str, tuple[str, ...]] = {
     "phases": PHASES,
     "machine": MACHINE,
     "flywheel": FLYWHEEL,
+    "motor": MOTOR,
+    "balancing": BALANCING,
+    "kloss": KLOSS,
+    "line": LINE,
     "gears": GEARS,
     "wheel": WHEEL,
     "mesh": MESH,

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import permutations
 from typing import Any
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.fields import (
@@ -21,10 +22,11 @@ from planmethod.problem.fields import (
     read_line_name,
     read_point_name,
     read_table,
+    read_text,
     report_unknown,
-    show,
     unmask,
 )
+from planmethod.problem.model import PointForm
 from planmethod.problem.names import (
     NAME_LIMIT,
     fold,
@@ -34,6 +36,7 @@ from planmethod.problem.names import (
     looks_latin,
     near,
     segment,
+    split_names,
     split_pair,
 )
 
@@ -53,21 +56,16 @@ class Length:
 
 
 @dataclass(frozen=True, slots=True)
-class PointForm:
-    """How a third point is given (способ задания точки).
+class Angle:
+    """Angle key of a link: from one directed line of it to another, degrees, ccw positive.
 
-    ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
-    of, ``point`` its point; lengths in metres, ``angle`` in degrees.
+    ``AOD``: from OA to OD; ``ABCD``: from AB to CD.
     """
 
-    kind: str
-    line: tuple[str, str] = ("", "")
-    point: str = ""
-    left: bool = True
-    at: float = 0.0
-    across: float = 0.0
-    angle: float = 0.0
-    distance: float | None = None
+    key: str
+    one: tuple[str, str]
+    two: tuple[str, str]
+    value: float
 
 
 @dataclass(slots=True)
@@ -83,16 +81,20 @@ class LinkText:
         seems to be joined to.
     faulty : set of str
         Points whose tables could not be read.
+    arc : tuple of two str, or None
+        Host and centre of a circular slot: its stone is read as a link from the centre to the pin.
     """
 
     name: str
     points: tuple[str, ...] = ()
     lengths: list[Length] = field(default_factory=list)
     forms: dict[str, PointForm] = field(default_factory=dict)
+    angles: list[Angle] = field(default_factory=list)
     slides: Table | None = None
     sound: bool = True
     whole: bool = True
     faulty: set[str] = field(default_factory=set)
+    arc: tuple[str, str] | None = None
 
     @property
     def path(self) -> str:
@@ -110,8 +112,8 @@ def read_label(faults: Faults, path: str, name: str, noun: str) -> bool:
         return True
     faults.add(
         path,
-        f"{name[:40]!r} cannot name a {noun}",
-        f"Use letters and digits, at most {NAME_LIMIT}.",
+        say("{!r} cannot name {}", name[:40], noun),
+        say("Use letters and digits, at most {}.", NAME_LIMIT),
     )
     return False
 
@@ -125,7 +127,7 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
     if not entries:
         faults.add("links", "there are no links", 'Add [links.1] with points = ["A", "B"].')
     if len(entries) > keys.LINK_LIMIT:
-        faults.add("links", f"{len(entries)} links, the limit is {keys.LINK_LIMIT}")
+        faults.add("links", say("{} links, the limit is {}", len(entries), keys.LINK_LIMIT))
         return found
     for key, value in entries.items():
         path = f"links.{segment(key)}"
@@ -133,10 +135,10 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         if name == FRAME:
             faults.add(path, "the name 0 is the frame's (стойка)", "Number the links from 1.")
             continue
-        if not read_label(faults, path, name, "link"):
+        if not read_label(faults, path, name, "a link"):
             continue
         if name in found:
-            faults.add(path, f"link '{name}' is given twice")
+            faults.add(path, say("link '{}' is given twice", name))
             continue
         body = read_table(faults, path, value, 'points = ["A", "B"]')
         before = len(faults)
@@ -146,7 +148,7 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         found[name] = link
     total = len({point for link in found.values() for point in link.points})
     if total > keys.POINT_LIMIT:
-        faults.add("links", f"{total} points, the limit is {keys.POINT_LIMIT}")
+        faults.add("links", say("{} points, the limit is {}", total, keys.POINT_LIMIT))
         return {}
     return found
 
@@ -154,12 +156,12 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
 def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
     link = LinkText(name)
     if len(table) > keys.LINK_KEY_LIMIT:
-        faults.add(path, f"{len(table)} keys in a link, the limit is {keys.LINK_KEY_LIMIT}")
+        faults.add(path, say("{} keys in a link, the limit is {}", len(table), keys.LINK_KEY_LIMIT))
         return link
     if "points" in table:
         link.points, link.whole = _read_points(faults, f"{path}.points", table["points"])
     else:
-        hint = f"Write points = [...] with the names of its points{_seen_points(table)}."
+        hint = say("Write points = [...] with the names of its points{}.", _seen_points(table))
         faults.add(f"{path}.points", "missing", hint)
         link.whole = False
     for key, value in table.items():
@@ -172,8 +174,11 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
                 link.slides = {}  # the link stays a slider: fewer follow-up faults
                 link.whole = False
             continue
+        if key == "angle":
+            _read_angles(faults, where, value, link)
+            continue
         plain = unmask(faults, where, key)
-        if is_number(value):
+        if is_number(value) or (isinstance(value, str) and split_pair(plain) is not None):
             _read_length_key(faults, where, plain, value, link)
         elif isinstance(value, dict) and is_point_name(plain):
             before = len(faults)
@@ -182,7 +187,53 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
                 link.faulty.add(plain)
         else:
             _report_odd_key(faults, where, plain, value, link)
+    if link.slides is not None and {"centre", "radius"} & link.slides.keys():
+        _read_arc(faults, f"{path}.slides", link)
     return link
+
+
+def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
+    """Read a slide along a circle: its stone moves as a link of that radius about its centre."""
+    before = len(faults)
+    given = read_keys(faults, path, link.slides or {}, keys.SLIDES)
+    link.slides = None
+    for key in given:
+        if key not in keys.ARC:
+            faults.add(f"{path}.{key}", "does not go with a circle", "Give on, centre, radius.")
+    for key in keys.ARC:
+        if key not in given and len(faults) == before:
+            hint = 'For example: slides = { on = "0", centre = "O2", radius = 0.2 }'
+            faults.add(f"{path}.{key}", "missing", hint)
+    centre = host = None
+    if "centre" in given:
+        centre = read_point_name(faults, f"{path}.centre", given["centre"])
+    if "on" in given:
+        host = read_text(faults, f"{path}.on", given["on"], limit=NAME_LIMIT)
+    radius = read_length(faults, f"{path}.radius", given["radius"]) if "radius" in given else None
+    if centre in link.points:
+        faults.add(f"{path}.centre", say("{} is a point of the stone itself", centre))
+    if centre and host and radius and link.points and centre not in link.points:
+        pin = link.points[0]
+        link.arc, link.points = (host, centre), (centre, *link.points)
+        link.lengths.insert(0, Length(f"{centre}{pin}", centre, pin, radius))
+    link.whole = link.whole and len(faults) == before
+
+
+def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[str]) -> None:
+    """Refuse a circular slot whose centre is no point of the link that has it."""
+    for link in links.values():
+        host, centre = link.arc or (FRAME, "")
+        known = fixed if host == FRAME else links[host].points if host in links else None
+        if link.arc is None or (known is not None and centre in known):
+            continue
+        path = f"{link.path}.slides"
+        if known is None:
+            report_unknown(faults, f"{path}.on", host, [FRAME, *links], said="unknown link '{}'")
+        else:
+            owner = "the frame" if host == FRAME else f"link {host}"
+            hint = say("Its points are {}.", listed(known))
+            faults.add(f"{path}.centre", say("{} has no point '{}'", owner, centre), hint)
+        link.whole = link.sound = False
 
 
 def _seen_points(table: Table) -> str:
@@ -195,10 +246,12 @@ def _read_points(faults: Faults, path: str, value: object) -> tuple[tuple[str, .
     """Names of the points, and whether all of them could be read."""
     if not isinstance(value, list) or not value:
         hint = 'For example: points = ["A", "B"]'
-        faults.add(path, f"expected a list of point names, got {show(value)}", hint)
+        faults.expected(path, "a list of point names", value, hint)
         return (), False
     if len(value) > keys.LINK_POINT_LIMIT:
-        faults.add(path, f"{len(value)} points in a link, the limit is {keys.LINK_POINT_LIMIT}")
+        faults.add(
+            path, say("{} points in a link, the limit is {}", len(value), keys.LINK_POINT_LIMIT)
+        )
         return (), False
     points: list[str] = []
     whole = True
@@ -207,7 +260,7 @@ def _read_points(faults: Faults, path: str, value: object) -> tuple[tuple[str, .
         if name is None:
             whole = False
         elif name in points:
-            faults.add(f"{path}[{index}]", f"point '{name}' is listed twice")
+            faults.add(f"{path}[{index}]", say("point '{}' is listed twice", name))
         else:
             points.append(name)
     return tuple(points), whole
@@ -222,19 +275,23 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
     if pair is None:
         guess = near(key, (*keys.LINK, *_pair_names(link.points)))
         example = "".join(link.points[:2]) if len(link.points) > 1 else "AB"
-        hint = f"A length is named by its two points: {example}."
-        faults.add(path, "unknown key", f"Did you mean '{guess}'?" if guess else hint)
+        hint = say("A length is named by its two points: {}.", example)
+        faults.add(path, "unknown key", say("Did you mean '{}'?", guess) if guess else hint)
         return
     strangers = [point for point in dict.fromkeys(pair) if point not in link.points]
     if strangers:
         if link.whole:
-            names = " and ".join(f"'{point}'" for point in strangers)
+            names = say(" and ").join(f"'{point}'" for point in strangers)
             adds = ", ".join(f'"{point}"' for point in strangers)
             faults.add(
                 path,
-                f"link {link.name} has no point {names}",
-                f"Its points are {listed(link.points)}; add {adds} to {link.path}.points "
-                "or correct the name.",
+                say("link {} has no point {}", link.name, names),
+                say(
+                    "Its points are {}; add {} to {}.points or correct the name.",
+                    listed(link.points),
+                    adds,
+                    link.path,
+                ),
             )
         return
     if pair[0] == pair[1]:
@@ -242,11 +299,32 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
         return
     twin = next((known for known in link.lengths if {known.a, known.b} == set(pair)), None)
     if twin is not None:
-        faults.add(path, f"the same length as {twin.key}", "Keep one of them.")
+        faults.add(path, say("the same length as {}", twin.key), "Keep one of them.")
         return
     length = read_length(faults, path, value)
     if length is not None:
         link.lengths.append(Length(key, *pair, length))
+
+
+def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> None:
+    """Read ``angle.AOD = 120``: angles between the lines of a link."""
+    entries = read_table(faults, path, value, "angle.AOD = 120, from OA to OD") or {}
+    for key, item in entries.items():
+        where = f"{path}.{segment(key)}"
+        names = split_names(unmask(faults, where, key))
+        lines = {3: (names[1::-1], names[1:]), 4: (names[:2], names[2:])}.get(len(names))
+        if lines is None or any(len(set(line)) < 2 for line in lines):
+            hint = "AOD is the angle from OA to OD, ABCD that from AB to CD."
+            faults.add(where, "expected the letters of an angle", hint)
+            continue
+        strangers = [point for point in dict.fromkeys(names) if point not in link.points]
+        if strangers and link.whole:
+            hint = say("Its points are {}.", listed(link.points))
+            faults.add(where, say("link {} has no point '{}'", link.name, strangers[0]), hint)
+        angle = read_angle(faults, where, item)
+        if angle is not None and not strangers:
+            one, two = ((line[0], line[1]) for line in lines)
+            link.angles.append(Angle(key, one, two, angle))
 
 
 def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:
@@ -254,8 +332,10 @@ def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: Li
         read_length(faults, path, value)
     elif is_point_name(key):
         link.faulty.add(key)
-        hint = f'For example: {key} = {{ on = "{"".join(link.points[:2]) or "BC"}", at = 0.1 }}'
-        faults.add(path, f"expected a table that places the point, got {show(value)}", hint)
+        hint = say(
+            'For example: {} = {{ on = "{}", at = 0.1 }}', key, "".join(link.points[:2]) or "BC"
+        )
+        faults.expected(path, "a table that places the point", value, hint)
     else:
         report_unknown(faults, path, key, (*keys.LINK, *_pair_names(link.points)))
 
@@ -266,30 +346,30 @@ def _read_form(faults: Faults, path: str, point: str, value: Table, link: LinkTe
             return  # it may be the name that could not be read
         faults.add(
             path,
-            f"link {link.name} has no point '{point}'",
-            f'Add "{point}" to {link.path}.points or correct the name.',
+            say("link {} has no point '{}'", link.name, point),
+            say('Add "{}" to {}.points or correct the name.', point, link.path),
         )
         return
     table = read_keys(faults, path, value, keys.POINT)
     kinds = [kind for kind in keys.POINT_FORMS if kind in table]
     if len(kinds) != 1:
-        got = f"got {' and '.join(kinds)}" if kinds else "got none of them"
-        hint = f'For example: {point} = {{ on = "BC", at = 0.1, across = 0 }}'
-        faults.add(path, f"expected one of side, on, from, vertex, {got}", hint)
+        got = say("got {}", say(" and ").join(kinds)) if kinds else "got none of them"
+        hint = say('For example: {} = {{ on = "BC", at = 0.1, across = 0 }}', point)
+        faults.add(path, say("expected one of side, on, from, vertex, {}", got), hint)
         return
     (kind,) = kinds
     allowed = keys.POINT_FORMS[kind]
     for key in table:
         if key not in allowed:
-            hint = f"With '{kind}' go {listed(allowed)}."
-            faults.add(f"{path}.{key}", f"does not go with '{kind}'", hint)
+            hint = say("With '{}' go {}.", kind, listed(allowed))
+            faults.add(f"{path}.{key}", say("does not go with '{}'", kind), hint)
     form = _FORM_READERS[kind](faults, path, point, table, link)
     if form is not None:
         link.forms[point] = form
 
 
 def _owner(link: LinkText) -> str:
-    return f"link {link.name}"
+    return say("link {}", link.name)
 
 
 def _need(faults: Faults, path: str, table: Table, *names: str) -> bool:
@@ -307,13 +387,13 @@ def _read_side(
     words = value.split() if isinstance(value, str) else []
     words = [unmask(faults, where, word) for word in words]
     if len(words) != 3 or words[0] not in ("left", "right") or words[1] != "of":
-        faults.add(where, f'expected "left of BC" or "right of BC", got {show(value)}')
+        faults.expected(where, '"left of BC" or "right of BC"', value)
         return None
     line = read_line_name(faults, where, words[2], link.points, of=_owner(link))
     if line is None:
         return None
     if point in line:
-        faults.add(where, f"the line {words[2]} goes through {point} itself")
+        faults.add(where, say("the line {} goes through {} itself", words[2], point))
         return None
     return PointForm("side", line=line, left=words[0] == "left")
 
@@ -334,7 +414,7 @@ def _read_on(
     if line is None or along is None:
         return None
     if point in line:
-        faults.add(f"{path}.on", f"the line {''.join(line)} is named by {point} itself")
+        faults.add(f"{path}.on", say("the line {} is named by {} itself", "".join(line), point))
         return None
     return PointForm("on", line=line, at=along[0], across=along[1])
 
@@ -347,7 +427,7 @@ def _read_from(
     if start is None or along is None:
         return None
     if start == point:
-        faults.add(f"{path}.from", f"{point} cannot be measured from itself")
+        faults.add(f"{path}.from", say("{} cannot be measured from itself", point))
         return None
     return PointForm("from", point=start, at=along[0], across=along[1])
 
@@ -372,7 +452,11 @@ def _read_vertex(
     if ray[0] != vertex or point in ray:
         faults.add(
             f"{path}.ray",
-            f"expected a ray from {vertex} to another point of the link, got '{''.join(ray)}'",
+            say(
+                "expected a ray from {} to another point of the link, got '{}'",
+                vertex,
+                "".join(ray),
+            ),
         )
         return None
     return PointForm("vertex", point=vertex, line=ray, angle=angle, distance=distance)

@@ -266,6 +266,33 @@ class Wheel:
 
 
 @dataclass(frozen=True, slots=True)
+class Motor:
+    """Characteristic of a motor, reduced to the crank (механическая характеристика двигателя).
+
+    Attributes
+    ----------
+    idle : float, 1/s
+        Speed of the crank at which there is no moment: synchronous, or of idle running.
+    moment : float, N·m
+        The greatest one of Kloss's formula; of a straight line the moment at rest.
+    critical_slip : float or None
+        Slip of the greatest moment; None of a straight line.
+    """
+
+    idle: float
+    moment: float
+    critical_slip: float | None = None
+
+    def at(self, omega: float) -> float:
+        """Return the moment, N·m, at a speed of the crank, 1/s (формула Клосса, прямая)."""
+        slip = 1.0 - omega / self.idle
+        if self.critical_slip is None:
+            return self.moment * slip
+        critical = self.critical_slip
+        return 2.0 * self.moment * slip * critical / (slip * slip + critical * critical)
+
+
+@dataclass(frozen=True, slots=True)
 class Machine:
     """What the choice of a flywheel knows beside masses and loads (исходные данные маховика).
 
@@ -291,6 +318,10 @@ class Machine:
     start_deg : float or None
         Driver angle of position 0; None: the first position of the file.
     wheel : Wheel
+    motor : Motor or None
+        What drives in a run-up.
+    brake : float or None, N·m
+        Moment on the crank that stops it; None: not asked.
     """
 
     delta: float
@@ -308,3 +339,31 @@ class Machine:
     method: Method = Method.WITTENBAUER
     start_deg: float | None = None
     wheel: Wheel = Wheel()
+    motor: Motor | None = None
+    brake: float | None = None
+
+
+class Weighing(Enum):
+    """How much counterweights balance (полное или частичное уравновешивание)."""
+
+    FULL = "full"
+    PARTIAL = "partial"  # by the crank's counterweight alone
+
+
+@dataclass(frozen=True, slots=True)
+class CounterweightTask:
+    """What ``[balancing]`` asks (статическое уравновешивание).
+
+    Attributes
+    ----------
+    method : Weighing
+    share : float or None
+        Share of the reciprocating mass that the crank balances; None: the first harmonic that turns
+        with the crank.
+    radii : mapping of str to float, m
+        By link, where its counterweight stands; elsewhere at the length of the link.
+    """
+
+    method: Weighing
+    share: float | None
+    radii: Mapping[str, float]

@@ -13,10 +13,11 @@ from fractions import Fraction
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
-    from planmethod.problem.load_records import Dynamics, Machine
+    from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,10 +35,37 @@ class Body:
         In file order. Every point of the link has coordinates.
     axis : tuple of two str, or None
         Letters of the own axis (("B", "C")); None for a slider and for a one-point link.
+    forms : mapping of str to PointForm
+        How the file gives the third points that have a table of their own.
+    angles : mapping of str to float, degrees
+        Angles of the link by their letters: ``AOD``; of two lines ``ABCD``.
+    arc : str or None
+        Centre of the circular slot whose stone the link stands for (дуговая направляющая).
     """
 
     points: Mapping[str, complex]
     axis: tuple[str, str] | None
+    forms: Mapping[str, PointForm] = field(default_factory=dict)
+    angles: Mapping[str, float] = field(default_factory=dict)
+    arc: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PointForm:
+    """How a third point is given (способ задания точки).
+
+    ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
+    of, ``point`` its point; lengths in metres, ``angle`` in degrees.
+    """
+
+    kind: str
+    line: tuple[str, str] = ("", "")
+    point: str = ""
+    left: bool = True
+    at: float = 0.0
+    across: float = 0.0
+    angle: float = 0.0
+    distance: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +115,8 @@ class Where(Enum):
     BELOW = "below"
     LEFT_OF = "left of"
     RIGHT_OF = "right of"
+    TOWARDS = "towards"
+    AWAY = "away from"
     NEAR = "near"
     PARALLEL = "parallel"
 
@@ -97,6 +127,8 @@ class Rule:
 
     ``right|left|above|below`` compare with one point (``refs`` has one name), ``left of`` and
     ``right of`` with a directed line (two names), ``near`` with a place ``at`` in metres;
+    ``towards`` and ``away from`` (one name) tell which way from its group's outer joint on the same
+    link the point lies: a bar goes on through its block, or ends before it;
     ``parallel`` asks for a parallelogram. A rule that is ``continuous`` is true of the first
     position; in the others the motion goes on from there, through change points too.
     """
@@ -125,7 +157,7 @@ class Coordinate:
 
     def told(self, value: str) -> str:
         """Return a value for a message: ``phi = 20 deg``."""
-        return f"{self.name} = {value} {self.unit}"
+        return f"{self.name} = {value} {say(self.unit)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +202,58 @@ class Geared:
     rate: float
 
 
+class PosedBy(Enum):
+    """What tells a position of the mechanism beside the driver's own coordinate."""
+
+    X = "x"
+    Y = "y"
+    PHI = "phi"
+    STROKE = "stroke"
+    EXTREME = "at"
+    LENGTH = "length"
+
+
+@dataclass(frozen=True, slots=True)
+class Posed:
+    """Positions that the output tells (положения, заданные выходным звеном).
+
+    Attributes
+    ----------
+    by : PosedBy
+    of : str
+        The point, the link of an angle, or two points of a length; empty of a share of the stroke
+        and of an extreme.
+    values : tuple of float
+        Coordinates and lengths, m; angles, degrees; shares of the stroke from position zero of the
+        cycle; or degrees of the crank after an extreme.
+    extremes : tuple of str
+        Which extreme each is counted from: ``left``, ``right``, ``upper``, ``lower``, ``other``, or
+        nothing for that of position zero.
+    going : str
+        Which of several positions is meant: that in which the output goes ``right``, ``ccw``,
+        ``forth`` ...; empty where the file does not say it.
+    near : float or None
+        That nearest to this position of the driver, degrees or m.
+    rates : tuple of float
+        Of an actuator, which drives by the distance of two points: m/s, m/s².
+    """
+
+    by: PosedBy
+    of: str
+    values: tuple[float, ...]
+    extremes: tuple[str, ...] = ()
+    going: str = ""
+    near: float | None = None
+    rates: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def key(self) -> str:
+        """Its key in ``[driver]``."""
+        if self.by is PosedBy.LENGTH:
+            return self.of
+        return f"{self.by.value}_{self.of}" if self.of else self.by.value
+
+
 @dataclass(frozen=True, slots=True)
 class Drive:
     """Law of motion of the driving link (начальное звено) in the positions asked for.
@@ -186,6 +270,10 @@ class Drive:
         omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s².
     geared : Geared or None
         The train that drives a crank, where one is given.
+    turns : float or None, rev/min
+        Rotational speed, where the file gives that.
+    posed : Posed or None
+        What tells the positions, where it is not the driver's coordinate: `positions` follow.
     """
 
     link: str
@@ -194,6 +282,8 @@ class Drive:
     rate: float
     acceleration: float
     geared: Geared | None = None
+    turns: float | None = None
+    posed: Posed | None = None
 
     @property
     def is_crank(self) -> bool:
@@ -405,8 +495,14 @@ class Problem:
         What ``[cycle]`` asks; None when the file has none.
     machine : Machine or None
         What the choice of a flywheel needs; None when the file has no ``[machine]``.
+    balancing : CounterweightTask or None
+        What ``[balancing]`` asks; None when the file has none.
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
+    unit : str
+        Unit in which the file gives lengths: ``m``, ``cm`` or ``mm``.
+    stated : mapping of str to str
+        Arithmetic that the file has for a number (``0.25/3``), by path.
     """
 
     name: str
@@ -429,7 +525,10 @@ class Problem:
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
     machine: Machine | None = None
+    balancing: CounterweightTask | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
+    unit: str = "m"
+    stated: Mapping[str, str] = field(default_factory=dict)
 
     def is_block(self, slide: Slide) -> bool:
         """Tell whether the host of a slide is a block through which the slider, a bar, passes."""

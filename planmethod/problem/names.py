@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from planmethod.languages import say
+
 POINT_NAME_LIMIT = 8
 NAME_LIMIT = 24
 TITLE_LIMIT = 300
@@ -27,6 +29,7 @@ _FOLD = str.maketrans(LOOKALIKES)
 _LETTER = r"[A-Za-zΓΔΘΛΞΠΣΦΨΩα-νξπ-ω]"
 _POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
 _POINT_RE = re.compile(rf"{_POINT}\Z")
+_POINT_FIND, _POINTS_RE = re.compile(_POINT), re.compile(rf"(?:{_POINT})+\Z")
 _PAIR_RE = re.compile(rf"({_POINT})({_POINT})\Z")
 _LABEL_RE = re.compile(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
 
@@ -41,21 +44,22 @@ def lookalikes(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(c for c in text if c in LOOKALIKES and c not in _PRIMES))
 
 
-def alphabet(letter: str) -> str:
-    """Name of the alphabet of a look-alike letter."""
-    return "Greek" if "Ͱ" <= letter <= "Ͽ" else "Cyrillic"
+def _letter(c: str) -> str:
+    """Name of a look-alike letter."""
+    greek = "Ͱ" <= c <= "Ͽ"
+    said = "the Greek letter {} (U+{:04X})" if greek else "the Cyrillic letter {} (U+{:04X})"
+    return say(said, c, ord(c))
 
 
 def describe_lookalikes(text: str) -> str:
     """Say which letters of a name are not Latin: the message of a fault."""
     letters = lookalikes(text)
     first = letters[0]
-    parts = [f"the {alphabet(c)} letter {c} (U+{ord(c):04X})" for c in letters]
-    wanted = ", ".join(f"'{LOOKALIKES[c]}'" for c in letters)
-    kind = "digit" if LOOKALIKES[first].isdigit() else "Latin letter"
-    plural = "s" if len(letters) > 1 else ""
-    verb = "is" if text == first else "has"
-    return f"'{short(text)}' {verb} {' and '.join(parts)}, expected the {kind}{plural} {wanted}"
+    digit = LOOKALIKES[first].isdigit()
+    kind = "expected the digit{0:||s} {1}" if digit else "expected the Latin letter{0:||s} {1}"
+    wanted = say(kind, len(letters), ", ".join(f"'{LOOKALIKES[c]}'" for c in letters))
+    said = "'{}' is {}, {}" if text == first else "'{}' has {}, {}"
+    return say(said, short(text), say(" and ").join(map(_letter, letters)), wanted)
 
 
 def is_point_name(text: str) -> bool:
@@ -73,6 +77,17 @@ def split_pair(text: str) -> tuple[str, str] | None:
     """
     match = _PAIR_RE.match(text)
     return (match.group(1), match.group(2)) if match else None
+
+
+def split_names(text: str) -> tuple[str, ...]:
+    """Split any number of point names written together; nothing if they are not.
+
+    Examples
+    --------
+    >>> split_names("AO3D")
+    ('A', 'O3', 'D')
+    """
+    return tuple(_POINT_FIND.findall(text)) if _POINTS_RE.match(text) else ()
 
 
 def is_label(text: str) -> bool:
@@ -105,7 +120,7 @@ def listed(names: Iterable[str], *, limit: int = 12) -> str:
     """Names in one line for a message, cut when there are many."""
     every = list(names)
     text = ", ".join(every[:limit])
-    return f"{text}, ... ({len(every)} in all)" if len(every) > limit else text
+    return say("{}, ... ({} in all)", text, len(every)) if len(every) > limit else text
 
 
 def short(text: str, limit: int = 40) -> str:

@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.mechanism.model import FRAME
+from planmethod.languages import say
+from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem import keys
 from planmethod.problem.answers import Scene, read_answers
 from planmethod.problem.bodies import place_points
 from planmethod.problem.cycle import read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.extras import read_heading, read_published, read_tables
-from planmethod.problem.fields import Faults, read_keys
+from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
-from planmethod.problem.links import LinkText, read_links
+from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import fold, listed, near
 from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
+from planmethod.problem.table import with_table
 from planmethod.problem.variants import apply_variant, read_variants
 
 TrainReader: TypeAlias = Callable[[Faults, Mapping[str, Any], object], Geared | None]
@@ -49,8 +51,14 @@ def load(
         With every fault of the file: path, what was expected, what was found, the next action.
     """
     path = Path(path)
-    table = parse(read_source(path), name=str(path))
-    return read_parsed(table, source=str(path), name=path.stem, variant=variant, train=train)
+    table, faults = _from_file(path)
+    return _read_parsed(faults, table, str(path), path.stem, variant, train)
+
+
+def _from_file(path: Path) -> tuple[Mapping[str, Any], Faults]:
+    """Return the table of a file, with the variants that may lie in a table beside it."""
+    faults = Faults()
+    return with_table(faults, parse(read_source(path), name=str(path)), path.parent), faults
 
 
 def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
@@ -61,8 +69,7 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
     ProblemError
         The file cannot be read, or has no such variant.
     """
-    table = parse(read_source(path), name=str(path))
-    faults = Faults()
+    table, faults = _from_file(path)
     variants = read_variants(faults, table)
     if variant is None:
         return table, faults
@@ -88,8 +95,7 @@ def variant_names(path: str | Path) -> tuple[str, ...]:
         The file cannot be read, or its variants are faulty.
     """
     path = Path(path)
-    table = parse(read_source(path), name=str(path))
-    faults = Faults()
+    table, faults = _from_file(path)
     names = tuple(read_variants(faults, table))
     if faults:
         raise ProblemError(str(path), faults.found)
@@ -120,6 +126,18 @@ def read_parsed(
     ProblemError
     """
     faults = Faults()
+    table = with_table(faults, table, None)
+    return _read_parsed(faults, table, source, name, variant, train)
+
+
+def _read_parsed(
+    faults: Faults,
+    table: Mapping[str, Any],
+    source: str,
+    name: str,
+    variant: str | None,
+    train: TrainReader | None,
+) -> Problem:
     variants = read_variants(faults, table)
     if variant is not None:
         if variant not in variants:
@@ -134,18 +152,22 @@ def read_parsed(
 def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     """Return the fault of a variant that a file has not, with the nearest name."""
     if not known:
-        return Fault("variants", f"there is no variant '{variant}'", "The file has no variants.")
+        return Fault(
+            "variants", say("there is no variant '{}'", variant), "The file has no variants."
+        )
     guess = near(variant, known) or next((k for k in known if fold(k) == fold(variant)), None)
-    hint = f"Did you mean '{guess}'?" if guess else f"There are {listed(known)}."
+    hint = say("Did you mean '{}'?", guess) if guess else say("There are {}.", listed(known))
     if guess and fold(guess) == fold(variant):
-        hint = f"Did you mean '{guess}' in the other layout (Russian or Latin)?"
-    return Fault("variants", f"there is no variant '{variant}'", hint)
+        hint = say("Did you mean '{}' in the other layout (Russian or Latin)?", guess)
+    return Fault("variants", say("there is no variant '{}'", variant), hint)
 
 
 def _read_parts(
     faults: Faults, table: Mapping[str, Any], name: str, train: TrainReader | None
 ) -> Problem | None:
     given = read_keys(faults, "", table, keys.TOP)
+    if "units" in given:
+        faults.unit = read_word(faults, "units", given["units"], keys.UNITS) or faults.unit
     title = read_heading(faults, given, "title")
     source = read_heading(faults, given, "source")
     stamp = read_stamp(faults, given.get("stamp", {}))
@@ -159,14 +181,18 @@ def _read_parts(
     for key in ("frame", "driver"):
         if key not in given:
             faults.add(key, "missing", _MISSING[key])
+    drivers = _drivers(given)
+    if len(drivers) > 1:
+        given["driver"] = drivers[0]
     frame = read_frame(faults, given.get("frame", {}))
     links = read_links(faults, given["links"])
     if "frame" not in given:
         return None
+    check_arcs(faults, links, frame.points)
     for guide in frame.guides:
         if guide in links:
             hint = "Rename the guide, for instance x-x."
-            faults.add(f"frame.guides.{guide}", f"link {guide} has the same name", hint)
+            faults.add(f"frame.guides.{guide}", say("link {} has the same name", guide), hint)
     hosts, guides = _find_hosts(faults, links, frame)
     bodies = _place(faults, links, frame, hosts)
     slides = _read_slides(faults, links, frame, hosts, guides, bodies)
@@ -182,6 +208,8 @@ def _read_parts(
         and all(link.whole for link in links.values())
     )
     mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
+    if len(drivers) > 1:
+        _refuse_drivers(faults, drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
     moving = list(dict.fromkeys(moving))
     assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
@@ -194,6 +222,11 @@ def _read_parts(
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
         dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
+    balancing = None
+    if "balancing" in given:
+        from planmethod.problem.balancing import read_balancing  # few files have one
+
+        balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
     cycle = None
     if "cycle" in given:
         cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
@@ -222,6 +255,8 @@ def _read_parts(
         name=name,
         title=title,
         source=source,
+        unit=faults.unit,
+        stated=dict(faults.stated),
         mechanism=mechanism,
         bodies=bodies,
         slides={link: slides[link] for link in links if link in slides},
@@ -241,6 +276,7 @@ def _read_parts(
         dynamics=dynamics,
         cycle=cycle,
         machine=machine,
+        balancing=balancing,
         tables=tables,
     )
 
@@ -256,7 +292,7 @@ def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
         if key in given:
             faults.add(
                 "links",
-                f"missing: the file describes {what} ([{key}]), not a linkage",
+                say("missing: the file describes {} ([{}]), not a linkage", what, key),
                 "Plans of a linkage need [frame], [links] and [driver].",
             )
             return
@@ -278,6 +314,37 @@ def _read_geared(
         faults.add("driver.train", "trains are not read here", hint)
         return None
     return train(faults, given["gears"], driver["train"])
+
+
+def _drivers(given: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Return the drivers: several as a list of tables, or as a list of links."""
+    driver = given.get("driver")
+    listed_links = driver.get("link") if isinstance(driver, Mapping) else None
+    if isinstance(driver, Mapping) and isinstance(listed_links, list):
+        return [{**driver, "link": link} for link in listed_links]
+    return [one for one in driver if isinstance(one, Mapping)] if isinstance(driver, list) else []
+
+
+def _refuse_drivers(
+    faults: Faults, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism | None
+) -> None:
+    """Say why several drivers are refused: what they are, and how many the mechanism needs."""
+    count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
+    message = say("{} drivers are given: links {}", count, names)
+    hint = "Plans are made of mechanisms with one: keep one, and join the others to it."
+    if mechanism is not None:
+        n, pairs = len(mechanism.links), mechanism.lower_pairs
+        mobility = 3 * n - 2 * pairs
+        message += f"; W = 3n - 2p1 = 3·{n} - 2·{pairs} = {mobility}"
+        if mobility == 1:
+            hint = "One driver moves all links of this mechanism: keep one of them."
+        elif mobility == count:
+            hint = say(
+                "The mechanism needs {}, and plans are made of mechanisms with W = 1: "
+                "give a pair that joins two of the drivers, or take one of them as fixed.",
+                count,
+            )
+    faults.add("driver", message, hint)
 
 
 def _driver_name(given: Mapping[str, Any]) -> object:
@@ -312,7 +379,7 @@ def _place(
         if alone and name not in carriers and link.sound:
             faults.add(
                 link.path,
-                f"link {name} has one point and neither slides nor carries a slide",
+                say("link {} has one point and neither slides nor carries a slide", name),
                 "List its second point, or give slides = { on = ... }.",
             )
             link.sound = link.whole = False

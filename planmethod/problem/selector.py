@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.names import near, short
 
@@ -98,6 +99,8 @@ MACHINE: Mapping[str, int] = {
     "machine T": 1,
     "machine energy": 2,
     "machine constant": 0,
+    "machine omega": 0,
+    "machine delta": 0,
     "machine mu_phi": 0,
     "machine mu_A": 0,
     "machine psi_max": 0,
@@ -158,16 +161,16 @@ def _parse_one(text: str) -> Selector:
         counts = QUANTITIES.get(kind) or tuple(len(form) for form in FORCES[kind])
     if kind.startswith("arm "):
         if names[-2:-1] != [_ABOUT]:
-            raise SelectorError(f"'{kind}' ends with '{_ABOUT}' and a point")
+            raise SelectorError(say("'{}' ends with '{}' and a point", kind, _ABOUT))
         del names[-2]
     if len(names) not in counts:
-        wanted = " or ".join(map(str, counts))
-        noun = "name" if wanted == "1" else "names"
-        raise SelectorError(f"'{kind}' takes {wanted} {noun}, got {len(names)}")
+        wanted = say(" or ").join(map(str, counts))
+        told = "'{0}' takes {1} name{2:||s}, got {3}"
+        raise SelectorError(say(told, kind, wanted, 1 if wanted == "1" else 2, len(names)))
     selector = Selector(kind, tuple(names))
     for pair in _must_differ(selector):
         if len(set(pair)) != len(pair):
-            raise SelectorError(f"'{kind}' needs two different names")
+            raise SelectorError(say("'{}' needs two different names", kind))
     return selector
 
 
@@ -181,8 +184,8 @@ def _kind(words: list[str]) -> tuple[str, list[str]]:
     known = [*QUANTITIES, *FORCES, *MACHINE]
     unknown = " ".join(words[:2]) if first in _PAIRED else first
     guess = near(unknown, known)
-    tail = f" (the nearest is '{guess}')" if guess else ""
-    raise SelectorError(f"unknown quantity '{short(unknown)}'{tail}")
+    tail = say(" (the nearest is '{}')", guess) if guess else ""
+    raise SelectorError(say("unknown quantity '{}'{}", short(unknown), tail))
 
 
 def _must_differ(selector: Selector) -> list[tuple[str, ...]]:

@@ -9,9 +9,10 @@ from collections.abc import Collection
 from typing import Any
 
 from planmethod.errors import LayoutError
+from planmethod.languages import say
 from planmethod.paper import paper_format
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, read_flag, read_keys, read_table, read_text, show
+from planmethod.problem.fields import Faults, read_flag, read_keys, read_table, read_text
 from planmethod.problem.model import SheetSettings
 from planmethod.problem.names import fold, joined, near, segment
 
@@ -58,7 +59,7 @@ def _given(
     other = "sheet" if path == "stamp" else "stamp"
     astray = [key for key in entries if key in others and key not in known]
     for key in astray:
-        faults.add(joined(path, segment(key)), "unknown key", f"It stands in [{other}].")
+        faults.add(joined(path, segment(key)), "unknown key", say("It stands in [{}].", other))
     kept = {key: value for key, value in entries.items() if key not in astray}
     return read_keys(faults, path, kept, known)
 
@@ -82,8 +83,8 @@ def _read_choice(faults: Faults, path: str, value: object, known: Collection[str
     word = chosen(text, known)
     if word is None:
         guess = near(text, known)
-        hint = f"Did you mean '{guess}'?" if guess else ""
-        faults.add(path, f"expected one of {', '.join(known)}, got {show(value)}", hint)
+        hint = say("Did you mean '{}'?", guess) if guess else ""
+        faults.expected(path, say("one of {}", ", ".join(known)), value, hint)
     return word
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from itertools import pairwise
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -59,7 +60,7 @@ def read_size(
         return _read_table(faults, path, value, drive, turn, couple=couple)
     what = "a couple in N·m" if couple else "a force in N"
     if not is_number(value) and not isinstance(value, str):
-        faults.add(path, f"expected {what} or a table, got {show(value)}", f"A table: {_TABLE}.")
+        faults.expected(path, say("{} or a table", what), value, say("A table: {}.", _TABLE))
         return None
     return _read_value(faults, path, value, what)
 
@@ -87,8 +88,8 @@ def _read_table(
     if law is not None:
         given = {**_LAWS[law], **given}
     for key, hint in (
-        ("over", f"Say what the values are over: {listed(_OVERS)}."),
-        ("values", f"For example: {_TABLE}."),
+        ("over", say("Say what the values are over: {}.", listed(_OVERS))),
+        ("values", say("For example: {}.", _TABLE)),
     ):
         if key not in given and whole:
             faults.add(f"{path}.{key}", "missing", hint)
@@ -127,7 +128,7 @@ def _read_indicator(
     if couple:
         faults.add(f"{path}.law", "'indicator' does not go with a couple", "A piston has a force.")
     if drive is not None and not drive.is_crank:
-        faults.add(f"{path}.law", f"link {drive.link} slides: there is no cycle of a crank")
+        faults.add(f"{path}.law", say("link {} slides: there is no cycle of a crank", drive.link))
     for key in ("over", "values", "interpolation"):
         if key in given:
             faults.add(f"{path}.{key}", 'does not go with law = "indicator"', _INDICATOR)
@@ -142,7 +143,7 @@ def _read_indicator(
     if not isinstance(strokes, list) or len(strokes) not in (2, 4):
         if "strokes" in given:
             shown = show(strokes)
-            faults.add(f"{path}.strokes", f"expected 2 or 4 strokes, got {shown}", _INDICATOR)
+            faults.add(f"{path}.strokes", say("expected 2 or 4 strokes, got {}", shown), _INDICATOR)
         return None
     at: list[float] = []
     pressures: list[float] = []
@@ -208,16 +209,18 @@ def _read_over(
         return None
     over = Over(word)
     if over is Over.PATH and drive is not None and not drive.is_crank:
-        faults.add(path, f"link {drive.link} slides: there is no stroke of a whole turn")
+        faults.add(path, say("link {} slides: there is no stroke of a whole turn", drive.link))
         return None
     if couple and over in (Over.X, Over.Y, Over.PATH):
         hint = "A couple has no point: give it over phi, s or position."
-        faults.add(path, f"'{over.value}' does not go with a couple", hint)
+        faults.add(path, say("'{}' does not go with a couple", over.value), hint)
         return None
     if drive is not None and over in (Over.PHI, Over.S) and over.value != drive.coordinate.name:
-        kind = "turns" if drive.is_crank else "slides"
-        message = f"'{over.value}' is not what the driver has: link {drive.link} {kind}"
-        faults.add(path, message, f"Give the table over {drive.coordinate.name}.")
+        message = "'{}' is not what the driver has: link {} slides"
+        if drive.is_crank:
+            message = "'{}' is not what the driver has: link {} turns"
+        hint = say("Give the table over {}.", drive.coordinate.name)
+        faults.add(path, say(message, over.value, drive.link), hint)
         return None
     return over
 
@@ -254,17 +257,19 @@ def _read_rows(
 ) -> Rows | None:
     """Read the rows of a table: abscissae and values."""
     if not isinstance(value, list):
-        faults.add(path, f"expected a list, got {show(value)}", f"For example: {_TABLE}.")
+        faults.expected(path, "a list", value, say("For example: {}.", _TABLE))
         return None
     if len(value) > keys.ROW_LIMIT:
-        faults.add(path, f"{len(value)} values, the limit is {keys.ROW_LIMIT}")
+        faults.add(path, say("{} values, the limit is {}", len(value), keys.ROW_LIMIT))
         return None
     if over is Over.POSITION:
         return _read_by_position(faults, path, value, what, drive)
     if len(value) < 2:
-        hint = f"For example: {_TABLE}. A constant load is just a number."
+        hint = say("For example: {}. A constant load is just a number.", _TABLE)
         faults.add(
-            path, f"expected at least two rows [{over.value}, value], got {len(value)}", hint
+            path,
+            say("expected at least two rows [{}, value], got {}", over.value, len(value)),
+            hint,
         )
         return None
     before = len(faults)
@@ -273,7 +278,7 @@ def _read_rows(
     for index, row in enumerate(value):
         where = f"{path}[{index}]"
         if not isinstance(row, list) or len(row) != 2:
-            faults.add(where, f"expected [{over.value}, value], got {show(row)}")
+            faults.expected(where, say("[{}, value]", over.value), row)
             continue
         at = read(faults, f"{where}[0]", row[0])
         size = _read_value(faults, f"{where}[1]", row[1], what)
@@ -294,7 +299,7 @@ def _read_by_position(
     if drive is not None and len(sizes) != len(drive.positions):
         count = len(drive.positions)
         hint = "Give one for each position of the driver, or a table over its motion."
-        faults.add(path, f"{len(sizes)} values for {count} positions", hint)
+        faults.add(path, say("{} values for {} positions", len(sizes), count), hint)
         return None
     return (), sizes
 
@@ -313,22 +318,23 @@ def _check_order(
         if two > one or (jumps and two == one and (index < 2 or rows[index - 2][0] < one)):
             continue
         if two == one:
-            message, hint = f"{over.value} = {two:g} is in two rows", "Keep one of them."
+            message, hint = say("{} = {:g} is in two rows", over.value, two), "Keep one of them."
         else:
-            message, hint = f"{over.value} = {two:g} after {one:g}", "Put the rows in order."
+            message = say("{} = {:g} after {:g}", over.value, two, one)
+            hint = "Put the rows in order."
         faults.add(f"{path}[{index}]", message, hint)
         return False
     if over is not Over.PHI:
         return True
     (start, first), (end, last) = rows[0], rows[-1]
     if end - start > turn:
-        message = f"the rows span {end - start:g} degrees, a turn has {turn:g}"
+        message = "the rows span {:g} degrees, a turn has {:g}"
         if turn != TURN:
-            message = message.replace("turn", "cycle")
-        faults.add(path, message, "The table repeats with every turn.")
+            message = "the rows span {:g} degrees, a cycle has {:g}"
+        faults.add(path, say(message, end - start, turn), "The table repeats with every turn.")
         return False
     if end - start == turn and first != last:
-        message = f"{first:g} at {start:g} degrees and {last:g} a turn later"
+        message = say("{:g} at {:g} degrees and {:g} a turn later", first, start, last)
         faults.add(path, message, "The table repeats with every turn: its ends are one position.")
         return False
     return True
@@ -354,19 +360,20 @@ def read_phase(
         Point of application, if it is fixed.
     """
     if not isinstance(value, dict):
-        faults.add(path, f"expected a table, got {show(value)}", f"For example: {_PHASES}.")
+        faults.expected(path, "a table", value, say("For example: {}.", _PHASES))
         return None
     before = len(faults)
     given = read_keys(faults, path, value, keys.PHASES)
     if not given and len(faults) == before:
-        faults.add(path, "expected phi, moving or turning, got an empty table", _PHASES + ".")
+        hint = say("For example: {}.", _PHASES)
+        faults.add(path, "expected phi, moving or turning, got an empty table", hint)
     spans: Spans | None = ()
     moving = turning = None
     if "phi" in given:
         spans = _read_spans(faults, f"{path}.phi", given["phi"])
         if drive is not None and not drive.is_crank:
             hint = 'Say which way the point moves: phases = { moving = "down" }.'
-            faults.add(f"{path}.phi", f"link {drive.link} slides, it has no phi", hint)
+            faults.add(f"{path}.phi", say("link {} slides, it has no phi", drive.link), hint)
     if "moving" in given:
         where = f"{path}.moving"
         moving = read_member(faults, where, given["moving"], Moving)
@@ -374,7 +381,7 @@ def read_phase(
             hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
             faults.add(where, "does not go with a couple", hint)
         elif still is not None:
-            faults.add(where, f"point {still} is fixed and does not move")
+            faults.add(where, say("point {} is fixed and does not move", still))
     if "turning" in given:
         turning = read_member(faults, f"{path}.turning", given["turning"], Turning)
     if len(faults) != before or spans is None:
@@ -385,10 +392,10 @@ def read_phase(
 def _read_spans(faults: Faults, path: str, value: object) -> Spans | None:
     """Read ``[from, to]`` or a list of such, degrees."""
     if not isinstance(value, list) or not value:
-        faults.add(path, f"expected [from, to] in degrees, got {show(value)}")
+        faults.expected(path, "[from, to] in degrees", value)
         return None
     if len(value) > keys.ROW_LIMIT:
-        faults.add(path, f"{len(value)} phases, the limit is {keys.ROW_LIMIT}")
+        faults.add(path, say("{} phases, the limit is {}", len(value), keys.ROW_LIMIT))
         return None
     if any(isinstance(item, list) for item in value):
         read = [_read_span(faults, f"{path}[{i}]", item) for i, item in enumerate(value)]
@@ -400,14 +407,14 @@ def _read_spans(faults: Faults, path: str, value: object) -> Spans | None:
 
 def _read_span(faults: Faults, path: str, value: object) -> tuple[float, float] | None:
     if not isinstance(value, list) or len(value) != 2:
-        faults.add(path, f"expected [from, to] in degrees, got {show(value)}")
+        faults.expected(path, "[from, to] in degrees", value)
         return None
     start = read_angle(faults, f"{path}[0]", value[0])
     end = read_angle(faults, f"{path}[1]", value[1])
     if start is None or end is None:
         return None
     if start == end or abs(end - start) > TURN:
-        message = f"expected a phase within one turn, got {start:g} to {end:g}"
+        message = say("expected a phase within one turn, got {:g} to {:g}", start, end)
         faults.add(path, message, "A load without phases always acts.")
         return None
     return start, end

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import keys
 from planmethod.problem.bodies import heading
@@ -21,7 +22,6 @@ from planmethod.problem.fields import (
     read_point_name,
     read_table,
     report_unknown,
-    show,
     unmask,
 )
 from planmethod.problem.links import LinkText, read_label
@@ -47,7 +47,7 @@ def read_frame(faults: Faults, table: object) -> Frame:
     points: dict[str, complex] = {}
     entries = read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
     if len(entries) > keys.POINT_LIMIT:
-        faults.add("frame", f"{len(entries)} points, the limit is {keys.POINT_LIMIT}")
+        faults.add("frame", say("{} points, the limit is {}", len(entries), keys.POINT_LIMIT))
         return Frame({}, {}, sound=False)
     rest: object = {}
     for key, value in entries.items():
@@ -61,7 +61,7 @@ def read_frame(faults: Faults, table: object) -> Frame:
         name = read_point_name(faults, path, key)
         place = read_place(faults, path, value)
         if name is not None and name in points:
-            faults.add(path, f"point '{name}' is given twice")
+            faults.add(path, say("point '{}' is given twice", name))
         elif name is not None:
             # a point with a faulty place is still a point: others may name it
             points[name] = 0j if place is None else place
@@ -74,12 +74,14 @@ def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -
     entries = read_table(faults, "frame.guides", table, example) or {}
     guides: dict[str, Guide] = {}
     if len(entries) > keys.POINT_LIMIT:
-        faults.add("frame.guides", f"{len(entries)} guides, the limit is {keys.POINT_LIMIT}")
+        faults.add(
+            "frame.guides", say("{} guides, the limit is {}", len(entries), keys.POINT_LIMIT)
+        )
         return guides
     for key, value in entries.items():
         path = f"frame.guides.{segment(key)}"
         name = unmask(faults, path, key) if looks_latin(key) else key
-        if not read_label(faults, path, name, "guide"):
+        if not read_label(faults, path, name, "a guide"):
             continue
         guides[name] = (None, 0j, 0.0)
         body = read_table(faults, path, value, example)
@@ -87,7 +89,7 @@ def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -
             continue
         given = read_keys(faults, path, body, keys.GUIDE)
         for missing in (key for key in keys.GUIDE if key not in given):
-            faults.add(f"{path}.{missing}", "missing", f"For example: {example}")
+            faults.add(f"{path}.{missing}", "missing", say("For example: {}", example))
         through: str | None = None
         base: complex | None = 0j
         if isinstance(given.get("through"), str):
@@ -118,8 +120,8 @@ def find_host(
         return None
     value = link.slides["on"]
     if not isinstance(value, str):
-        hint = f'Write on = "{value}".' if isinstance(value, int) else ""
-        faults.add(f"{path}.on", f"expected the name of a guide or link, got {show(value)}", hint)
+        hint = say('Write on = "{}".', value) if isinstance(value, int) else ""
+        faults.expected(f"{path}.on", "the name of a guide or link", value, hint)
         return None
     name = value if value in known else unmask(faults, f"{path}.on", value)
     if name in frame.guides:
@@ -127,10 +129,10 @@ def find_host(
     if name == FRAME:
         return FRAME, None
     if name == link.name:
-        faults.add(f"{path}.on", f"link {name} cannot slide on itself")
+        faults.add(f"{path}.on", say("link {} cannot slide on itself", name))
         return None
     if name not in links:
-        report_unknown(faults, f"{path}.on", name, known, noun="guide or link")
+        report_unknown(faults, f"{path}.on", name, known, said="unknown guide or link '{}'")
         return None
     return name, None
 
@@ -150,10 +152,10 @@ def order_hosts(faults: Faults, hosts: Mapping[str, str]) -> list[str]:
         if link in chain:
             circle = chain[chain.index(link) :]
             if start == min(circle, key=list(hosts).index):
-                names = " on ".join([*circle, circle[0]])
+                names = say(" on ").join([*circle, circle[0]])
                 faults.add(
                     f"links.{segment(start)}.slides.on",
-                    f"links slide on each other in a circle: {names}",
+                    say("links slide on each other in a circle: {}", names),
                     "One of them must carry the line without sliding itself.",
                 )
             continue
@@ -195,13 +197,13 @@ def read_slide(
     if guide is not None:
         for key in ("along", "through", "angle"):
             if key in given:
-                hint = f"The line is given in frame.guides.{guide}."
-                faults.add(f"{path}.{key}", f"does not go with the guide '{guide}'", hint)
+                hint = say("The line is given in frame.guides.{}.", guide)
+                faults.add(f"{path}.{key}", say("does not go with the guide '{}'", guide), hint)
         if len(faults) != before:
             return None
         fixed, base, direction = frame.guides[guide]
         return Slide(link.name, FRAME, pin, base, direction, offset, guide, fixed, length=length)
-    owner = "the frame" if host == FRAME else f"link {host}"
+    owner = "the frame" if host == FRAME else say("link {}", host)
     if "along" in given:
         for key in ("through", "angle"):
             if key in given:
@@ -212,7 +214,7 @@ def read_slide(
             return None
         start, end = body.points[line[0]], body.points[line[1]]
         if start == end:
-            faults.add(f"{path}.along", f"{line[0]} and {line[1]} are one place")
+            faults.add(f"{path}.along", say("{} and {} are one place", line[0], line[1]))
             return None
         along = heading(end - start)
         label = "".join(line)
@@ -235,7 +237,9 @@ def _read_through(faults: Faults, path: str, given: Table, body: Body, owner: st
         ways = [f'along = "{pair}"'] if pair else []
         ways += [f'through = "{points[0]}", angle = 0'] if points else []
         faults.add(
-            path, f"no line of {owner} is named", f"Add {' or '.join(ways)}." if ways else ""
+            path,
+            say("no line of {} is named", owner),
+            say("Add {}.", say(" or ").join(ways)) if ways else "",
         )
         return None
     return read_known_point(faults, f"{path}.through", given["through"], body.points, of=owner)
@@ -255,8 +259,8 @@ def _read_slide_angle(
     if "angle" not in given:
         if bare:
             return 0.0
-        axis = "+x" if turn is not None else f"the own axis of link {host}"
-        faults.add(f"{path}.angle", "missing", f"Give it in degrees from {axis}.")
+        axis = "+x" if turn is not None else say("the own axis of link {}", host)
+        faults.add(f"{path}.angle", "missing", say("Give it in degrees from {}.", axis))
         return None
     angle = read_angle(faults, f"{path}.angle", given["angle"])
     if angle is None:
@@ -264,12 +268,12 @@ def _read_slide_angle(
     if bare and not marked and angle != 0:
         faults.add(
             f"{path}.angle",
-            f"expected 0 or nothing, got {angle:g}",
-            f"Link {host} has no axis other than the line it carries.",
+            say("expected 0 or nothing, got {:g}", angle),
+            say("Link {} has no axis other than the line it carries.", host),
         )
         return None
     # the file counts from +x where the host cannot turn: that is what the figure shows
-    return angle if turn is None else _principal(angle - turn)
+    return _principal(angle - turn) if turn else angle
 
 
 def _principal(angle: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 import stat
 import tomllib
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.problem.names import describe_lookalikes, fold, looks_latin, near
 
 SIZE_LIMIT = 256 * 1024
@@ -50,22 +52,34 @@ def read_source(path: Path) -> str:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise _fail(
-            name, f"the file cannot be read: {reason}", "Check the path and the permissions."
+            name, say("the file cannot be read: {}", reason), "Check the path and the permissions."
         ) from None
     if len(data) > SIZE_LIMIT:
         raise _too_large(name)
     for mark, encoding in _BOMS:
         if data.startswith(mark):
-            raise _fail(name, f"the file is in {encoding}, expected UTF-8", "Save it as UTF-8.")
+            raise _fail(
+                name, say("the file is in {}, expected UTF-8", encoding), "Save it as UTF-8."
+            )
     try:
         return data.decode("utf-8-sig")  # Notepad's mark at the start is skipped
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise _fail(
             name,
-            f"line {line}: byte 0x{data[error.start]:02X} is not UTF-8",
+            say("line {}: byte 0x{:02X} is not UTF-8", line, data[error.start]),
             "Save the file as UTF-8; Russian text is often saved as Windows-1251 by mistake.",
         ) from None
+
+
+def table_text(data: bytes) -> str:
+    """Return the text of a table in UTF-8, UTF-16 with its mark, or cp1251."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data.decode("utf-16", "replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1251", "replace")
 
 
 def parse(text: str, *, name: str) -> dict[str, Any]:
@@ -84,11 +98,13 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
         if len(line) > LINE_LIMIT:
             raise _fail(
                 name,
-                f"line {number} has {len(line)} characters, the limit is {LINE_LIMIT}",
+                say("line {} has {} characters, the limit is {}", number, len(line), LINE_LIMIT),
                 "Break it up; lists may span several lines.",
             )
         if line.count(".") >= DOT_LIMIT and _DOTS_RE.search(line):
-            raise _fail(name, f"line {number}: a key has over {DOT_LIMIT} parts", _DEPTH_HINT)
+            raise _fail(
+                name, say("line {}: a key has over {} parts", number, DOT_LIMIT), _DEPTH_HINT
+            )
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -97,9 +113,9 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
         raise _fail(name, "lists or tables are nested too deeply", _DEPTH_HINT) from None
     except ValueError as error:
         # Python bounds the digits of an integer, and dates are checked late
-        raise _fail(name, f"a value cannot be read: {error}"[:200]) from None
+        raise _fail(name, say("a value cannot be read: {}", str(error)[:180])) from None
     if _depth_exceeds(table, DEPTH_LIMIT):
-        raise _fail(name, f"tables are nested deeper than {DEPTH_LIMIT} levels", _DEPTH_HINT)
+        raise _fail(name, say("tables are nested deeper than {} levels", DEPTH_LIMIT), _DEPTH_HINT)
     return table
 
 
@@ -124,7 +140,7 @@ def _fail(name: str, message: str, hint: str = "") -> ProblemError:
 def _too_large(name: str) -> ProblemError:
     return _fail(
         name,
-        f"the file is larger than {SIZE_LIMIT} bytes ({SIZE_LIMIT // 1024} KiB)",
+        say("the file is larger than {} bytes ({} KiB)", SIZE_LIMIT, SIZE_LIMIT // 1024),
         "A few kilobytes are enough; is this the right file?",
     )
 
@@ -136,7 +152,7 @@ def _nearby(path: Path) -> str:
     except (OSError, ValueError):
         names = []
     guess = near(path.name, names)
-    return f"Did you mean '{path.with_name(guess)}'?" if guess else "Check the path."
+    return say("Did you mean '{}'?", path.with_name(guess)) if guess else "Check the path."
 
 
 def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:
@@ -157,20 +173,23 @@ def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:
 def _syntax_fault(message: str, lines: list[str]) -> Fault:
     match = _WHERE_RE.match(message)
     if match is None:
-        return Fault("", f"this is not TOML: {message}")
+        return Fault("", say("this is not TOML: {}", message))
     what, where = match["what"], match["where"]
+    if quoted := re.fullmatch(r"(.*?) ([('\"].*[)'\"])(.*)", what):
+        what = say(f"{quoted[1]} {{}}{quoted[3]}", quoted[2])
     if where == "end of document":
-        return Fault("", f"{what} at the end of the file", "Is a bracket or quote left open?")
-    number = int(where.split()[1].rstrip(","))
+        return Fault("", say("{} at the end of the file", what), "Is a bracket or quote left open?")
+    number, column = map(int, re.findall(r"\d+", where))
     line = lines[number - 1] if number <= len(lines) else ""
-    return Fault(where, f"this is not TOML: {_lower(what)}", _syntax_hint(what, line, where))
+    where = say("line {}, column {}", number, column)
+    return Fault(where, say("this is not TOML: {}", _lower(what)), _syntax_hint(what, line, column))
 
 
 def _lower(what: str) -> str:
     return what[:1].lower() + what[1:] if what[1:2].islower() else what
 
 
-def _syntax_hint(what: str, line: str, where: str) -> str:
+def _syntax_hint(what: str, line: str, column: int) -> str:
     """Guess the likely cause of a syntax error from its line, and say what to do."""
     code = line.split("#", 1)[0].strip()
     header = re.match(r"\[+([^\]\"']*)\]*", code)
@@ -179,18 +198,18 @@ def _syntax_hint(what: str, line: str, where: str) -> str:
         if part.isascii() or not part:
             continue
         if looks_latin(part):
-            return f"{describe_lookalikes(part)}. Type '{fold(part)}' in the Latin layout."
+            return say("{}. Type '{}' in the Latin layout.", describe_lookalikes(part), fold(part))
         if not any(c in part for c in "\"'"):
             quoted = key.strip().replace(part, f'"{part}"')
             shown = f"[{quoted}]" if header else f"{quoted} = ..."
-            return f"A key with letters other than Latin must be in quotes: {shown}"
+            return say("A key with letters other than Latin must be in quotes: {}", shown)
     if "llegal character" in what and code.count('"') % 2:
         return "The closing quote is missing."
     if code.count("[") > code.count("]"):
         return "The closing bracket is missing."
     comma = re.search(r"=\s*([-+]?\d+),(\d+)", code)
     if comma:
-        return f"Write {comma[1]}.{comma[2]} with a decimal point, not {comma[1]},{comma[2]}."
+        return say("Write {0}.{1} with a decimal point, not {0},{1}.", comma[1], comma[2])
     if "=" not in code and not code.startswith("["):
         return "A line must be 'key = value' or '[table]'."
     if "overwrite" in what or "twice" in what:
@@ -199,5 +218,8 @@ def _syntax_hint(what: str, line: str, where: str) -> str:
         return "A value is missing after '='."
     if re.search(r"=\s*[^\W\d]", code) and "true" not in code and "false" not in code:
         return "Text must be in quotes."
-    column = int(where.rsplit(" ", 1)[1])
-    return f"Look at this line near column {column}: {line.strip()[:60]}" if line.strip() else ""
+    return (
+        say("Look at this line near column {}: {}", column, line.strip()[:60])
+        if line.strip()
+        else ""
+    )

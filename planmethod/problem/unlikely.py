@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import pi
 
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.bodies import rotation
 from planmethod.problem.model import Problem
@@ -22,20 +23,17 @@ def unlikely(problem: Problem) -> Iterator[str]:
     longest = max(lengths, key=lambda one: one[2], default=None)
     if longest is not None and longest[2] > LONGEST:
         link, key, value = longest
-        yield (
-            f"links.{link}.{key} = {value:g} m. Lengths are in metres: are {value:g} mm meant, "
-            f"{value / 1000:g} m?"
-        )
+        told = "{0} = {1:g} m. Lengths are in metres: are {1:g} mm meant, {2:g} m?"
+        yield say(told, f"links.{link}.{key}", value, value / 1000)
     elif longest is not None and longest[2] < SHORTEST:
         link, key, value = longest
-        yield f"links.{link}.{key} = {value:g} m is the longest link. Lengths are in metres."
+        told = "{} = {:g} m is the longest link. Lengths are in metres."
+        yield say(told, f"links.{link}.{key}", value)
     drive = problem.drive
     speed = abs(drive.rate) * 30 / pi
     if drive.is_crank and speed > FASTEST:
-        yield (
-            f"the crank makes {speed:.0f} rev/min (omega = {drive.rate:g} 1/s). "
-            "Give rev/min as n, 1/s as omega."
-        )
+        told = "the crank makes {:.0f} rev/min (omega = {:g} 1/s). Give rev/min as n, 1/s as omega."
+        yield say(told, speed, drive.rate)
     yield from _short_rods(problem)
 
 
@@ -57,7 +55,8 @@ def _short_rods(problem: Problem) -> Iterator[str]:
             pin = min(pins)
             rod = abs(body.points[slide.pin] - body.points[pin])
             if rod < off:
-                yield (
-                    f"the rod {pin}{slide.pin} ({rod:g} m) is shorter than the eccentricity of "
-                    f"the guide of {slide.pin} ({off:g} m): the crank cannot turn fully."
+                told = (
+                    "the rod {0}{1} ({2:g} m) is shorter than the eccentricity of the guide of {1} "
+                    "({3:g} m): the crank cannot turn fully."
                 )
+                yield say(told, pin, slide.pin, rod, off)

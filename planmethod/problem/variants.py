@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import FAULT_LIMIT, Faults, read_table
 from planmethod.problem.links import read_label
@@ -15,8 +16,10 @@ from planmethod.problem.names import (
     joined,
     near,
     segment,
+    split_names,
     split_pair,
 )
+from planmethod.problem.posed import is_place, is_posed
 from planmethod.problem.selector import SelectorError, is_force, parse_selector
 
 Path = tuple[str, ...]
@@ -45,11 +48,13 @@ def read_variants(faults: Faults, table: Mapping[str, Any]) -> dict[str, dict[Pa
     entries = read_table(faults, "variants", table.get("variants", {})) or {}
     found: dict[str, dict[Path, Any]] = {}
     if len(entries) > keys.VARIANT_LIMIT:
-        faults.add("variants", f"{len(entries)} variants, the limit is {keys.VARIANT_LIMIT}")
+        faults.add(
+            "variants", say("{} variants, the limit is {}", len(entries), keys.VARIANT_LIMIT)
+        )
         return found
     for name, body in entries.items():
         path = f"variants.{segment(name)}"
-        if not read_label(faults, path, name, "variant"):
+        if not read_label(faults, path, name, "a variant"):
             continue
         found[name] = {}
         inner: set[Path] = set()
@@ -150,6 +155,10 @@ def _may_add(path: Path) -> bool:
         return is_point_name(key) or split_pair(key) is not None
     if parent in (("frame",), ("assembly",)):
         return is_point_name(key)
+    if parent[:1] == ("links",) and parent[2:] == ("angle",):
+        return len(split_names(key)) in (3, 4)
+    if parent == ("driver",):
+        return is_posed(path[-1])
     return parent in (("frame", "guides"), ("published",), ("dynamics", "links"))
 
 
@@ -177,8 +186,8 @@ def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: Path)
         names = [*_names_in(table), *known]
         guess = near(part[-1], names) if faults.count < FAULT_LIMIT else None
         dotted = ".".join(where[:depth])
-        hint = f"Did you mean '{'.'.join((*parent, guess))}'?" if guess else ""
-        faults.add(shown, f"the file has no '{dotted}' to override", hint)
+        hint = say("Did you mean '{}'?", ".".join((*parent, guess))) if guess else ""
+        faults.add(shown, say("the file has no '{}' to override", dotted), hint)
         return False
     return True
 
@@ -201,10 +210,18 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[Path, Any]) -> di
         for part, after in pairwise(path):
             level = _opened(level, part, after)
         level[_key(level, path[-1])] = value
-        if path[:-1] == ("driver",) and path[-1] in TURNING:
-            for other in {*TURNING} - {path[-1]}:
-                level.pop(other, None)
+        if path[:-1] == ("driver",):
+            for other in [key for key in level if _instead(path[-1], key)]:
+                if (*path[:-1], other) not in overrides:
+                    del level[other]
     return result
+
+
+def _instead(one: str, other: str) -> bool:
+    """Whether a key of the driver replaces another one: its speed, where it stands."""
+    if one in TURNING:
+        return other in TURNING
+    return is_place(one) and (is_place(other) or other == "root")
 
 
 def _of_forces(entry: object) -> bool:

@@ -38,7 +38,8 @@ def results_for(
     for label in other:
         if label == "forces" or label.partition("_")[0] in letters:
             raise UnknownResultError(
-                f"no result {label!r}: the problem has no loads. Give the masses in [dynamics] and "
-                "the loads in [[loads]]."
+                "no result {!r}: the problem has no loads. Give the masses in [dynamics] and "
+                "the loads in [[loads]].",
+                label,
             )
     return results

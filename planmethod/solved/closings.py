@@ -21,12 +21,19 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import draw_positions
 from planmethod.plans.closing import Closing
-from planmethod.plans.draft import Draft
-from planmethod.plans.motion.position import has_two_closings, inner_point, parallelogram
+from planmethod.plans.draft import Draft, cis
+from planmethod.plans.motion.position import (
+    has_two_closings,
+    inner_point,
+    lead_point,
+    parallelogram,
+)
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
@@ -73,7 +80,11 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
     for group in structure.groups:
         placed = draw_positions(problem, done, choice).points()
         own = {point: None for link in group.links for point in problem.bodies[link].points}
-        mine = [rules[point] for point in own if point in rules and point not in placed]
+        mine = [
+            _from_joint(problem, group, rules[point])
+            for point in own
+            if point in rules and point not in placed
+        ]
         used.update(rule.point for rule in mine)
         done.append(group)
         if not has_two_closings(group):
@@ -98,8 +109,12 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
             faults += [
                 Fault(
                     f"assembly.{rule.point}",
-                    f"'{_said(rule)}' and '{_said(mine[0])}' ask for different closings of links "
-                    f"{', '.join(group.links)}",
+                    say(
+                        "'{}' and '{}' ask for different closings of links {}",
+                        _said(rule),
+                        _said(mine[0]),
+                        ", ".join(group.links),
+                    ),
                     "Keep the one that is meant",
                 )
                 for rule, closing in zip(mine, judged, strict=True)
@@ -107,12 +122,17 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
             ]
         elif group.signature != "RPR":
             faults.append(_missing(group, both))
+        elif (untold := _untold(problem, group)) is not None:
+            faults.append(_missing(group, both, untold))
     for rule in problem.assembly:
         if rule.point not in used:
             faults.append(
                 Fault(
                     f"assembly.{rule.point}",
-                    f"{rule.point} belongs to the frame or to the driving link: it has one place",
+                    say(
+                        "{} belongs to the frame or to the driving link: it has one place",
+                        rule.point,
+                    ),
                     "Delete the rule, or name a point that a group places",
                 )
             )
@@ -128,7 +148,11 @@ def _late(rule: Rule, draft: Draft) -> Fault | None:
         return None
     return Fault(
         f"assembly.{rule.point}",
-        f"{' and '.join(missing)} is placed after {rule.point}, so it cannot tell its place",
+        say(
+            "{} is placed after {}, so it cannot tell its place",
+            say(" and ").join(missing),
+            rule.point,
+        ),
         "Compare with a fixed point or with one that an earlier group places",
     )
 
@@ -139,7 +163,7 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     if rule.continuous and group.signature == "RPR":
         return Fault(
             path,
-            f"links {links} close by a slotted link, which keeps its side",
+            say("links {} close by a slotted link, which keeps its side", links),
             'Leave keep = "continuous" out',
         )
     if rule.where is not Where.PARALLEL:
@@ -148,7 +172,7 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     if found is None:
         return Fault(
             path,
-            f"links {links} are no two sides of a quadrilateral of four joints",
+            say("links {} are no two sides of a quadrilateral of four joints", links),
             'Leave keep = "parallel" out, and say which closing is meant',
         )
     if found.is_one:
@@ -159,7 +183,7 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     )
     return Fault(
         path,
-        f"the opposite sides of a parallelogram are equal, and here {said}",
+        say("the opposite sides of a parallelogram are equal, and here {}", said),
         'Correct the lengths, or say keep = "continuous" with the closing that is meant',
     )
 
@@ -212,6 +236,10 @@ def _score(rule: Rule, draft: Draft, reading: Reading) -> Reals:
             start, end = at(rule.refs[0]), at(rule.refs[1])
             left = ((end - start).conjugate() * (p - start)).imag / abs(end - start)
             return np.asarray(left if rule.where is Where.LEFT_OF else -left)
+        case Where.TOWARDS | Where.AWAY:
+            end, start = at(rule.refs[0]), at(rule.refs[1])
+            ahead = ((end - start).conjugate() * (p - start)).real / abs(end - start)
+            return np.asarray(ahead if rule.where is Where.TOWARDS else -ahead)
         case Where.NEAR:
             return np.asarray(-abs(p - (rule.at - draft.origin)))
         case Where.PARALLEL:
@@ -224,9 +252,11 @@ def _said(rule: Rule) -> str:
     """Return a rule in the words of the file: ``C right of B``, ``C left of AD``."""
     match rule.where:
         case Where.NEAR:
-            return f"{rule.point} near [{rule.at.real:g}, {rule.at.imag:g}]"
+            return say("{} near [{:g}, {:g}]", rule.point, rule.at.real, rule.at.imag)
         case Where.PARALLEL:
-            return f"{rule.point} keep parallel"
+            return say("{} keep parallel", rule.point)
+        case Where.TOWARDS | Where.AWAY:
+            return f"{rule.point} {rule.where.value} {rule.refs[0]}"
         case Where.ABOVE | Where.BELOW:
             words = rule.where.value
         case _:
@@ -265,8 +295,12 @@ def _judge(
             [
                 Fault(
                     f"assembly.{rule.point}",
-                    f"'{said}' does not tell the two closings apart at {where}: both give "
-                    f"{plus:.6g} m",
+                    say(
+                        "'{}' does not tell the two closings apart at {}: both give {:.6g} m",
+                        said,
+                        where,
+                        plus,
+                    ),
                     "Compare with another point or with a directed line",
                 )
             ],
@@ -311,9 +345,15 @@ def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
     _, *words = max(told, key=lambda pair: pair[0], default=(0.0, *near))
     return Fault(
         f"assembly.{rule.point}",
-        f"'{_said(rule)}' holds for both closings at {where}: with {rule.point} at {places[0]} and "
-        f"at {places[1]} m",
-        f"Say '{words[0]}' for the first or '{words[1]}' for the second",
+        say(
+            "'{}' holds for both closings at {}: with {} at {} and at {} m",
+            _said(rule),
+            where,
+            rule.point,
+            places[0],
+            places[1],
+        ),
+        say("Say '{}' for the first or '{}' for the second", words[0], words[1]),
     )
 
 
@@ -328,18 +368,74 @@ def _places(problem: Problem, both: list[_Tried], at: int) -> Iterator[complex]:
     yield 1e-300 + 0j
 
 
-def _missing(group: AssurGroup, both: list[_Tried]) -> Fault:
+def _outer(problem: Problem, group: AssurGroup, point: str) -> str | None:
+    """Return the outer joint of a group on the link that a point belongs to."""
+    for lead in group.leads:
+        if isinstance(lead.joint, Revolute) and point in problem.bodies[lead.link].points:
+            return lead.joint.point
+    return None
+
+
+def _from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
+    """Return a rule that tells the way from a joint with that joint beside its point."""
+    if rule.where not in (Where.TOWARDS, Where.AWAY):
+        return rule
+    joint = _outer(problem, group, rule.point)
+    if joint is None or joint in (rule.point, *rule.refs):
+        hint = "Compare with another point: right of, left of, above, below"
+        message = say("'{}': there is no way from the joint {} to tell", _said(rule), joint or "")
+        raise ProblemError(problem.name, [Fault(f"assembly.{rule.point}", message, hint)])
+    return replace(rule, refs=(*rule.refs, joint))
+
+
+def _untold(problem: Problem, group: AssurGroup) -> Rule | None:
+    """Return what a slotted link does not tell: whether a point of it lies towards the other joint.
+
+    None where the line runs on from the joint of its link, so that the stone is on that ray, and
+    where nothing could lie on the other side: of a block and of a stone alone.
+    """
+    inner = group.inner[0]
+    assert isinstance(inner, Prismatic)
+    slide = problem.slides[inner.slider]
+    ends = {lead.link: lead_point(lead) for lead in group.leads}
+    host = problem.bodies[slide.host].points
+    runs_on = ((slide.base - host[ends[slide.host]]) / cis(slide.angle)).real >= 0.0
+    for link, other in ((slide.host, slide.slider), (slide.slider, slide.host)):
+        joint, body = ends[link], problem.bodies[link].points
+        if runs_on and (link == slide.host or len(host) > 1):
+            continue
+        for point in (point for point, at in body.items() if at != body[joint]):
+            return Rule(point, Where.TOWARDS, (ends[other], joint))
+    return None
+
+
+def _missing(group: AssurGroup, both: list[_Tried], untold: Rule | None = None) -> Fault:
     """Return the fault of a group whose closing nobody chose, with both ways to say it."""
-    c = inner_point(group)
+    c = inner_point(group) if untold is None else untold.point
     places = []
     for draft, _, reading in both:
         values = reading.point(PointName(c)) + draft.origin
         able = values[np.isfinite(values)]
         places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})" if able.size else "nowhere")
+    hint = say(
+        'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) to [assembly]',
+        c,
+    )
+    if untold is not None:
+        ahead = [_score(untold, draft, reading) for draft, _, reading in both]
+        words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]
+        sides = [float(np.nansum(score)) for score in ahead]
+        one, two = words if sides[0] > 0 else words[::-1]
+    if untold is not None and sides[0] * sides[1] < 0:  # both lie to one side if far off the line
+        hint = say('Add {} = "{}" for the first or "{}" for the second to [assembly]', c, one, two)
     return Fault(
         f"assembly.{c}",
-        f"links {', '.join(group.links)} close in two ways, with {c} at {places[0]} or at "
-        f"{places[1]} m, and no rule says which",
-        f'Add {c} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) '
-        "to [assembly]",
+        say(
+            "links {} close in two ways, with {} at {} or at {} m, and no rule says which",
+            ", ".join(group.links),
+            c,
+            places[0],
+            places[1],
+        ),
+        hint,
     )

@@ -229,7 +229,9 @@ def cycle(solution: Solution) -> Cycle:
     require_dynamics(solution.problem)
     if len(solution.positions) < 2:
         raise LayoutError(
-            f"{solution.problem.name}: a layout with forces over the cycle needs several positions,"
-            " 1 is asked. Ask more: --phi 0:360:30, or phi = { from = 0, count = 12 } in [driver]."
+            "{}: a layout with forces over the cycle needs several positions, 1 is "
+            "asked. Ask more: --phi 0:360:30, or phi = {{ from = 0, count = 12 }} in "
+            "[driver].",
+            solution.problem.name,
         )
     return Cycle(solution)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from planmethod.errors import AssemblyError
+from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Coordinate, Problem
 from planmethod.solved.reading import Reals
@@ -43,7 +44,11 @@ class Place:
         return f"{self.coordinate.name} = {self.value:.12g}"
 
     def __str__(self) -> str:
-        return f"position {self.number} ({self.driver} {self.coordinate.unit})"
+        return self.said("position {} ({} {})")
+
+    def said(self, sentence: str) -> str:
+        """Return a sentence of the number, the driver and its unit."""
+        return say(sentence, self.number, self.driver, say(self.coordinate.unit))
 
 
 class Cause(Enum):
@@ -172,15 +177,18 @@ class Failure:
     @property
     def general(self) -> str:
         """What is true of every position that fails so."""
-        return self._sentence("", "this position", whole=False)
+        return self._sentence("", say("this position"), whole=False)
 
     def __str__(self) -> str:
         more = "" if self.cause in (Cause.SPOILT, Cause.SPOILT_NEAR) else self._more()
-        return self._sentence(f" at {self.place}", str(self.place), whole=True) + more
+        return (
+            self._sentence(self.place.said(" at position {} ({} {})"), str(self.place), whole=True)
+            + more
+        )
 
     def _more(self) -> str:
         text = same_at(self.alike, self.count)
-        return text + (f" Other steps fail at {self.others} positions." if self.others else "")
+        return text + others_fail(self.others)
 
     def _sentence(self, at: str, this: str, *, whole: bool) -> str:
         sentence, own = self.cause.value
@@ -192,24 +200,29 @@ class Failure:
             "out": self.out,
             "p": self.points,
             "l": self.lengths,
-            "plan": self.plan.value,
+            "plan": say(self.plan.value),
             "margin": self.margin,
             "problem": self.problem,
             "turn": self._over_turn(),
-            "more": f" So do {self.alike} other positions." if whole and self.alike else "",
+            "more": say(" So do {} other positions.", self.alike) if whole and self.alike else "",
         }
-        return sentence.format(**facts, own=own.format(**facts) if whole else "")
+        return say(sentence, **facts, own=say(own, **facts) if whole else "")
 
     def _over_turn(self) -> str:
         if len(self.lengths) < 6:
             return ""
         at = self.place.coordinate.told(f"{self.lengths[5]:g}")
-        return f", by {self.lengths[4]:.4g} m at the most over a turn (at {at})"
+        return say(", by {:.4g} m at the most over a turn (at {})", self.lengths[4], at)
+
+
+def others_fail(count: int) -> str:
+    """Return that other positions fail for other causes, if any do."""
+    return say(" Other steps fail at {} positions.", count) if count else ""
 
 
 def same_at(alike: int, count: int) -> str:
     """Return how many other positions share the lot of one that was told, if any do."""
-    return f" The same holds at {alike} more of {count} positions." if alike else ""
+    return say(" The same holds at {} more of {} positions.", alike, count) if alike else ""
 
 
 class PositionError(AssemblyError):
@@ -240,14 +253,12 @@ class Doubt:
 
     def __str__(self) -> str:
         nature = (
-            f"next to a dead position (margin {self.margin:.1e})"
+            say("next to a dead position (margin {:.1e})", self.margin)
             if self.near
             else "badly conditioned (its results hang on small differences of large values)"
         )
-        return (
-            f"{self.place} is {nature}: the worst of its results is good to about {self.bound:.0e} "
-            "of its value."
-        )
+        told = "{} is {}: the worst of its results is good to about {:.0e} of its value."
+        return say(told, self.place, nature, self.bound)
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,7 +269,7 @@ class MoreDoubts:
     count: int
 
     def __str__(self) -> str:
-        return f"so are {self.more} more of {self.count} positions, less badly."
+        return say("so are {} more of {} positions, less badly.", self.more, self.count)
 
 
 @dataclass(frozen=True, slots=True)
@@ -282,18 +293,23 @@ class Passed:
     parallel: bool = False
 
     def __str__(self) -> str:
-        places = " and ".join(dict.fromkeys(f"{round(at, 4) + 0.0:.10g}" for at in self.places))
-        text = (
-            f"links {', '.join(self.links)} pass a change point at {self.coordinate.told(places)}, "
-            "from which the mechanism may go on either way: the side that was chosen in the first "
-            "position is kept, so that one branch of the motion passes into another there."
+        places = say(" and ").join(
+            dict.fromkeys(f"{round(at, 4) + 0.0:.10g}" for at in self.places)
+        )
+        text = say(
+            "links {} pass a change point at {}, from which the mechanism may go on either way: "
+            "the side that was chosen in the first position is kept, so that one branch of the "
+            "motion passes into another there.",
+            ", ".join(self.links),
+            self.coordinate.told(places),
         )
         c = self.point
-        ways = [f'{c} = {{ keep = "parallel" }} for the parallelogram'] if self.parallel else []
-        ways += [
-            f'{c} = {{ near = [x, y], keep = "continuous" }} for the motion that goes on smoothly'
-        ]
-        return f"{text} Say in [assembly] {', '.join(ways)}." if c else text
+        ways = [say('{} = {{ keep = "parallel" }} for the parallelogram', c)] * self.parallel
+        smooth = (
+            '{} = {{ near = [x, y], keep = "continuous" }} for the motion that goes on smoothly'
+        )
+        ways += [say(smooth, c)]
+        return say("{} Say in [assembly] {}.", text, ", ".join(ways)) if c else text
 
 
 @dataclass(frozen=True, slots=True)
@@ -324,8 +340,9 @@ class Contradiction:
         return replace(self, place=replace(self.place, number=number))
 
     def __str__(self) -> str:
-        return (
-            f"{self.problem}: the {self.quantity} of {self.point} about {self.about} on link "
-            f"{self.link} is off by {self.error:.3g} (largest value {self.size:.3g}) at position "
-            f"{self.place.number}. This is a fault of planmethod: please report it."
+        told = (
+            "{}: the {} of {} about {} on link {} is off by {:.3g} (largest value {:.3g}) at "
+            "position {}. This is a fault of planmethod: please report it."
         )
+        facts = (self.problem, say(self.quantity), self.point, self.about, self.link)
+        return say(told, *facts, self.error, self.size, self.place.number)

@@ -6,7 +6,7 @@ are joined to it one after the other, as long as what they say can be read and c
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
@@ -14,6 +14,7 @@ from typing import Any
 from planmethod.construct.arithmetic import Float64
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.problem.fields import Faults
+from planmethod.problem.model import Problem
 from planmethod.problem.reader import TrainReader, read_parsed
 from planmethod.problem.variants import apply_variant, read_variants
 from planmethod.solved.failures import Failure, PositionError
@@ -26,7 +27,7 @@ GUESSED = 60.0
 """Where a crank whose position is missing is shown, degrees."""
 
 _SIZES = (2, 4)  # of structural groups that are tried, links
-_GEOMETRY = ("title", "source", "sheet", "scales", "gears")
+_GEOMETRY = ("title", "source", "units", "sheet", "scales", "gears")
 _ASIDE = 1e-4  # of a dead position, degrees
 _FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
 
@@ -70,6 +71,7 @@ def largest_part(
     variant: str | None = None,
     train: TrainReader | None = None,
     views: Views | None = None,
+    posed: Callable[[Problem], Problem] = lambda problem: problem,
 ) -> Part:
     """Return as much of a problem as makes a mechanism in some asked position.
 
@@ -81,10 +83,12 @@ def largest_part(
         As of `read_parsed`.
     views : Views, optional
         Boxes that the plans shall fill where the file gives no scale.
+    posed : callable, optional
+        Finds the positions of a whole problem that its output tells (`planmethod.kinds`).
     """
     try:
         problem = read_parsed(table, source=source, name=name, variant=variant, train=train)
-        solution = Solution(problem, views=views)
+        solution = Solution(posed(problem), views=views)
     except PlanMethodError as error:
         grown = _Growth(_with_variant(table, variant), source, name, train, views)
         faults = error.faults if isinstance(error, ProblemError) else ()

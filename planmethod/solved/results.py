@@ -12,6 +12,7 @@ import numpy as np
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName
 from planmethod.errors import PlanMethodError
+from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import Quantity, QuantityKind
@@ -82,8 +83,8 @@ class Results:
             # Of a reaction the one that acts back is meant, before any other that is spelt alike.
             near = [result.label for result in self.all if result.opposite == label]
             near = near or get_close_matches(label, known, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise UnknownResultError(f"no result {label!r}{hint} Known: {', '.join(known)}.")
+            hint = say("; did you mean {!r}?", near[0]) if near else ""
+            raise UnknownResultError("no result {!r}{} Known: {}.", label, hint, ", ".join(known))
         return found
 
 

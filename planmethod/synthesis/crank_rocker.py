@@ -17,6 +17,7 @@ import numpy as np
 
 from planmethod.construct.steps import Side, Way
 from planmethod.errors import AssemblyError
+from planmethod.languages import say
 from planmethod.solved.turn.roots import top
 from planmethod.synthesis.board import Board
 from planmethod.synthesis.model import (
@@ -55,18 +56,25 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     asked = {**asked, "rocker": asked["rocker"] or 1.0}
     theta, swing = angle_of_ratio(asked["K_v"]), asked["swing"]
     if not 0.0 < swing < 180.0:
-        raise AssemblyError(f"swing = {swing:.10g} deg: a rocker swings by more than 0, less than "
-                            "180 deg.")  # fmt: skip
+        raise AssemblyError(
+            "swing = {:.10g} deg: a rocker swings by more than 0, less than 180 deg.", swing
+        )
     if theta >= 90.0 + swing / 2:
         most = (270.0 + swing / 2) / (90.0 - swing / 2)
         raise AssemblyError(
-            f"K_v = {asked['K_v']:.10g} with the swing {swing:.10g} deg: theta = {theta:.10g} deg, "
-            f"less than 90 + swing/2 = {90.0 + swing / 2:.10g} deg is possible, K_v < {most:.10g}."
+            "K_v = {:.10g} with the swing {:.10g} deg: theta = {:.10g} deg, less than 90 "
+            "+ swing/2 = {:.10g} deg is possible, K_v < {:.10g}.",
+            asked["K_v"],
+            swing,
+            theta,
+            90.0 + swing / 2,
+            most,
         )
     if theta == 0.0 and asked["line"] is None and asked["centres"] is None:
         raise AskedError(
-            "K_v = 1: O is anywhere on the line B'B''. Give --centres, more than the rocker's "
-            f"{asked['rocker']:.10g} m, or --line."
+            "K_v = 1: O is anywhere on the line B'B''. Give --centres, more than the "
+            "rocker's {:.10g} m, or --line.",
+            asked["rocker"],
         )
     made = list(_candidates(asked, theta))
     if not made:
@@ -82,21 +90,26 @@ def _limits(theta: float, swing: float) -> tuple[float, float, float]:
 def _limit(asked: Mapping[str, Any], theta: float) -> str:
     """Return why there is no crank."""
     if theta == 0.0:
-        return (
-            "K_v = 1: O is on the line B'B'' outside of the chord, so OC must be more than the "
-            f"rocker's {asked['rocker']:.10g} m, and a line must meet it there."
+        return say(
+            "K_v = 1: O is on the line B'B'' outside of the chord, so OC must be more "
+            "than the rocker's {:.10g} m, and a line must meet it there.",
+            asked["rocker"],
         )
     low, high, beyond = _limits(theta, asked["swing"])
-    told = f"{low:.6g} < beta < {high:.6g} deg"
+    told = say("{:.6g} < beta < {:.6g} deg", low, high)
     if beyond < high:
         told += f" or {-high:.6g} < beta < {-beyond:.6g} deg"
     given = {"beta": "--beta", "line": "--line", "centres": "--centres"}
     name = next((text for key, text in given.items() if asked[key] is not None), "this")
     radius = asked["rocker"] * sin(radians(asked["swing"] / 2)) / (sin(radians(theta)))
-    return (
-        f"{name}: no place for O from which B'B'' is seen at theta = {theta:.6g} deg with both "
-        f"dead positions on one side of OC. Possible are {told} on the circle of the radius "
-        f"{radius:.6g} m over B'B''."
+    return say(
+        "{}: no place for O from which B'B'' is seen at theta = {:.6g} deg with both "
+        "dead positions on one side of OC. Possible are {} on the circle of the "
+        "radius {:.6g} m over B'B''.",
+        name,
+        theta,
+        told,
+        radius,
     )
 
 

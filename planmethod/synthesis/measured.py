@@ -45,8 +45,11 @@ def checks(synthesis: Synthesis, problem: Problem) -> dict[str, Any]:
         measured = found[name]
         if measured is None or not abs(measured - value) <= CLOSE * max(abs(value), 1e-6):
             raise PlanMethodError(
-                f"The mechanism that was found has {name} = {measured!r} instead of {value!r}: it "
-                "is too near to the limit of what can be assembled. Take other values."
+                "The mechanism that was found has {} = {!r} instead of {!r}: it is too near "
+                "to the limit of what can be assembled. Take other values.",
+                name,
+                measured,
+                value,
             )
     return found
 

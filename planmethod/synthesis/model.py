@@ -144,9 +144,11 @@ def read(board: Board, mu: float = 1.0) -> Trace:
         if margin is not None and not margin > limit_of(step):
             told = board.said.get(step.out)
             raise AssemblyError(
-                f"There is no such mechanism: the construction ends where {step.out} is to be "
-                f"found{'' if told is None else f' ({told[0]})'}, margin {float(margin):.3g}. "
-                "Change what is given."
+                "There is no such mechanism: the construction ends where {} is to be "
+                "found{}, margin {:.3g}. Change what is given.",
+                step.out,
+                "" if told is None else f" ({told[0]})",
+                float(margin),
             )
     return trace
 
@@ -167,8 +169,10 @@ def angle_of_ratio(ratio: float) -> float:
     if ratio < 1.0:
         other = f"--K_v {1.0 / ratio:.10g}" if ratio > 0.0 else "1 or more"
         raise AskedError(
-            f"K_v = {ratio:.10g} is less than 1, but it is the slow stroke's time over the quick "
-            f"one's. Give {other}."
+            "K_v = {:.10g} is less than 1, but it is the slow stroke's time over the "
+            "quick one's. Give {}.",
+            ratio,
+            other,
         )
     return 180.0 * (ratio - 1.0) / (ratio + 1.0)
 
@@ -187,7 +191,7 @@ def chosen(asked: Mapping[str, Any], kind: str, *ways: str) -> str:
             return way
     told = "; ".join(" ".join(f"--{name}" for name in way.split()) for way in ways)
     have = " ".join(f"--{name}" for name in sorted(given)) or "none of them"
-    raise AskedError(f"{kind} is synthesized from: {told}. Given: {have}.")
+    raise AskedError("{} is synthesized from: {}. Given: {}.", kind, told, have)
 
 
 def ray_angle(origin: complex, towards: complex) -> float:

@@ -110,7 +110,7 @@ def synthesis_sheet(
                 return sheet
             drawn = drawn.coarser()
     raise LayoutError(
-        f"{drawn.synthesis.kind}: the construction does not fit {fmt.name}. Take --paper A2."
+        "{}: the construction does not fit {}. Take --paper A2.", drawn.synthesis.kind, fmt.name
     )
 
 

@@ -61,8 +61,9 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         ratio = _ratio_of_pressure(stroke, abs(offset or 0.0), asked["pressure"])
     if ratio is not None and not 0.0 < ratio < 1.0:
         raise AssemblyError(
-            f"lambda = r/l = {ratio:.10g}: the crank turns fully only where it is shorter than the "
-            "rod, 0 < lambda < 1."
+            "lambda = r/l = {:.10g}: the crank turns fully only where it is shorter than "
+            "the rod, 0 < lambda < 1.",
+            ratio,
         )
     theta = 0.0
     if asked["K_v"] is not None:
@@ -89,19 +90,27 @@ def _check_ratio(
         )
     if theta >= 90.0:
         raise AssemblyError(
-            f"K_v = {times:.10g}: theta = {theta:.6g} deg, and the crank turns fully below 90 deg "
-            "only, K_v < 3. Take a slotted link."
+            "K_v = {:.10g}: theta = {:.6g} deg, and the crank turns fully below 90 deg "
+            "only, K_v < 3. Take a slotted link.",
+            times,
+            theta,
         )
     if offset is not None and not 0.0 < abs(offset) < stroke / tan(radians(theta)):
         raise AssemblyError(
-            f"offset = {offset:.10g} m with K_v = {times:.10g}: 0 < |e| < H/tan(theta) = "
-            f"{stroke / tan(radians(theta)):.10g} m is possible; at 0 K_v is 1, at the limit the "
-            "crank stops below the dead position (l - r = e)."
+            "offset = {:.10g} m with K_v = {:.10g}: 0 < |e| < H/tan(theta) = {:.10g} m "
+            "is possible; at 0 K_v is 1, at the limit the crank stops below the dead "
+            "position (l - r = e).",
+            offset,
+            times,
+            stroke / tan(radians(theta)),
         )
     if ratio is not None and not tan(radians(theta / 2)) ** 2 < ratio:
         raise AssemblyError(
-            f"lambda = {ratio:.10g} with K_v = {times:.10g}: more than tan^2(theta/2) = "
-            f"{tan(radians(theta / 2)) ** 2:.10g} is possible, where l - r = e."
+            "lambda = {:.10g} with K_v = {:.10g}: more than tan^2(theta/2) = {:.10g} is "
+            "possible, where l - r = e.",
+            ratio,
+            times,
+            tan(radians(theta / 2)) ** 2,
         )
 
 
@@ -125,8 +134,12 @@ def _built(
         limit = stroke * (1.0 - ratio**2) / (4.0 * ratio)
         if abs(offset or 0.0) > limit * (1.0 + 1e-12):
             raise AssemblyError(
-                f"offset = {offset:.10g} m with lambda = {ratio:.10g} and the stroke "
-                f"{stroke:.10g} m: |e| <= H(1 - lambda^2)/(4 lambda) = {limit:.10g} m is possible."
+                "offset = {:.10g} m with lambda = {:.10g} and the stroke {:.10g} m: |e| <= "
+                "H(1 - lambda^2)/(4 lambda) = {:.10g} m is possible.",
+                offset,
+                ratio,
+                stroke,
+                limit,
             )
         ends = [
             b.lay_off(name, near, guide, b.length(f"B''{name}", length * stroke * (1.0 - ratio)))
@@ -197,7 +210,7 @@ def _pressure(stroke: float, theta: float, offset: float) -> float:
 def _ratio_of_pressure(stroke: float, offset: float, angle: float) -> float:
     """Return λ with which the largest pressure angle is given: sin α = (r + e)/l."""
     if not 0.0 < angle < 90.0:
-        raise AskedError(f"--pressure {angle:.10g}: between 0 and 90 degrees is expected.")
+        raise AskedError("--pressure {:.10g}: between 0 and 90 degrees is expected.", angle)
     sine = sin(radians(angle))
     if offset == 0.0:
         return sine

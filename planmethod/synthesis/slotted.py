@@ -37,9 +37,10 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     swing = asked["swing"] if asked["K_v"] is None else angle_of_ratio(asked["K_v"])
     if not 0.0 < swing < 180.0:
         raise AssemblyError(
-            f"There is no such mechanism: the slotted link would swing through {swing:.10g} deg; "
-            "more than 0 (K_v > 1, the crank would have no length) and less than 180 (the crank as "
-            "long as O1O3: the link turns fully) is possible."
+            "There is no such mechanism: the slotted link would swing through {:.10g} "
+            "deg; more than 0 (K_v > 1, the crank would have no length) and less than "
+            "180 (the crank as long as O1O3: the link turns fully) is possible.",
+            swing,
         )
     b = Board()
     o3 = b.fixed("O3", 0j)
@@ -91,8 +92,10 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         rod = asked["rod"] or max(half / sin(turn) / 2, 2.0 * rise / cos(turn))
         if rod * cos(turn) <= rise:
             raise AssemblyError(
-                f"rod = {rod:.10g} m: with this stroke and swing it must be longer than "
-                f"{rise / cos(turn):.10g} m, else the slider turns back before the slotted link."
+                "rod = {:.10g} m: with this stroke and swing it must be longer than {:.10g} "
+                "m, else the slider turns back before the slotted link.",
+                rod,
+                rise / cos(turn),
             )
         arm = b.length("BC", rod)
         sliders = [b.meet_line_circle(f"C{end[1:]}", guide, end, arm, Way.FORWARD) for end in ends]

@@ -45,15 +45,19 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     size = float(np.linalg.cond(system))
     if not size < 1e12:
         raise AssemblyError(
-            f"The three equations of Freudenstein depend on one another (condition {size:.3g}): "
-            "two pairs are the same, or all of one angle. Give three different pairs."
+            "The three equations of Freudenstein depend on one another (condition "
+            "{:.3g}): two pairs are the same, or all of one angle. Give three different "
+            "pairs.",
+            size,
         )
     k1, k2, k3 = np.linalg.solve(system, np.cos(phi - psi))
     for name, value in (("OA", k1), ("CB", k2)):
         if abs(value) < 1e-9:
             raise AssemblyError(
-                f"OC/{name} = {value:.3g}: {name} would be endless, the angles are those of a "
-                "slider. Give other pairs."
+                "OC/{0} = {1:.3g}: {0} would be endless, the angles are those of a slider. "
+                "Give other pairs.",
+                name,
+                value,
             )
     crank = frame / k1
     b = Board()
@@ -85,7 +89,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     trace = read(b)
     lengths = lengths_of(trace, LENGTHS)
     if lengths["AB"] <= 1e-9 * frame:
-        raise AssemblyError(f"AB = {lengths['AB']:.3g} m: the coupler has no length.")
+        raise AssemblyError("AB = {:.3g} m: the coupler has no length.", lengths["AB"])
     a_points, b_points = (
         [place(trace, f"{letter}{k}") for k in (1, 2, 3)] for letter in ("A", "B")
     )

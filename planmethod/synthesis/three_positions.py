@@ -64,7 +64,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         spans = [abs(c - b) for b, c in zip(b_points, c_points, strict=True)]
         if max(spans) - min(spans) > 1e-9 * max(spans) or min(spans) == 0.0:
             told = ", ".join(f"{span:.10g}" for span in spans)
-            raise AskedError(f"The coupler is rigid, but B1C1, B2C2, B3C3 are {told} m.")
+            raise AskedError("The coupler is rigid, but B1C1, B2C2, B3C3 are {} m.", told)
         return _built(b_points, c_points)[0]
     turns = [np.exp(1j * np.radians(row[2])) for row in rows]
     if asked["coupler"] is not None:
@@ -95,15 +95,19 @@ def _centre(b: Board, name: str, points: list[complex], letter: str) -> PointNam
     least = min(abs(two - one), abs(three - two), abs(three - one))
     if least <= 1e-9 * max(spread, abs(one)):
         raise AssemblyError(
-            f"Two of the positions {letter}1, {letter}2, {letter}3 are the same ({least:.3g} m "
-            "apart): give three different ones, or another point of the coupler."
+            "Two of the positions {0}1, {0}2, {0}3 are the same ({1:.3g} m apart): give "
+            "three different ones, or another point of the coupler.",
+            letter,
+            least,
         )
     sine = abs((np.conj(two - one) * (three - two)).imag) / (abs(two - one) * abs(three - two))
     if sine < 1e-9:
         raise AssemblyError(
-            f"{letter}1, {letter}2, {letter}3 are on one line (sine {sine:.3g}): the bisectors are "
-            f"parallel, {letter} would need a straight guide instead of a pivot. Choose another "
-            "point of the coupler: another length --coupler, or other B and C."
+            "{0}1, {0}2, {0}3 are on one line (sine {1:.3g}): the bisectors are "
+            "parallel, {0} would need a straight guide instead of a pivot. Choose "
+            "another point of the coupler: another length --coupler, or other B and C.",
+            letter,
+            sine,
         )
     made = [b.fixed(f"{letter}{k}", complex(at)) for k, at in enumerate(points, 1)]
     return b.circle_through(name, (made[0], made[1], made[2]))
@@ -122,8 +126,10 @@ def _built(b_points: list[complex], c_points: list[complex]) -> tuple[Synthesis,
     lengths = lengths_of(trace, LENGTHS)
     if lengths["AD"] <= 1e-9 * max(lengths.values()):
         raise AssemblyError(
-            f"A and D are the same point ({lengths['AD']:.3g} m apart): the coupler turns about it "
-            "through all three positions, one pivot is enough. Choose other points B and C."
+            "A and D are the same point ({:.3g} m apart): the coupler turns about it "
+            "through all three positions, one pivot is enough. Choose other points B and "
+            "C.",
+            lengths["AD"],
         )
     places = (place(trace, "A"), place(trace, "D"))
     way = passage(places[0], places[1], b_points, c_points)

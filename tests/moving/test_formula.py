@@ -13,10 +13,11 @@ import pytest
 
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.kinds import kind_of
-from planmethod.moving.formula import DEPTH_LIMIT, FUNCTIONS, LENGTH_LIMIT, read_formula
+from planmethod.moving.formula import read_formula
 from planmethod.moving.reader import loads
 from planmethod.moving.series import CALLS, evaluate
 from planmethod.problem.fields import Faults
+from planmethod.problem.formula import DEPTH_LIMIT, FUNCTIONS, LENGTH_LIMIT
 
 
 def faults_of(text: str) -> list[str]:

@@ -29,6 +29,7 @@ NO_WORDS = {
     "check/works/units.py": "units that they are written with",
     "check/works/gather.py": "scales that they are written with",
     "check/works/numbers.py": "Cyrillic letters for the multiplication sign and for e",
+    "problem/table.py": "units as the head of a table may have them",
     "problem/names.py": "Cyrillic letters that look like Latin ones, in names of problem files",
     "problem/sheet.py": "type \u0411 of the lettering in a problem file, an example of a surname",
     "paper.py": "names of formats that files and options may write in Cyrillic letters",

@@ -317,14 +317,15 @@ FAULTS = {
     "points": (
         A + V + "points = -1\n",
         [
-            "answers[0].points: expected points from 0 to 1000, got -1. Points are those "
-            "of a right answer.",
+            "answers[0].points: expected a number of points from 0 to 1000, got -1. Points are "
+            "those of a right answer.",
         ],
     ),
     "points text": (
         A + V + "points = '1,5'\n",
         [
-            "answers[0].points: expected points, got the string '1,5'. Write 1.5 without quotes.",
+            "answers[0].points: expected a number of points, got the string '1,5'. Write 1.5 "
+            "without quotes.",
         ],
     ),
     "form": (
@@ -414,7 +415,7 @@ FAULTS = {
     "several": (
         A + V + "points = true\ndigits = 2.5\nunit = 'метров в секунду за секунду'\n",
         [
-            "answers[0].points: expected points, got the boolean true",
+            "answers[0].points: expected a number of points, got the boolean true",
             "answers[0].unit: the text has 27 characters, the limit is 20. Shorten it.",
             "answers[0].digits: expected a whole number from 1 to 8, got the number 2.5",
         ],

@@ -297,8 +297,8 @@ FAULTS = {
     ),
     "phases empty": (
         F + "force = 1\nphases = {}\n" + A,
-        ["loads[0].phases: expected phi, moving or turning, got an empty table. phases = { phi = "
-         '[90, 270] } or phases = { moving = "down" }.'],
+        ["loads[0].phases: expected phi, moving or turning, got an empty table. For example: "
+         'phases = { phi = [90, 270] } or phases = { moving = "down" }.'],
     ),
     "phases a list": (
         F + "force = 1\nphases = [90, 270]\n" + A,

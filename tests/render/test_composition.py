@@ -82,9 +82,8 @@ def test_the_shipped_are_the_files_that_lie_there() -> None:
             assert (russian is not None) is (lang == "ru")
 
 
-KINEMATIC = tuple(
-    name for name in SHIPPED if not name.startswith(("forces", "flywheel")) and name != "coursework"
-)
+OTHERS = ("forces", "forces-cycle", "flywheel", "run-up", "balancing", "coursework")
+KINEMATIC = tuple(name for name in SHIPPED if name not in OTHERS)
 """The sheet of the turn, ``coursework``, has its own tests: ``test_turn_sheet``."""
 
 

@@ -36,6 +36,8 @@ CASES = [
     ("forces-cycle", "levers/task12", TURN),
     ("forces-cycle", "press/press", TURN),
     ("flywheel", "press/flywheel", None),
+    ("run-up", "machines/compressor", None),
+    ("balancing", "machines/balanced-fourbar", None),
 ]
 
 

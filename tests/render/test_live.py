@@ -24,6 +24,7 @@ from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.render.live.page import live_page
 from planmethod.render.live.scene import Scene
+from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.many.sweep import Sweep
 
 AGREE = 1e-12
@@ -171,6 +172,21 @@ def test_the_slider_moves_everything_to_the_numbers_of_solve(
 
 
 @needs_chromium
+def test_the_speed_of_a_machine_has_a_diagram_and_is_followed(page: Page, tmp_path: Path) -> None:
+    problem = problem_of("press/flywheel")
+    opened(page, problem, tmp_path)
+    rows = Flywheel(problem).rows
+    for phi, omega in zip(rows.phi_deg.tolist(), rows.omega.tolist(), strict=True):
+        page.ask(f"planmethod.show({phi % 360})")
+        assert page.ask("+D.quantities.at(-1).cells[0].dataset.value") == pytest.approx(
+            omega, rel=1e-5
+        )
+    assert page.ask("D.quantities.at(-1).plot.querySelector('.curve').getTotalLength()") > 300
+    assert page.ask("byId('follows').checked") is False
+    assert not page.said
+
+
+@needs_chromium
 def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: Path) -> None:
     opened(page, watt(), tmp_path, "en")
     assert page.ask("document.title").startswith("</script><script>alert(1)")
@@ -210,7 +226,7 @@ def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) 
         if problem.machine is not None:
             positions = np.linspace(*scene.way, 121)
         asked = f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v === v ? v : null))"
-        made = np.array(page.ask(asked), dtype=float).T[:-1]
+        made = np.array(page.ask(asked), dtype=float).T[: len(scene.sweep.rows)]
         assert apart(made, scene.sweep, positions) < 1e-11, told
         assert not page.said, told
 

@@ -17,6 +17,7 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
 from planmethod.note.audit.audit import Verdict, audit
+from planmethod.note.audit.machine import chain
 from planmethod.problem import load, loads
 from planmethod.problem.load_records import Ordinates
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
@@ -242,7 +243,7 @@ def test_the_record_has_what_is_promised() -> None:
 
 def test_what_the_source_prints_stands_beside_what_it_should_be() -> None:
     found = {item.published.name: item for item in audit(load(path_of("press/flywheel")))}
-    assert len(found) == 69
+    assert len(found) == 71
     assert all(item.why is None for item in found.values())
     kinetic = found["T3 4 (таблица 4)"]
     assert near(kinetic.exact or 0.0, 11.1715871058343)
@@ -258,3 +259,11 @@ def test_what_the_source_prints_stands_beside_what_it_should_be() -> None:
         percent = source[f"M {k} (таблица 3)"].percent
         assert percent is not None
         assert abs(percent) < 1.4
+
+
+def test_the_chain_from_the_printed_flywheel_to_the_exact_one() -> None:
+    steps = dict(chain(load(path_of("press/flywheel"))))
+    assert list(steps.values()) == pytest.approx(
+        [5.40654, 6.94507, 6.66838, 6.60191, 2.17315, 2.41679, 2.54777, 2.54963], abs=6e-6
+    )
+    assert chain(load(path_of("machines/compressor"))) == []

@@ -63,9 +63,11 @@ def read_overrides(path: Path) -> tuple[Override, ...]:
     except FileNotFoundError:
         return ()
     except OSError as error:
-        raise OverridesError(f"Cannot read {path}: {error.strerror}.") from error
+        raise OverridesError("Cannot read {}: {}.", path, error.strerror) from error
     if len(data) > MOST_BYTES:
-        raise OverridesError(f"{path} is larger than {MOST_BYTES} bytes. Keep only the overrides.")
+        raise OverridesError(
+            "{} is larger than {} bytes. Keep only the overrides.", path, MOST_BYTES
+        )
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -75,7 +77,7 @@ def read_overrides(path: Path) -> tuple[Override, ...]:
     try:
         rows = list(csv.reader(io.StringIO(text.replace("\0", ""), newline=""), delimiter=mark))
     except csv.Error as error:
-        raise OverridesError(f"{path} is no table: {error}. Save it as CSV again.") from error
+        raise OverridesError("{} is no table: {}. Save it as CSV again.", path, error) from error
     return tuple(_overrides(rows, path))
 
 
@@ -85,8 +87,11 @@ def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
     head = [cell.strip().lower() for cell in rows[0]]
     if len(rows) > MOST_ROWS or not {"student", "points"} <= set(head):
         raise OverridesError(
-            f"{path}: expected columns {', '.join(COLUMNS)} and at most {MOST_ROWS} rows. Delete "
-            "the file to have an empty one made."
+            "{}: expected columns {} and at most {} rows. Delete the file to have an "
+            "empty one made.",
+            path,
+            ", ".join(COLUMNS),
+            MOST_ROWS,
         )
     for number, row in enumerate(rows[1:], 2):
         told = dict(zip(head, (cell.strip() for cell in row), strict=False))
@@ -94,7 +99,7 @@ def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
         student, remark = told.get("student", ""), told.get("remark", "")
         points = _points(told.get("points", ""), where)
         if not student and (points is not None or remark):
-            raise OverridesError(f"{where}: no student is named. Fill in the column student.")
+            raise OverridesError("{}: no student is named. Fill in the column student.", where)
         if points is not None or remark:
             yield Override(_bare(student), _bare(told.get("id", "")), points, remark, where)
 
@@ -107,7 +112,7 @@ def _points(text: str, where: str) -> float | None:
     except ValueError:
         points = -1.0
     if not 0.0 <= points <= 1e6:
-        raise OverridesError(f"{where}: points are a number from 0, got {text[:40]!r}.")
+        raise OverridesError("{}: points are a number from 0, got {!r}.", where, text[:40])
     return points
 
 

@@ -69,7 +69,7 @@ def _digest(path: Path) -> str:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except OSError as error:
-        raise OutputError(f"Cannot read {path} again: {error.strerror}.") from error
+        raise OutputError("Cannot read {} again: {}.", path, error.strerror) from error
 
 
 def hidden_name(student: str, salt: str) -> str:

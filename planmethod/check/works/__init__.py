@@ -38,11 +38,11 @@ def read_works(path: Path) -> list[Work]:
     """
     data = read_bytes(path)
     if data.startswith(_OLD_EXCEL):
-        raise WorksError(f"{path}: this is an old or encrypted workbook. Save it as XLSX.")
+        raise WorksError("{}: this is an old or encrypted workbook. Save it as XLSX.", path)
     reader = read_xlsx if data.startswith(_ZIP) else _READERS.get(path.suffix.lower())
     if reader is None:
         known = ", ".join(_READERS)
-        raise WorksError(f"{path}: not one of {known}. Save the works as one of these.")
+        raise WorksError("{}: not one of {}. Save the works as one of these.", path, known)
     return reader(data, path)
 
 

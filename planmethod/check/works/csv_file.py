@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import csv
 import io
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
 from planmethod.check.works.table import HEAD_ROWS, Row, head_row, read_table
+from planmethod.problem.source import table_text
 
 ROW_LIMIT = 20_000
 COLUMN_LIMIT = 400
@@ -37,12 +37,14 @@ def read_csv(data: bytes, path: Path) -> list[Work]:
     try:
         rows = list(_rows(text, separator or _separator(text, path), path))
     except csv.Error as error:
-        raise WorksError(f"{path}: this is not CSV: {error}. Is a quote left open?") from None
+        raise WorksError("{}: this is not CSV: {}. Is a quote left open?", path, error) from None
     gathering = Gathering(str(path))
     if not read_table(rows, gathering, path.stem, closed=True):
         raise WorksError(
-            f"{path}: none of the first {HEAD_ROWS} rows is a head. Name the columns: student, "
-            "what, value, unit, mm, sense; or student and the quantities."
+            "{}: none of the first {} rows is a head. Name the columns: student, what, "
+            "value, unit, mm, sense; or student and the quantities.",
+            path,
+            HEAD_ROWS,
         )
     return gathering.works()
 
@@ -54,15 +56,11 @@ def decoded(data: bytes, path: Path) -> str:
     ------
     WorksError
     """
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        text = data.decode("utf-16", "replace")
-    else:
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("cp1251", "replace")
+    text = table_text(data)
     if "\0" in text:
-        raise WorksError(f"{path}: this is not a text. Save the table as CSV in UTF-8, or as XLSX.")
+        raise WorksError(
+            "{}: this is not a text. Save the table as CSV in UTF-8, or as XLSX.", path
+        )
     return text
 
 
@@ -84,7 +82,11 @@ def _rows(text: str, separator: str, path: Path) -> Iterator[Row]:
     for count, row in enumerate(reader, 1):
         if count > ROW_LIMIT or len(row) > COLUMN_LIMIT:
             raise WorksError(
-                f"{path}: over {ROW_LIMIT} rows, or over {COLUMN_LIMIT} columns in row {count}."
+                "{}: over {} rows, or over {} columns in row {}.",
+                path,
+                ROW_LIMIT,
+                COLUMN_LIMIT,
+                count,
             )
         where = f"{path.name}:{reader.line_num}"
         yield [Cell(cut(field), where) for field in row]

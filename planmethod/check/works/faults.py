@@ -26,15 +26,17 @@ def read_bytes(path: Path) -> bytes:
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            raise WorksError(f"{path}: this is not a file. Name one: JSON, TOML, CSV or XLSX.")
+            raise WorksError("{}: this is not a file. Name one: JSON, TOML, CSV or XLSX.", path)
         with path.open("rb") as stream:
             data = stream.read(SIZE_LIMIT + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise WorksError(f"{path}: cannot be read: {reason}. Check the path.") from None
+        raise WorksError("{}: cannot be read: {}. Check the path.", path, reason) from None
     if len(data) > SIZE_LIMIT:
         raise WorksError(
-            f"{path}: larger than {SIZE_LIMIT // 2**20} MiB. Works of a group are a few hundred "
-            "kilobytes; is this the right file?"
+            "{}: larger than {} MiB. Works of a group are a few hundred kilobytes; is "
+            "this the right file?",
+            path,
+            SIZE_LIMIT // 2**20,
         )
     return data

@@ -75,7 +75,7 @@ class Draft:
             return
         if name not in self.answers:
             if len(self.answers) >= ANSWER_LIMIT:
-                raise WorksError(f"{self.where}: over {ANSWER_LIMIT} answers of one student.")
+                raise WorksError("{}: over {} answers of one student.", self.where, ANSWER_LIMIT)
             self.answers[name] = answer
             return
         joined = _joined(self.answers[name], answer)
@@ -180,8 +180,9 @@ class Gathering:
         if student not in self.drafts:
             if len(self.drafts) >= STUDENT_LIMIT:
                 raise WorksError(
-                    f"{self.where}: over {STUDENT_LIMIT} students. Is the column of the students "
-                    "the right one?"
+                    "{}: over {} students. Is the column of the students the right one?",
+                    self.where,
+                    STUDENT_LIMIT,
                 )
             self.drafts[student] = Draft(student, self.where)
         return self.drafts[student]

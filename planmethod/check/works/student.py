@@ -40,17 +40,21 @@ def read_json(data: bytes, path: Path) -> list[Work]:
         text = data.decode("utf-8-sig")
         whole = json.loads(text, parse_float=_Digits, parse_int=_Digits, parse_constant=_Digits)
     except UnicodeDecodeError as error:
-        raise WorksError(f"{path}: byte {error.start} is not UTF-8. Save it as UTF-8.") from None
+        raise WorksError("{}: byte {} is not UTF-8. Save it as UTF-8.", path, error.start) from None
     except json.JSONDecodeError as error:
         raise WorksError(
-            f"{path}: this is not JSON: {error.msg}, line {error.lineno}, column {error.colno}."
+            "{}: this is not JSON: {}, line {}, column {}.",
+            path,
+            error.msg,
+            error.lineno,
+            error.colno,
         ) from None
     except RecursionError:
-        raise WorksError(f"{path}: nested too deeply; a work needs three levels.") from None
+        raise WorksError("{}: nested too deeply; a work needs three levels.", path) from None
     if not isinstance(whole, list):
         return [_work(whole, path, "")]
     if len(whole) > STUDENT_LIMIT:
-        raise WorksError(f"{path}: over {STUDENT_LIMIT} students. Part the file.")
+        raise WorksError("{}: over {} students. Part the file.", path, STUDENT_LIMIT)
     return [_work(one, path, f"[{number}].") for number, one in enumerate(whole)]
 
 
@@ -65,7 +69,7 @@ def read_toml(data: bytes, path: Path) -> list[Work]:
     try:
         whole = parse(data.decode("utf-8-sig"), name=str(path))
     except UnicodeDecodeError as error:
-        raise WorksError(f"{path}: byte {error.start} is not UTF-8. Save it as UTF-8.") from None
+        raise WorksError("{}: byte {} is not UTF-8. Save it as UTF-8.", path, error.start) from None
     except ProblemError as error:
         raise WorksError(f"{path}: {'; '.join(map(str, error.faults))}") from None
     return [_work(whole, path, "")]
@@ -75,13 +79,13 @@ def _work(whole: Any, path: Path, before: str) -> Work:
     """Return the work that an object says; ``before`` is where it stands."""
     where = f"{path}: {before.rstrip('.')}".rstrip(": ")
     if not isinstance(whole, Mapping):
-        raise WorksError(f'{where}: expected an object with "student" and "answers".')
+        raise WorksError('{}: expected an object with "student" and "answers".', where)
     schema = whole.get("schema", SCHEMA)
     if isinstance(schema, bool) or str(schema) != str(SCHEMA):
-        raise WorksError(f"{where}: schema {cut(str(schema))}; this program reads {SCHEMA}.")
+        raise WorksError("{}: schema {}; this program reads {}.", where, cut(str(schema)), SCHEMA)
     answers = whole.get("answers")
     if not isinstance(answers, list) or len(answers) > ANSWER_LIMIT:
-        raise WorksError(f"{where}: 'answers' must be a list of at most {ANSWER_LIMIT} objects.")
+        raise WorksError("{}: 'answers' must be a list of at most {} objects.", where, ANSWER_LIMIT)
     draft = Draft(_cell(whole.get("student")).text or path.stem, str(path))
     _note_unknown(draft, whole, _WORK, before)
     for field in ("variant", "problem", "ruler_mm"):

@@ -55,8 +55,10 @@ def read_xlsx(data: bytes, path: Path) -> list[Work]:
             raise
         except Exception as error:  # whatever a broken workbook makes of its reader
             raise WorksError(
-                f"{path}: this workbook cannot be opened ({type(error).__name__}). Save it anew "
-                "as XLSX in the spreadsheet program."
+                "{}: this workbook cannot be opened ({}). Save it anew as XLSX in the "
+                "spreadsheet program.",
+                path,
+                type(error).__name__,
             ) from None
     known = [
         read_table(rows, gathering, title if len(sheets) > 1 else path.stem, closed=False)
@@ -64,8 +66,10 @@ def read_xlsx(data: bytes, path: Path) -> list[Work]:
     ]
     if not any(known):
         raise WorksError(
-            f"{path}: no sheet has a head among its first {HEAD_ROWS} rows. Name the columns: "
-            "student, what, value, unit, mm, sense; or student and the quantities."
+            "{}: no sheet has a head among its first {} rows. Name the columns: student, "
+            "what, value, unit, mm, sense; or student and the quantities.",
+            path,
+            HEAD_ROWS,
         )
     if meta:
         _compare(gathering, meta)
@@ -79,13 +83,18 @@ def _check_size(data: bytes, path: Path) -> None:
             members = archive.infolist()
     except (zipfile.BadZipFile, ValueError, NotImplementedError, EOFError, OSError):
         raise WorksError(
-            f"{path}: this is not an XLSX workbook. Save it as XLSX in the spreadsheet program."
+            "{}: this is not an XLSX workbook. Save it as XLSX in the spreadsheet program.", path
         ) from None
     unpacked = sum(m.file_size for m in members if m.filename.endswith((".xml", ".rels")))
     if len(members) > MEMBER_LIMIT or unpacked > UNPACKED_LIMIT:
         raise WorksError(
-            f"{path}: {len(members)} parts with {unpacked // 2**20} MiB of tables; the limits are "
-            f"{MEMBER_LIMIT} and {UNPACKED_LIMIT // 2**20} MiB. Save the answers alone."
+            "{}: {} parts with {} MiB of tables; the limits are {} and {} MiB. Save the "
+            "answers alone.",
+            path,
+            len(members),
+            unpacked // 2**20,
+            MEMBER_LIMIT,
+            UNPACKED_LIMIT // 2**20,
         )
 
 
@@ -100,7 +109,7 @@ def _sheets(data: bytes, path: Path) -> tuple[dict[str, list[Row]], dict[str, li
     meta: dict[str, list[str]] = {}
     try:
         if len(book.worksheets) > SHEET_LIMIT:
-            raise WorksError(f"{path}: over {SHEET_LIMIT} sheets. Part the file.")
+            raise WorksError("{}: over {} sheets. Part the file.", path, SHEET_LIMIT)
         for sheet in book.worksheets:
             if sheet.title == META:
                 for name, value in sheet.iter_rows(max_row=5000, max_col=2, values_only=True):
@@ -121,8 +130,14 @@ def _rows(book: Any, sheet: Any, path: Path) -> Iterator[Row]:
     title = cut(sheet.title)
     if there.rows > ROW_LIMIT or there.columns > COLUMN_LIMIT:
         raise WorksError(
-            f"{path}: sheet {title!r} has {there.rows} rows and {there.columns} columns; the "
-            f"limits are {ROW_LIMIT} and {COLUMN_LIMIT}. Save the answers alone."
+            "{}: sheet {!r} has {} rows and {} columns; the limits are {} and {}. Save "
+            "the answers alone.",
+            path,
+            title,
+            there.rows,
+            there.columns,
+            ROW_LIMIT,
+            COLUMN_LIMIT,
         )
     texts: dict[tuple[int, int], str] = {}
     rows = sheet.iter_rows(max_row=max(there.rows, 1), max_col=max(there.columns, 1))

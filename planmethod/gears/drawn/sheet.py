@@ -126,8 +126,11 @@ def drawings(
                 return [Drawing(fmt.width, fmt.height, texts.get("title", ""), items, views)]
     advice = "Take a larger --paper." if asked else "Ask for less in gears.ask."
     raise LayoutError(
-        f"{problem.name}: the sheet of {len(motion.train.wheels)} wheels does not fit "
-        f"{asked or PAPERS[-1]}. {advice}"
+        "{}: the sheet of {} wheels does not fit {}. {}",
+        problem.name,
+        len(motion.train.wheels),
+        asked or PAPERS[-1],
+        advice,
     )
 
 

@@ -15,6 +15,7 @@ from planmethod.gears.involute.blocking import HIGH, LOW, LimitKind, choose, is_
 from planmethod.gears.involute.model import MeshingProblem, Rack
 from planmethod.gears.involute.profile import Tooth
 from planmethod.gears.involute.sizes import Pair
+from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.extras import read_heading
 from planmethod.problem.fields import (
@@ -23,7 +24,6 @@ from planmethod.problem.fields import (
     read_number,
     read_table,
     read_whole,
-    show,
 )
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_sheet, read_stamp
@@ -99,7 +99,7 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
             number[key] = read
     for key in ("z", "m"):
         if key not in given:
-            faults.add(f"meshing.{key}", "missing", f"For example: {_EXAMPLE}")
+            faults.add(f"meshing.{key}", "missing", say("For example: {}", _EXAMPLE))
     z = _read_teeth(faults, given["z"]) if "z" in given else None
     x = _read_shifts(faults, given)
     if faults or z is None:
@@ -112,8 +112,12 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
         most = (np.pi / 4) / np.tan(rack.alpha)
         faults.add(
             "meshing",
-            f"the rack's tooth ends before its tip: ha + c = {ha + c:g}, at {alpha:g}° at most "
-            f"{most:.3f}",
+            say(
+                "the rack's tooth ends before its tip: ha + c = {:g}, at {:g}° at most {:.3f}",
+                ha + c,
+                alpha,
+                most,
+            ),
             "The standard rack has alpha = 20, ha = 1, c = 0.25.",
         )
         return None
@@ -137,7 +141,7 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
 
 def _read_teeth(faults: Faults, value: object) -> tuple[int, int] | None:
     if not isinstance(value, list) or len(value) != 2:
-        faults.add("meshing.z", f"expected two numbers of teeth, got {show(value)}", "z = [12, 30]")
+        faults.expected("meshing.z", "two numbers of teeth", value, "z = [12, 30]")
         return None
     if any(isinstance(one, int) and one < 0 for one in value):
         hint = "Write z = [20, 60] and internal = true."
@@ -152,7 +156,7 @@ def _read_cutter(faults: Faults, given: Mapping[str, Any], z: tuple[int, int]) -
     """Read the teeth of the cutter of an internal wheel; 0 of an external one, None of a fault."""
     internal = given.get("internal", False)
     if not isinstance(internal, bool):
-        faults.add("meshing.internal", f"expected true or false, got {show(internal)}")
+        faults.expected("meshing.internal", "true or false", internal)
         return None
     if not internal:
         if "cutter" in given:
@@ -161,7 +165,7 @@ def _read_cutter(faults: Faults, given: Mapping[str, Any], z: tuple[int, int]) -
         return 0
     told = read_whole(faults, "meshing.cutter", given.get("cutter", CUTTER), 8, 200)
     if told is not None and z[1] - max(z[0], told) < 1:
-        what = f"a ring of {z[1]} teeth, a wheel of {z[0]}, a cutter of {told}"
+        what = say("a ring of {} teeth, a wheel of {}, a cutter of {}", z[1], z[0], told)
         faults.add("meshing.z", what, "The second wheel is the ring, with the most teeth.")
         return None
     return told
@@ -173,7 +177,7 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
     value = given.get("x")
     if isinstance(value, list):
         if len(value) != 2:
-            faults.add("meshing.x", f"expected two shifts, got {show(value)}", "x = [0.5, 0.3]")
+            faults.expected("meshing.x", "two shifts", value, "x = [0.5, 0.3]")
             return None
         for key in (*alone, *(["a_w"] if "a_w" in given else [])):
             faults.add(f"meshing.{key}", "both shifts are given in x", "Keep one of them.")
@@ -185,7 +189,7 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
         one, two = found
         return None if one is None or two is None else (one, two)
     if "x" in given and value != BLOCKING:
-        faults.add("meshing.x", f"expected two shifts or 'blocking', got {show(value)}", _WAYS)
+        faults.expected("meshing.x", "two shifts or 'blocking'", value, _WAYS)
     elif "x" in given:
         for key in alone:
             faults.add(f"meshing.{key}", 'both shifts are chosen by x = "blocking"', _WAYS)
@@ -212,8 +216,8 @@ def _settle(
     if a_w is not None:
         least = abs(pair.a) * cos(pair.rack.alpha)
         if a_w <= least:
-            what = f"{a_w:g} mm, the base circles meet at a·cos α = {least:.3f} mm"
-            faults.add("meshing.a_w", what, f"Without shifts it is a = {abs(pair.a):g} mm.")
+            what = say("{:g} mm, the base circles meet at a·cos α = {:.3f} mm", a_w, least)
+            faults.add("meshing.a_w", what, say("Without shifts it is a = {:g} mm.", abs(pair.a)))
             return None
         alpha_w = float(np.arccos(least / a_w))
         grown = float(involute(alpha_w) - involute(pair.rack.alpha))
@@ -237,16 +241,16 @@ def _why_none(pair: Pair, total: float | None, tip: float, overlap: float) -> tu
         asked = limits(tip, overlap, internal=bool(pair.cutter))
         others = tuple(one for one in asked if one.kind is not LimitKind.OVERLAP)
         most = np.max(np.where(is_kept(every, others), every.epsilon, 0.0))
-    what = f"no shifts from {LOW:g} to {HIGH:g} keep all limits"
-    if total is not None:
-        sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
-        what += f", {sum_of} being {total:.4f} by a_w"
+    sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
+    fixed = "" if total is None else say(", {} being {:.4f} by a_w", sum_of, total)
+    what = say("no shifts from {:g} to {:g} keep all limits{}", LOW, HIGH, fixed)
     if most >= 1:
-        return what, (
-            f"Where the others are kept ε_α is at most {most:.3f}: give a smaller epsilon_min "
-            f"than {overlap:g}, or x."
+        hint = (
+            "Where the others are kept ε_α is at most {:.3f}: give a smaller epsilon_min than "
+            "{:g}, or x."
         )
-    return what, f"Give a smaller s_a_min than {tip:g}, other teeth, or x = [.., ..]."
+        return what, say(hint, most, overlap)
+    return what, say("Give a smaller s_a_min than {:g}, other teeth, or x = [.., ..].", tip)
 
 
 def _check_teeth(faults: Faults, pair: Pair) -> None:
@@ -255,24 +259,29 @@ def _check_teeth(faults: Faults, pair: Pair) -> None:
     if not float(pair.inv_alpha_w) >= 0:
         least = abs(sum(pair.z)) * float(involute(pair.rack.alpha)) / (2 * np.tan(pair.rack.alpha))
         sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
-        what = f"{sum_of} = {pair.side * total:g}: such wheels cannot come so near to each other"
-        faults.add("meshing.x", what, f"It must be at least {-least:.4f}.")
+        what = say(
+            "{} = {:g}: such wheels cannot come so near to each other", sum_of, pair.side * total
+        )
+        faults.add("meshing.x", what, say("It must be at least {:.4f}.", -least))
         return
     for k in (0, 1):
         tooth = Tooth(pair, k)
         sizes = {name: abs(tooth.size(name)) for name in ("d_a", "d_b", "d_f")}
         said = ", ".join(f"{name} = {value:.3f} mm" for name, value in sizes.items())
         if not np.isfinite(tooth.size("rho_a")) or sizes["d_f"] <= 0:
-            what = f"wheel {k + 1} has no involute teeth: {said}"
-            hint = "" if tooth.side > 0 else ", or more teeth of the ring"
-            faults.add("meshing.x", what, f"Take a larger x{k + 1}{hint}.")
+            what = say("wheel {} has no involute teeth: {}", k + 1, said)
+            hint = "Take a larger x{}."
+            if tooth.side < 0:
+                hint = "Take a larger x{}, or more teeth of the ring."
+            faults.add("meshing.x", what, say(hint, k + 1))
         elif not tooth.stands and tooth.side < 0:
-            what = f"the cutter leaves no tooth of wheel {k + 1}: {said}"
+            what = say("the cutter leaves no tooth of wheel {}: {}", k + 1, said)
             faults.add("meshing.cutter", what, "Take another number of its teeth.")
         elif not tooth.stands and not tooth.is_cut:
-            what = f"the tooth of wheel {k + 1} is pointed below its involute: x{k + 1} = "
-            faults.add("meshing.x", f"{what}{pair.x[k]:g}", f"Take a smaller x{k + 1}.")
+            what = "the tooth of wheel {0} is pointed below its involute: x{0} = {1:g}"
+            what = say(what, k + 1, pair.x[k])
+            faults.add("meshing.x", what, say("Take a smaller x{}.", k + 1))
         elif not tooth.stands:
-            what = f"the rack cuts the tooth of wheel {k + 1} off: x{k + 1} = {pair.x[k]:g}"
-            hint = f"Without undercut x{k + 1} is at least {tooth.size('x_min'):.3f}."
+            what = say("the rack cuts the tooth of wheel {0} off: x{0} = {1:g}", k + 1, pair.x[k])
+            hint = say("Without undercut x{} is at least {:.3f}.", k + 1, tooth.size("x_min"))
             faults.add("meshing.x", what, hint)

@@ -101,8 +101,10 @@ def drawings(
                 drawing.views.append(placed[1])
                 return [drawing]
     raise LayoutError(
-        f"{problem.name}: the meshing, its contour, its diagram and its tables do not fit "
-        f"{fmt.name}. Take --paper {PAPER if fmt.width < paper_format(PAPER).width else 'A0'}."
+        "{}: the meshing, its contour, its diagram and its tables do not fit {}. Take --paper {}.",
+        problem.name,
+        fmt.name,
+        PAPER if fmt.width < paper_format(PAPER).width else "A0",
     )
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from planmethod.note.numbers import is_nothing
+from planmethod.problem.load_records import Ordinates, Signs
+from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
 from planmethod.solved.machine.drawing import drawing_of
-from planmethod.solved.machine.flywheel import Flywheel, flywheel_of
+from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, touching
 from planmethod.solved.machine.sizes import size_of
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
@@ -35,6 +39,8 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
         return flywheel.exact.inertia, drawing.read_inertia
     values = {
         "constant": flywheel.constant,
+        "omega": flywheel.middle_speed,
+        "delta": flywheel.machine.delta,
         "mu_phi": drawing.scales.phi,
         "mu_A": drawing.scales.work,
         "psi_max": drawing.psi[0],
@@ -60,3 +66,60 @@ def _in_position(flywheel: Flywheel, kind: str, names: tuple[str, ...]) -> float
         column = {"M": rows.moment, "J": rows.inertia, "T": rows.inertia * half}[kind]
     value = float(column[number])
     return 0.0 if is_nothing(value, float(np.max(np.abs(column))) * 1e-7) else value
+
+
+def chain(problem: Problem) -> list[tuple[str, float]]:
+    """Return the way from the printed flywheel to the exact one, an error less at each step.
+
+    Returns
+    -------
+    list of (str, float)
+        Names of the steps, `AuditWording.chain_steps`, and J_f of each, kg·m²; empty where the file
+        does not print M and J of all positions of its table.
+    """
+    machine = problem.machine
+    if machine is None:
+        return []
+    printed = {item.what: item.value for item in problem.published}
+    count = machine.count
+    tables = [[printed.get(f"machine {kind} {k}") for k in range(count)] for kind in ("M", "J")]
+    moments, inertias = ([x for x in column if x is not None] for column in tables)
+    if len(moments) != count or len(inertias) != count:
+        return []
+    source, true = (
+        Flywheel(replace(problem, machine=replace(machine, signs=signs)))
+        for signs in (Signs.SOURCE, Signs.TRUE)
+    )
+    speed = printed.get("machine omega", source.middle_speed)
+    delta = printed.get("machine delta", machine.delta)
+    exact = true.reduced(count).inertia
+
+    def polygon(column: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
+        """Return the flywheel of printed moments by trapezoids, with the printed numbers."""
+        step = true.cycle / count
+        closed = np.append(moments, moments[0])
+        work = true.sign * np.append(0.0, np.cumsum(closed[1:] + closed[:-1]) * step / 2.0)
+        turned = np.asarray(step * np.arange(count + 1), dtype=float)
+        gain = true.sign * (work[-1] / true.cycle * turned - work)
+        around = np.append(column, column[0])
+        return touching(turned, gain, around, (1.0 + delta, 1.0 - delta), speed, delta).inertia
+
+    def by_points(wheel: Flywheel, number: int) -> float:
+        slopes = 1.0 + machine.delta, 1.0 - machine.delta
+        return wheel.by_points(number, Ordinates.TRAPEZOID, slopes).tangents.inertia
+
+    found = []
+    if {"machine KL", "machine mu_A"} <= printed.keys():
+        cut = printed["machine KL"] * printed["machine mu_A"]
+        found.append(("printed", cut / (speed**2 * delta)))
+    usual = true.tangents(1.0 + machine.delta, 1.0 - machine.delta, true.middle_speed)
+    return [
+        *found,
+        ("tables", polygon(np.array(inertias))),
+        ("inertia", polygon(exact)),
+        ("moments", by_points(source, count)),
+        ("signs", by_points(true, count)),
+        ("positions", by_points(true, 2 * count)),
+        ("curve", usual.inertia),
+        ("exact", true.exact.inertia),
+    ]

@@ -10,6 +10,7 @@ from planmethod.note.audit.audit import DRAFTING_MM, Audited, count
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, given, spoken
 from planmethod.note.wording import language
+from planmethod.problem.model import Problem
 
 NONE = "—"
 DIGITS = 5
@@ -86,7 +87,25 @@ class Document:
         counts = {verdict.value: number for verdict, number in count(items).items()}
         head.append(says.summary.format(values=len(items), **counts))
         rows = [self._row(item) for item in items]
-        return "\n\n".join([*head, _table(list(says.columns), rows, "llrrrrrrll")])
+        return "\n\n".join(
+            [*head, _table(list(says.columns), rows, "llrrrrrrll"), *self._chain(problem)]
+        )
+
+    def _chain(self, problem: Headed) -> list[str]:
+        """Return the way from a printed flywheel to the exact one, if the source prints it."""
+        if not isinstance(problem, Problem) or problem.machine is None:
+            return []
+        from planmethod.note.audit.machine import chain
+
+        rows, before = [], 0.0
+        for step, value in chain(problem):
+            change = 100.0 * (value / before - 1.0) if before else None
+            told = self.says.chain_steps[step]
+            rows.append([self._number(value, 6), self._hundredths(change), *told])
+            before = value
+        if not rows:
+            return []
+        return [self.says.chain, _table(list(self.says.chain_columns), rows, "rrll")]
 
     def _row(self, item: Audited) -> list[str]:
         published, says = item.published, self.says

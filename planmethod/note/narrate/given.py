@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.numbers import Notation, trimmed, with_unit
+from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.problem.model import Body, Geared, Problem, Slide
+from planmethod.problem.keys import UNITS
+from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
+from planmethod.problem.names import split_names
 from planmethod.solved.solution import Solution
-
-
-def coordinate(value: float, problem: Problem, say: Notation) -> str:
-    """Return a given coordinate as rich text, with the digits that the mechanism needs."""
-    size = max((length for _, _, length in problem.lengths), default=abs(value))
-    if abs(float(trimmed(value)) - value) <= 1e-6 * size:
-        return say.given(value)
-    return say.number(trimmed(value, 15))
 
 
 def point_name(point: str) -> str:
@@ -32,47 +27,147 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
 
     ``positions`` are the driver's, degrees (m for a slider); the file's when absent.
     """
-    drive, number, units = problem.drive, words.say.given, words.say.units
+    drive, text = problem.drive, As(problem, words)
     asked = drive.positions if positions is None else positions
-    unit = units[drive.coordinate.unit]
-    said = with_unit(number(float(asked[0])), unit)
-    if len(asked) > 1:
-        count = words.note.given_count.format(count=len(asked))
-        said += f"…{with_unit(number(float(asked[-1])), unit)}{count}"
-    lines = [f"{drive.coordinate.symbol} = {said}"]
+    lines = [_position(text, asked)]
     named = {name for _, name, _ in problem.lengths}
-    for _, name, metres in problem.lengths:
-        lines.append(f"l_{{{name}}} = {number(metres)} {units['m']}")
+    for link, name, metres in problem.lengths:
+        centre = problem.bodies[link].arc
+        if centre is not None and name == "".join(problem.bodies[link].axis or ()):
+            radius = text.metres(metres, _path(link, "slides.radius"))
+            said = words.note.given_arc.format(
+                link=link, radius=radius, line=_line(*split_names(name))
+            )
+            lines.append(said)
+            continue
+        lines.append(f"l_{{{name}}} = {text.metres(metres, _path(link, name))}")
     for link, body in problem.bodies.items():
         if link != FRAME:
-            lines += _distances(body, named, words)
+            lines += _third_points(link, body, named, text)
     for point, place in problem.bodies[FRAME].points.items():
         if place != 0:
-            lines += _coordinates(point, place, problem, words.say)
+            lines += _coordinates(point, place, text, f"frame.{point}")
     carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
     for guide, (through, base, angle) in problem.guides.items():
         if through is None:
-            lines += _guide(guide, base, angle, problem, words.say)
+            lines += _guide(guide, base, angle, text)
         elif guide in carried:
             point = point_name(through)
             lines.append(words.note.given_through.format(guide=guide, point=point))
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for slide in problem.slides.values():
-        lines += _carried(problem, slide, words)
+        lines += _carried(problem, slide, text)
         if slide.offset:
             name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
-            lines.append(f"e_{{{name}}} = {number(slide.offset)} {units['m']}")
+            offset = text.metres(slide.offset, _path(slide.slider, "slides.offset"))
+            lines.append(f"e_{{{name}}} = {offset}")
+    if drive.posed is not None and drive.posed.by is PosedBy.LENGTH:
+        return lines
     if drive.is_crank:
         lines += [] if drive.geared is None else _through(drive.geared, words)
         constant = "" if drive.acceleration else " = const"
         wheel = "" if drive.geared is None else f" = ω_{{{drive.geared.label}}}"
-        lines.append(f"ω_{{{drive.link}}}{wheel} = {number(drive.rate)} {units['1/s']}{constant}")
+        omega = f"ω_{{{drive.link}}}"
+        if drive.turns is not None:
+            speed = text.number(drive.turns, "rev/min", "driver.n")
+            rate = text.say.found(drive.rate)
+            found = f"{omega} = πn_{{{drive.link}}}/30 = {rate} {text.say.units['1/s']}"
+            lines.append(f"n_{{{drive.link}}} = {speed}{constant} ({found})")
+        else:
+            rate = text.number(drive.rate, "1/s", "driver.omega")
+            lines.append(f"{omega}{wheel} = {rate}{constant}")
         if drive.acceleration:
-            lines.append(f"ε_{{{drive.link}}} = {number(drive.acceleration)} {units['1/s²']}")
+            epsilon = text.number(drive.acceleration, "1/s²", "driver.epsilon")
+            lines.append(f"ε_{{{drive.link}}} = {epsilon}")
     else:
-        lines.append(f"v = {number(drive.rate)} {units['m/s']}")
-        lines.append(f"a = {number(drive.acceleration)} {units['m/s²']}")
+        lines.append(f"v = {text.number(drive.rate, 'm/s', 'driver.v')}")
+        lines.append(f"a = {text.number(drive.acceleration, 'm/s²', 'driver.a')}")
     return lines
+
+
+class As:
+    """How a file gives its numbers: its arithmetic, its unit of lengths (как дано)."""
+
+    def __init__(self, problem: Problem, words: Language) -> None:
+        self.problem, self.words, self.say = problem, words, words.say
+
+    def plain(self, value: float, path: str = "") -> str:
+        """Return a number without its unit."""
+        stated = self.problem.stated.get(path)
+        return self.say.given(value) if stated is None else arithmetic(stated, self.say)
+
+    def number(self, value: float, unit: str, path: str = "") -> str:
+        """Return a number with its unit."""
+        return with_unit(self.plain(value, path), self.say.units[unit])
+
+    def metres(self, value: float, path: str = "") -> str:
+        """Return a length, m, in the unit of the file."""
+        unit = self.problem.unit
+        return self.number(value * UNITS[unit], unit, path)
+
+
+def arithmetic(text: str, say: Notation) -> str:
+    """Return arithmetic of a file as rich text: ``0.25/3`` gives ``0,25/3``."""
+    text = text.replace("**", "^").replace("sqrt", "√").replace("pi", "π").strip(" °")
+    text = re.sub(r"\^ *([0-9]+)", r"^{\1}", text.replace("²", "^2").replace("³", "^3"))
+    return text.replace(".", say.decimal).replace("*", "·").replace("-", MINUS)
+
+
+def _path(link: str, key: str) -> str:
+    return f"links.{link}.{key}"
+
+
+def _position(text: As, asked: Sequence[float]) -> str:
+    """Return the position: as the output tells it, where the asked ones are those of the file."""
+    drive = text.problem.drive
+    if drive.posed is not None and tuple(asked) == drive.positions:
+        return _posed(drive.posed, text)
+    unit, key = drive.coordinate.unit, ""
+    if len(asked) == 1 and tuple(asked) == drive.positions:
+        key = f"driver.{drive.coordinate.name}"
+
+    def told(value: float) -> str:
+        return text.metres(value, key) if unit == "m" else text.number(value, unit, key)
+
+    said = told(float(asked[0]))
+    if len(asked) > 1:
+        count = text.words.note.given_count.format(count=len(asked))
+        said += f"…{told(float(asked[-1]))}{count}"
+    return f"{drive.coordinate.symbol} = {said}"
+
+
+def _posed(posed: Posed, text: As) -> str:
+    """Return how the output tells the position."""
+    note, values = text.words.note, posed.values
+    if posed.by is PosedBy.EXTREME:
+        told = []
+        for where, after in zip(posed.extremes, values, strict=True):
+            sign = f" {MINUS if after < 0 else '+'} {text.say.given(abs(after))}°"
+            told.append(note.given_extremes[where] + (sign if after else ""))
+        return note.given_position.format(position=", ".join(told))
+
+    def said(value: float) -> str:
+        path = f"driver.{posed.key}"
+        if path not in text.problem.stated:
+            path += f"[{values.index(value)}]"
+        if posed.by is PosedBy.STROKE:
+            return text.plain(value, path)
+        if posed.by is PosedBy.PHI:
+            return text.number(value, "deg", path)
+        return text.metres(value, path)
+
+    if posed.by is PosedBy.LENGTH:
+        pair, drive, say = posed.of, text.problem.drive, text.say
+        v, a = posed.rates
+        acted = f"l_{{{pair}}} = {said(values[0])}; "
+        acted += f"v_{{{pair}}} = {text.number(v, 'm/s', f'driver.v_{pair}')}; "
+        acted += f"a_{{{pair}}} = {text.number(a, 'm/s²', f'driver.a_{pair}')}"
+        letter, unit = (f"ω_{{{drive.link}}}", "1/s") if drive.is_crank else ("v", "m/s")
+        return f"{acted} ({letter} = {say.found(drive.rate)} {say.units[unit]})"
+    letter = {PosedBy.PHI: "φ", PosedBy.STROKE: "s/H"}.get(posed.by, posed.by.value)
+    symbol = f"{letter}_{{{posed.of}}}" if posed.of else letter
+    way = note.given_going[posed.going] if posed.going else ""
+    return f"{symbol} = {', '.join(map(said, values))}{way}"
 
 
 def _through(geared: Geared, words: Language) -> list[str]:
@@ -88,23 +183,44 @@ def _through(geared: Geared, words: Language) -> list[str]:
     return lines
 
 
-def _distances(body: Body, named: set[str], words: Language) -> list[str]:
-    """Return the distances that place a link's further points, where no length was given."""
-    points = list(body.points)
-    ends = body.axis or (points[0],)
+def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]:
+    """Return how a link's further points are given, where lengths of its do not tell it."""
+    note, points = text.words.note, list(body.points)
     lines = []
-    for point in points:
-        # A point on the axis is told by one distance, another one by two.
-        off_axis = abs(body.points[point].imag) > 1e-9 * abs(body.points[point])
-        for end in ends[: 2 if off_axis else 1]:
-            if point not in ends and f"{end}{point}" not in named and f"{point}{end}" not in named:
-                metres = abs(body.points[point] - body.points[end])
-                length = f"{words.say.given(metres)} {words.say.units['m']}"
-                lines.append(f"l_{{{end}{point}}} = {length}")
-        if off_axis and body.axis is not None:
-            left = body.points[point].imag > 0
-            side = words.note.given_left if left else words.note.given_right
-            lines.append(side.format(point=point_name(point), line=_line(*body.axis)))
+    for point, form in body.forms.items():
+        start = form.point or form.line[0]
+        at = f"{_path(link, point)}.at"
+        if form.kind == "side":
+            side = note.given_left if form.left else note.given_right
+            lines.append(side.format(point=point_name(point), line=_line(*form.line)))
+        elif form.kind == "vertex":
+            angle = text.number(form.angle, "deg", f"{_path(link, point)}.angle")
+            lines.append(f"∠{_line(form.line[1], start)}{point_name(point)} = {angle}")
+            if form.distance is not None:
+                distance = text.metres(form.distance, f"{_path(link, point)}.distance")
+                lines.append(f"l_{{{start}{point}}} = {distance}")
+        elif not form.across:
+            if f"{start}{point}" not in named and f"{point}{start}" not in named:
+                lines.append(f"l_{{{start}{point}}} = {text.metres(abs(form.at), at)}")
+        else:
+            axis = form.line if form.kind == "on" else body.axis or (start, points[0])
+            across = text.metres(form.across, f"{_path(link, point)}.across")
+            lines.append(
+                note.given_along.format(
+                    point=point_name(point),
+                    at=text.metres(form.at, at),
+                    line=_line(*axis),
+                    start=point_name(start),
+                    across=across,
+                )
+            )
+    for key, degrees in body.angles.items():
+        angle = text.number(degrees, "deg", f"{_path(link, 'angle')}.{key}")
+        letters = [point_name(name) for name in split_names(key)]
+        said = "".join(letters)
+        if len(letters) == 4:
+            said = f"({''.join(letters[:2])}, {''.join(letters[2:])})"
+        lines.append(f"∠{said} = {angle}")
     return lines
 
 
@@ -112,34 +228,43 @@ def _line(start: str, end: str) -> str:
     return f"{point_name(start)}{point_name(end)}"
 
 
-def _carried(problem: Problem, slide: Slide, words: Language) -> list[str]:
+def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
     """Return how the line of a moving link lies on it, where two letters do not tell it."""
-    axis = problem.bodies[slide.host].axis
+    axis, note = problem.bodies[slide.host].axis, text.words.note
     if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
         return []
-    angle = words.say.given(slide.angle)
+    angle = text.number(slide.angle, "deg", _path(slide.slider, "slides.angle"))
     if slide.offset:
-        guide = words.note.given_guide.format(link=slide.host, line=_line(*axis))
-        return [f"{guide} = {angle}°"]
+        guide = note.given_guide.format(link=slide.host, line=_line(*axis))
+        return [f"{guide} = {angle}"]
     line = _line(slide.through, slide.pin)
     if slide.angle % 180 == 90:
         return [f"{line} ⊥ {_line(*axis)}"]
-    return [f"∠({line}, {_line(*axis)}) = {angle}°"] if slide.angle % 180 else []
+    return [f"∠({line}, {_line(*axis)}) = {angle}"] if slide.angle % 180 else []
 
 
-def _coordinates(name: str, place: complex, problem: Problem, say: Notation) -> list[str]:
-    x, y = (coordinate(value, problem, say) for value in (place.real, place.imag))
-    return [f"x_{{{name}}} = {x} {say.units['m']}", f"y_{{{name}}} = {y} {say.units['m']}"]
+def _coordinates(name: str, place: complex, text: As, path: str) -> list[str]:
+    size = max((length for _, _, length in text.problem.lengths), default=abs(place))
+    size *= UNITS[text.problem.unit]
+    lines = []
+    for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
+        value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
+        said = text.plain(value, stated)
+        # Digits that the mechanism needs, though the number has more.
+        if stated not in text.problem.stated and abs(float(trimmed(value)) - value) > 1e-6 * size:
+            said = text.say.number(trimmed(value, 15))
+        lines.append(f"{letter}_{{{name}}} = {said} {text.say.units[text.problem.unit]}")
+    return lines
 
 
-def _guide(name: str, base: complex, angle: float, problem: Problem, say: Notation) -> list[str]:
+def _guide(name: str, base: complex, angle: float, text: As) -> list[str]:
     """Return where a guide is: by one coordinate when it runs along an axis."""
-    x, y = _coordinates(name, base, problem, say)
+    x, y = _coordinates(name, base, text, f"frame.guides.{name}.through")
     if angle % 180 == 90:
         return [x]
     if angle % 180 == 0:
         return [y]
-    return [x, y, f"∠({name}) = {say.given(angle)}°"]
+    return [x, y, f"∠({name}) = {text.number(angle, 'deg', f'frame.guides.{name}.angle')}"]
 
 
 def asked_points(solution: Solution) -> list[str]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from planmethod.construct.drafting import Profile
 from planmethod.note.numbers import plain
+from planmethod.note.records.runup import run_up_record
 from planmethod.problem.load_records import Ordinates
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import Extreme, Flywheel
@@ -83,6 +84,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
             "rim_speed": plain(sizes.speed),
             "held_by_speed": sizes.held,
         },
+        **run_up_record(flywheel),
     }
 
 

@@ -9,6 +9,7 @@ from typing import Any, BinaryIO
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.languages import WRITTEN, speaking
 from planmethod.note.records.spreadsheet import driver_of
 from planmethod.solved.many.gaps import GappedSweep
 
@@ -40,4 +41,6 @@ def swept_arrays(swept: GappedSweep, prefix: str = "") -> Iterator[tuple[str, np
     for name, values in zip(swept.names, out, strict=True):
         yield prefix + name, values
     yield f"{prefix}reason", swept.gaps.reason
-    yield f"{prefix}reasons", np.array(swept.gaps.sentences, dtype=np.str_)
+    with speaking(WRITTEN):  # as in a CSV
+        sentences = swept.gaps.sentences
+    yield f"{prefix}reasons", np.array(sentences, dtype=np.str_)

@@ -180,6 +180,10 @@ def record(solution: Solution) -> dict[str, Any]:
         from planmethod.solved.machine.flywheel import flywheel_of
 
         machine["machine"] = machine_record(flywheel_of(solution), solution.profile)
+    if solution.problem.balancing is not None:
+        from planmethod.note.records.balancing import balancing_record
+
+        machine["balancing"] = balancing_record(solution)
     return {
         "schema": SCHEMA,
         "problem": solution.problem.name,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from planmethod.languages import WRITTEN, speaking
 from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
 from planmethod.note.wording import wording
 from planmethod.plans.legend import TURNING
@@ -187,7 +188,8 @@ def _rows(part: slice, positions: Reals, cells: list[list[Any]], gaps: Gaps | No
     columns: list[Sequence[Any]] = [range(part.start + 1, part.stop + 1)]
     columns += [(positions + 0.0).tolist(), *cells]
     if gaps is not None:
-        kinds = gaps.kinds
+        with speaking(WRITTEN):  # the bytes of a file do not depend on the system's language
+            kinds = gaps.kinds
         columns.append([kinds[k] if k >= 0 else "" for k in gaps.reason[part].tolist()])
     return list(zip(*columns, strict=True))
 

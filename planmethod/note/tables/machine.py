@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.runup import asks_run_up, course_columns, courses, run_up_lines
 from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
 from planmethod.note.wording import Wording, language
 from planmethod.solved.machine.drawing import drawing_of
@@ -30,4 +31,14 @@ def machine_tables(solution: Solution, words: Wording) -> list[str]:
     if sizes is not None:
         told = "; ".join(tell.size_lines(sizes))
         lines += wrap(plain_text(f"{tell.said.sizes[sizes.shape.value]}: {told}"), rest="  ")
+    if asks_run_up(tell):
+        lines += ["", *heading(plain_text(tell.said.run_up)), ""]
+        for line in run_up_lines(tell):
+            lines += wrap(plain_text(line), rest="  ")
+        for title, course in courses(tell):
+            rows = [
+                [plain_text(f"{head}, {unit}"), *map(plain_text, cells)]
+                for head, unit, cells in course_columns(course, tell)
+            ]
+            lines += ["", title, "", *columns_text(rows, lead=1)]
     return lines

@@ -71,6 +71,10 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
         from planmethod.note.tables.machine import machine_tables
 
         lines += ["", *machine_tables(solution, words)]
+    if solution.problem.balancing is not None:
+        from planmethod.note.tables.balancing import balancing_tables
+
+        lines += ["", *balancing_tables(solution, words)]
     ruler = given(solution.hand.ruler, words)
     lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
     return "\n".join(lines)

@@ -11,7 +11,8 @@ class AuditWording:
     """What the document of the audit says in one language.
 
     ``verdicts`` and ``counted`` are by the values of `planmethod.note.audit.audit.Verdict`,
-    ``whys`` by those of `planmethod.solved.selected.quantities.Why`.
+    ``chain_steps`` by those of `planmethod.note.audit.machine.chain`: what a step is, and what was
+    wrong before it; ``whys`` by those of `planmethod.solved.selected.quantities.Why`.
     """
 
     title: str
@@ -25,3 +26,6 @@ class AuditWording:
     verdicts: Mapping[str, str]
     counted: Mapping[str, str]
     whys: Mapping[str, str]
+    chain: str
+    chain_columns: tuple[str, ...]
+    chain_steps: Mapping[str, tuple[str, str]]

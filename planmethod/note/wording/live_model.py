@@ -18,6 +18,8 @@ class LiveWording:
         the forces do not balance, a load is known in the file's positions only.
     nearest : str
         What the nearest positions that exist are introduced by.
+    steady, follows : str
+        Of a machine: the crank's speed in the steady motion; what has the page move at that speed.
     zoom : str
         A plan is drawn so many times larger than over the whole turn, or smaller.
     """
@@ -39,3 +41,5 @@ class LiveWording:
     nearest: str
     zoom: str
     made: str
+    steady: str
+    follows: str

@@ -16,6 +16,8 @@ SYMBOLS = (
     "crank inertia",
     "mean speed",
     "moment by lever",
+    "motor moment",
+    "braking moment",
 )
 """Quantities whose letters a language's `Notation` has."""
 
@@ -56,3 +58,42 @@ class MachineWording:
     held: str
     lever_agrees: str
     steps: tuple[str, ...]
+
+    run_up: str
+    kloss: str
+    line: str
+    ran_up: str
+    steady: str
+    by_motor: str
+    stays: str
+    stalled: str
+    not_steady: str
+    braked: str
+    coasted: str
+    not_stopped: str
+    motor_diagram: str
+    by_time: str
+    by_angle: str
+    stop_diagram: str
+    run_up_table: str
+    stop_table: str
+
+    balancing: str
+    run_up_wanted: str
+    balancing_wanted: str
+    structures: Mapping[str, str]
+    weighings: Mapping[str, str]
+    substituted: str
+    off_line: str
+    weight: str
+    no_weight: str
+    measured: str
+    force_falls: str
+    centre_stands: str
+    centre_moves: str
+    polygon_of: str
+    before: str
+    after: str
+    weights_table: str
+    forces_table: str
+    with_weights: str

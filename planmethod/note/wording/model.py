@@ -40,6 +40,11 @@ class Wording:
     given_left: str
     given_right: str
     given_through: str
+    given_along: str
+    given_position: str
+    given_extremes: Mapping[str, str]
+    given_going: Mapping[str, str]
+    given_arc: str
     given_guide: str
     scales: str
     scales_text: str

@@ -64,9 +64,12 @@ def place_group(draft: Draft, group: AssurGroup) -> None:
     """
     if group.class_number != 2:
         raise AssemblyError(
-            f"Group of class {group.class_number}, order {group.order} (links "
-            f"{', '.join(group.links)}) cannot be built by arcs and lines alone: only dyads "
-            "(class II) are. Choose another driving link, so that the mechanism falls into dyads."
+            "Group of class {}, order {} (links {}) cannot be built by arcs and lines "
+            "alone: only dyads (class II) are. Choose another driving link, so that the "
+            "mechanism falls into dyads.",
+            group.class_number,
+            group.order,
+            ", ".join(group.links),
         )
     closing = draft.choice.get(group.links, Closing())
     match group.signature:
@@ -83,7 +86,7 @@ def place_group(draft: Draft, group: AssurGroup) -> None:
         case "RPP":
             _place_rpp(draft, group)
         case _:
-            raise AssemblyError(f"No recipe for a group {group.signature} of class II.")
+            raise AssemblyError("No recipe for a group {} of class II.", group.signature)
     for link in group.links:
         draft.place_rest(link)
 

@@ -74,7 +74,7 @@ def render_pages(
         The format has no pages, or there is no drawing; and as `render`.
     """
     if fmt not in PAGED:
-        raise OutputError(f"'{fmt}' has no pages. Use one of: {', '.join(sorted(PAGED))}.")
+        raise OutputError("'{}' has no pages. Use one of: {}.", fmt, ", ".join(sorted(PAGED)))
     if not drawings:
         raise OutputError("There is no sheet to be put into the file. Draw at least one.")
     canvas = _canvas(fmt, options)
@@ -85,7 +85,7 @@ def render_pages(
 
 def _canvas(fmt: str, options: Options | None) -> Canvas:
     if fmt not in BACKENDS:
-        raise OutputError(f"Unknown format '{fmt}'. Use one of: {', '.join(BACKENDS)}.")
+        raise OutputError("Unknown format '{}'. Use one of: {}.", fmt, ", ".join(BACKENDS))
     if is_absent(fmt):
         raise OutputError(DXF_NEEDS)
     module = import_module(f"planmethod.render.backends.{fmt}")

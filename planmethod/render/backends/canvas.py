@@ -114,8 +114,11 @@ def draw(items: Iterable[Item], canvas: Canvas, title: str = "") -> None:
     for number, item in enumerate(items):
         if not all(map(isfinite, _coordinates(item))):
             raise PlanMethodError(
-                f"Item {number} of the drawing '{title}' has a coordinate that is not "
-                f"finite: {item!r}. Draw only points that exist."
+                "Item {} of the drawing '{}' has a coordinate that is not finite: {!r}. Draw "
+                "only points that exist.",
+                number,
+                title,
+                item,
             )
         if _is_bare(item):
             continue

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO, NoReturn
 
 from planmethod.errors import OutputError
+from planmethod.languages import say
 
 _CAUSES = {
     errno.EACCES: "no permission. Choose another directory with --out, or close the program that "
@@ -78,20 +79,21 @@ def opened(path: Path | str) -> Iterator[BinaryIO]:
 def _mode_to_keep(target: Path, asked: Path) -> int | None:
     """Return the permissions of the file to be replaced; refuse what must not be replaced."""
     if target.is_dir():
-        raise OutputError(f"Cannot write {asked}: it is a directory. Give the name of a file.")
+        raise OutputError("Cannot write {}: it is a directory. Give the name of a file.", asked)
     if not target.exists():
         return None
     if not target.is_file():
         # Renaming over a device or a pipe would destroy it.
-        raise OutputError(f"Cannot write {asked}: it is not a regular file. Choose another name.")
+        raise OutputError("Cannot write {}: it is not a regular file. Choose another name.", asked)
     if not os.access(target, os.W_OK):
         raise OutputError(
-            f"Cannot write {asked}: the file is write-protected. Remove the protection, or choose "
-            "another directory with --out."
+            "Cannot write {}: the file is write-protected. Remove the protection, or "
+            "choose another directory with --out.",
+            asked,
         )
     return target.stat().st_mode & 0o777
 
 
 def _explain(path: Path, error: OSError) -> NoReturn:
-    cause = _CAUSES.get(error.errno or 0, f"{error.strerror or error}. Check the path")
-    raise OutputError(f"Cannot write {path}: {cause}.") from error
+    cause = _CAUSES.get(error.errno or 0, say("{}. Check the path", error.strerror or error))
+    raise OutputError("Cannot write {}: {}.", path, cause) from error

@@ -46,8 +46,14 @@ class PngCanvas(Canvas):
         columns, rows = round(width * per_mm), round(height * per_mm)
         if not (1 <= columns <= _LARGEST and 1 <= rows <= _LARGEST):
             raise OutputError(
-                f"A sheet of {width:g} x {height:g} mm at {self._dpi:g} dpi makes {columns} x "
-                f"{rows} pixels; 1 to {_LARGEST} a side are possible. Choose another resolution."
+                "A sheet of {:g} x {:g} mm at {:g} dpi makes {} x {} pixels; 1 to {} a side "
+                "are possible. Choose another resolution.",
+                width,
+                height,
+                self._dpi,
+                columns,
+                rows,
+                _LARGEST,
             )
         self._title = title
         self._lettering = lettering

@@ -84,7 +84,9 @@ class Furniture:
         """Refuse an unknown form."""
         if self.form not in FORMS:
             raise LayoutError(
-                f"Unknown form {self.form!r} of the title block. Choose one of: {', '.join(FORMS)}."
+                "Unknown form {!r} of the title block. Choose one of: {}.",
+                self.form,
+                ", ".join(FORMS),
             )
 
     @classmethod

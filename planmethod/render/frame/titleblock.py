@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from types import MappingProxyType
 
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
 from planmethod.problem import keys
 from planmethod.render.frame.forms import FORM_1, Cell, Form
@@ -102,8 +102,12 @@ def check_fields(fields: Iterable[str]) -> None:
     for key in fields:
         if key not in keys.STAMP:
             near = get_close_matches(key, keys.STAMP, n=1)
-            hint = f"Did you mean {near[0]}?" if near else f"Known: {', '.join(keys.STAMP)}."
-            raise LayoutError(f"Unknown field {key!r} of the title block. {hint}")
+            hint = (
+                say("Did you mean {}?", near[0])
+                if near
+                else say("Known: {}.", ", ".join(keys.STAMP))
+            )
+            raise LayoutError("Unknown field {!r} of the title block. {}", key, hint)
 
 
 def filled(text: str, cell: Cell, tag: str = STAMP) -> list[Item]:

@@ -20,6 +20,7 @@ from math import radians
 from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
+from planmethod.languages import say
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
@@ -296,7 +297,7 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[_Node, ...]
             body, i = _index_body(markup, i)
             nodes.append(_merged(nodes, sign, body))
         elif sign in _SPECIAL:
-            raise _fault(markup, i, f"'{sign}' does not pair or starts no known command")
+            raise _fault(markup, i, say("'{}' does not pair or starts no known command", sign))
         else:
             letters += sign
             i += 1
@@ -315,7 +316,7 @@ def _index_body(markup: str, i: int) -> tuple[tuple[_Node, ...], int]:
             return body, end + 1
     elif following and following not in _SPECIAL and not following.isspace():
         return (_Letters(following),), i + 2
-    raise _fault(markup, i, f"nothing stands after '{markup[i]}'")
+    raise _fault(markup, i, say("nothing stands after '{}'", markup[i]))
 
 
 def _merged(nodes: list[_Node], sign: str, body: tuple[_Node, ...]) -> _Index:
@@ -333,8 +334,11 @@ def _merged(nodes: list[_Node], sign: str, body: tuple[_Node, ...]) -> _Index:
 
 def _fault(markup: str, i: int, what: str) -> LayoutError:
     return LayoutError(
-        f"Cannot set the inscription {markup!r}: {what} (sign {i + 1}). "
-        "Pair the braces, or write a literal sign with a backslash before it."
+        "Cannot set the inscription {!r}: {} (sign {}). Pair the braces, or write a "
+        "literal sign with a backslash before it.",
+        markup,
+        what,
+        i + 1,
     )
 
 

@@ -239,7 +239,7 @@ def _check(columns: Sequence[TableColumn]) -> None:
     counts = {len(column.values) for column in columns}
     if len(counts) != 1:
         told = ", ".join(f"{c.head}: {len(c.values)}" for c in columns) or "no columns"
-        raise LayoutError(f"Cannot draw a table from columns of unlike length ({told}).")
+        raise LayoutError("Cannot draw a table from columns of unlike length ({}).", told)
 
 
 def _set_all(columns: Sequence[TableColumn], size: float) -> tuple[_Set, ...]:
@@ -292,8 +292,11 @@ def _split(columns: tuple[_Set, ...], limit: float, leading: int) -> list[tuple[
     widest = max((c.width for c in rest), default=0.0)
     if widest > room + 1e-9:
         raise LayoutError(
-            f"Cannot fit a table column of {widest:.1f} mm beside {limit - room:.1f} mm of leading "
-            f"columns into {limit:.1f} mm. Choose a larger paper format or fewer leading columns."
+            "Cannot fit a table column of {:.1f} mm beside {:.1f} mm of leading columns "
+            "into {:.1f} mm. Choose a larger paper format or fewer leading columns.",
+            widest,
+            limit - room,
+            limit,
         )
     count = len(_filled(rest, room))
     tries = (widest + (room - widest) * k / 40 for k in range(40))

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.errors import AssemblyError
+from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.note.wording import language
 from planmethod.plans.draft import cis
@@ -106,10 +107,11 @@ class Film:
         low, high = float(self.positions.min()), float(self.positions.max())
         turns = 360.0 * round((low + high) / 720.0)
         low, high = low - turns, high - turns
-        return (
-            f"{self.total - there} of {self.total} positions do not exist and are skipped; the "
-            f"driver goes to and fro from {low:.6g} to {high:.6g}."
+        told = (
+            "{} of {} positions do not exist and are skipped; the driver goes to and fro from "
+            "{:.6g} to {:.6g}."
         )
+        return say(told, self.total - there, self.total, low, high)
 
     def frames(self) -> Iterator[Drawing]:
         """Yield the frames as drawings."""
@@ -251,8 +253,9 @@ class _Cutting:
         runs = [r for r in np.split(np.arange(len(tried)), cuts) if there[r[0]]]
         if not runs:
             raise AssemblyError(
-                f"None of {self.frames} positions of the driver exists: there is nothing to "
-                "animate. Give more --frames, or change the lengths."
+                "None of {} positions of the driver exists: there is nothing to animate. "
+                "Give more --frames, or change the lengths.",
+                self.frames,
             )
         # The first position again stands in the middle of the turn that is laid out twice.
         longest = max(runs, key=lambda r: (self.frames in r, len(r)))

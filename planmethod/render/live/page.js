@@ -77,7 +77,17 @@ function loads(x, out) {  // what the tape is told of loads that differ from pos
   });
 }
 
-function at(x) {  // all outputs in a position of the driver; last the guard that fails, or -1
+function steady(x) {  // speed of the crank in the steady motion of a machine
+  const { omega, first, sense, cycle } = D.motion, count = omega.length;
+  const along = modulo(sense * (x - first), cycle) / cycle * count, k = Math.floor(along) % count;
+  return omega[k] + (omega[(k + 1) % count] - omega[k]) * (along - Math.floor(along));
+}
+
+function at(x) {  // all outputs in a position of the driver; the guard that fails, or -1; the speed
+  return D.motion ? [...solved(x), steady(x)] : solved(x);
+}
+
+function solved(x) {
   const sides = D.branches.map(one => branch(one, x));
   if (!D.loads) return run(x, ...sides);
   const nothing = D.loads.list.flatMap(load => load.place === undefined ? [0] : [0, 0]);
@@ -88,7 +98,7 @@ function at(x) {  // all outputs in a position of the driver; last the guard tha
 
 const [LOW, HIGH] = D.way, END = D.rows.length;
 const sample = Array.from({ length: SAMPLES + 1 }, (_, k) => at(LOW + (HIGH - LOW) * k / SAMPLES));
-const peak = D.rows.map((_, k) => Math.max(0, ...sample.map(o => Math.abs(o[k]) || 0)));
+const peak = Array.from(sample[0], (_, k) => Math.max(0, ...sample.map(o => Math.abs(o[k]) || 0)));
 const exists = out => D.places.every(k => Number.isFinite(out[k]));
 
 function said(value, digits, largest = 0) {
@@ -355,7 +365,8 @@ function plot(q) {
   const values = sample.map(out => valued(q, out)), real = values.filter(Number.isFinite);
   const sizes = real.map(Math.abs).sort((a, b) => a - b);
   const most = Math.min(sizes[sizes.length - 1] || 0, 50 * (sizes[sizes.length >> 1] || 1e300));
-  let low = Math.max(-most, Math.min(0, ...real)), high = Math.min(most, Math.max(0, ...real));
+  const zero = q.steady ? [] : [0];  // a speed that hardly changes is looked at closely
+  let low = Math.max(-most, Math.min(...zero, ...real)), high = Math.min(most, Math.max(...zero, ...real));
   if (!(high - low > 1e-12 * q.largest)) [low, high] = [low - 1, high + 1];
   q.x = value => PAD[0] + (value - LOW) / (HIGH - LOW) * (WIDE - PAD[0] - PAD[1]);
   const tall = TALL - PAD[2] - PAD[3];
@@ -468,7 +479,8 @@ function show(x) {
 function tick(time) {
   if (!playing) return;
   const speed = +byId("speed").value, whole = HIGH - LOW;
-  let next = position + sense * Math.min(0.1, (time - playing) / 1000) * speed *
+  const follows = D.motion && byId("follows").checked ? now[END + 1] / D.motion.mean : 1;
+  let next = position + sense * Math.min(0.1, (time - playing) / 1000) * speed * follows *
     (D.crank ? TURN : whole) / 8;
   playing = time;
   if (D.crank) next = modulo(next, HIGH);

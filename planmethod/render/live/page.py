@@ -106,13 +106,17 @@ class _Page:
             f'<option value="{v}"{" selected" if v == 1 else ""}>×{v:g}</option>'
             for v in (0.25, 0.5, 1, 2)
         )
+        follows = ""
+        if self.scene.flywheel is not None:
+            told = _rich(said.follows.format(speed=f"ω_{{{drive.link}}}(φ)"))
+            follows = f'<label><input id="follows" type="checkbox"> {told}</label>'
         return (
             f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
             f'<input id="slider" type="range" min="{low!r}" max="{high!r}" step="any" '
             f'aria-label="{escape(said.driver)}"><label>{label} = <input id="exact" type="number" '
             f'step="any"> {unit}</label><select id="speed" aria-label="{escape(said.speed)}">'
             f'{speeds}</select><label><input id="trace" type="checkbox" checked> '
-            f"{escape(said.traces)}</label></section>"
+            f"{escape(said.traces)}</label>{follows}</section>"
             '<section id="why" role="status" hidden></section></div>'
         )
 
@@ -173,6 +177,8 @@ class _Page:
                 else note.table_points
             )  # fmt: skip
             tables.setdefault(title, []).append(self._row(number, quantity))
+        if self.scene.flywheel is not None:
+            tables[said.steady] = [self._steady_row()]
         told = "".join(
             f"<table><caption>{escape(title)}</caption><tbody>{''.join(rows)}</tbody></table>"
             for title, rows in tables.items()
@@ -181,6 +187,16 @@ class _Page:
             f'<section><h2>{escape(said.diagrams)}</h2><p class="hint">{escape(said.choose)}</p>'
             f'<div id="diagrams"></div></section>\n<section><h2>{escape(said.numbers)}</h2>'
             f'<div id="numbers">{told}</div></section>'
+        )
+
+    def _steady_row(self) -> str:
+        """Return the row of the crank's speed in the steady motion, after all quantities."""
+        number, row = len(self.scene.quantities), len(self.scene.sweep.rows) + 1
+        symbol = _rich(f"ω_{{{self.problem.drive.link}}}(φ)")
+        return (
+            f'<tr><th><button id="choose-{number}" aria-pressed="false">{symbol}</button></th>'
+            f'<td><span id="cell-{row}" data-row="{row}"></span></td>'
+            f"<td>{_rich(self.words.say.units['1/s'])}</td></tr>"
         )
 
     def _row(self, number: int, quantity: Quantity) -> str:
@@ -244,13 +260,28 @@ class _Page:
                     "chosen": one.label in chosen,
                 }
                 for one in scene.quantities
-            ],
+            ] + self._steady(),
+            "motion": scene.motion(),
             "words": {
                 "play": said.play, "pause": said.pause, "touch": said.touch,
                 "zoom": said.zoom, "nearest": said.nearest, "unknown": said.unknown,
                 "decimal": say.decimal, "mm": _plain(say.units["mm"]),
             },
         }  # fmt: skip
+
+    def _steady(self) -> list[dict[str, Any]]:
+        if self.scene.flywheel is None:
+            return []
+        return [
+            {
+                "rows": [len(self.scene.sweep.rows) + 1],
+                "vector": False,
+                "symbol": _runs(f"ω_{{{self.problem.drive.link}}}(φ)"),
+                "unit": _runs(self.words.say.units["1/s"]),
+                "chosen": True,
+                "steady": True,
+            }
+        ]
 
     def _told(self, view: View) -> dict[str, Any]:
         segments = [

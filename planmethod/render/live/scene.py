@@ -52,6 +52,10 @@ SHAPE = 1.3
 """Width of all views by their height, so that they stand in rows."""
 
 LETTER, SMALL = 5.0, 4.5
+
+SPEEDS = 720
+"""Angles of a turn at which the page knows the speed of a machine."""
+
 _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
 _LOOKS = 4  # so many times finer is the way looked at
 
@@ -103,6 +107,11 @@ class Scene:
     def __init__(self, problem: Problem, words: Language) -> None:
         self.problem, self.words = problem, words
         self._drawn: dict[Name, int] = {}
+        self.flywheel = None
+        if problem.machine is not None:
+            from planmethod.solved.machine.flywheel import Flywheel  # few files have one
+
+            self.flywheel = Flywheel(problem)
         bare = Solution(problem, positions=[])
         self.construction = bare.construction
         has_loads = problem.dynamics is not None
@@ -293,6 +302,20 @@ class Scene:
         own = [at for (name, _), at in motion.point.items() if name == link]
         ends = [own[0], next((at for at in own if at != own[0]), own[0])]
         return [[*self._ref(end), 1] for end in ends]
+
+    def motion(self) -> dict[str, Any] | None:
+        """Return the speed of the crank in the steady motion of a machine, by even angles."""
+        wheel = self.flywheel
+        if wheel is None:
+            return None
+        omega, _ = wheel.speeds(wheel.turned(SPEEDS * wheel.turns))
+        return {
+            "omega": [round(value, 9) for value in omega.tolist()],
+            "first": wheel.turn.start_deg,
+            "sense": wheel.turn.sense,
+            "cycle": wheel.machine.cycle_deg,
+            "mean": wheel.middle_speed,
+        }
 
     def chosen(self) -> set[str]:
         """Return the labels of what has a diagram from the start: the motion of the last link."""

@@ -44,8 +44,9 @@ def _drawing(solution: Solution) -> FlywheelDrawing:
     problem = solution.problem
     if problem.machine is None:
         raise LayoutError(
-            f"{problem.name}: a layout with a flywheel needs [machine] in the problem file. "
-            'For example: [machine] delta = "1/18".'
+            "{}: a layout with a flywheel needs [machine] in the problem file. For "
+            'example: [machine] delta = "1/18".',
+            problem.name,
         )
     return drawing_of(flywheel_of(solution), solution.profile)
 

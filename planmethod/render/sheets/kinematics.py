@@ -10,7 +10,7 @@ from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
 from planmethod.paper import Format
 from planmethod.problem.model import Problem, Scales
@@ -158,8 +158,11 @@ def kinematics_sheets(
     asked = problem.drive.positions if positions is None else tuple(positions)
     if len(asked) > MOST_POSITIONS:
         raise LayoutError(
-            f"{problem.name}: sheets are drawn for at most {MOST_POSITIONS} positions, "
-            f"{len(asked)} are asked. Ask fewer (--phi 0:360:30); for tables take solve --csv."
+            "{}: sheets are drawn for at most {} positions, {} are asked. Ask fewer "
+            "(--phi 0:360:30); for tables take solve --csv.",
+            problem.name,
+            MOST_POSITIONS,
+            len(asked),
         )
     if made is None:
         made = composition("one-position" if len(asked) == 1 else "many-positions", words.lang)
@@ -184,9 +187,9 @@ def kinematics_sheets(
     advice = (
         "Take coarser scales in [scales], or leave them out"
         if given
-        else (f"Take a larger format: one of {', '.join(made.formats)}")
+        else (say("Take a larger format: one of {}", ", ".join(made.formats)))
     )
-    raise LayoutError(f"{problem.name}: the views do not fit {papers[-1]}. {advice}.")
+    raise LayoutError("{}: the views do not fit {}. {}.", problem.name, papers[-1], advice)
 
 
 def _papers(layout: Composition, problem: Problem, positions: int) -> tuple[str, ...]:
@@ -200,6 +203,11 @@ def _check_positions(layout: Composition, count: int) -> None:
     for number, entry in enumerate(layout.blocks):
         if entry.position is not None and entry.position >= count:
             raise LayoutError(
-                f"{layout.name}: blocks[{number}].position is {entry.position}, but of {count} "
-                f"positions the last is {count - 1}. Name one of them, or ask more with --phi."
+                "{}: blocks[{}].position is {}, but of {} positions the last is {}. Name one "
+                "of them, or ask more with --phi.",
+                layout.name,
+                number,
+                entry.position,
+                count,
+                count - 1,
             )

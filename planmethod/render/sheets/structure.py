@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Problem
@@ -129,10 +129,18 @@ def structure_sheet(
                 shown, views = placed
                 return Drawing(fmt.width, fmt.height, texts["title"], [*items, *shown], views)
     larger = PAPERS[PAPERS.index(names[-1]) + 1 :] if names[-1] in PAPERS else PAPERS
-    advice = f"Take --paper {larger[0]}." if larger else "Draw parts of the mechanism on their own."
+    advice = (
+        say("Take --paper {}.", larger[0])
+        if larger
+        else "Draw parts of the mechanism on their own."
+    )
     raise LayoutError(
-        f"{problem.name}: the structural analysis of {structure.moving_links} links and "
-        f"{len(structure.groups)} groups does not fit {names[-1]}. {advice}"
+        "{}: the structural analysis of {} links and {} groups does not fit {}. {}",
+        problem.name,
+        structure.moving_links,
+        len(structure.groups),
+        names[-1],
+        advice,
     )
 
 

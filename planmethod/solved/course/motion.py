@@ -10,6 +10,7 @@ from math import pi
 import numpy as np
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
 from planmethod.solved.course.curve import Curve, resolved
@@ -106,7 +107,7 @@ class TurnMotion:
             raise _fault(
                 problem,
                 "driver",
-                f"link {drive.link} slides: there is no turn of a crank",
+                say("link {} slides: there is no turn of a crank", drive.link),
                 "The cycle of a machine is that of a driving crank: give phi and n.",
             )
         if not drive.rate:
@@ -169,7 +170,7 @@ class TurnMotion:
             raise _fault(
                 self.problem,
                 "machine.cycle_deg",
-                f"after {np.degrees(self.cycle):g} degrees the links are not where they were",
+                say("after {:g} degrees the links are not where they were", np.degrees(self.cycle)),
                 "Check [assembly]: the way of closing must come back with the cycle.",
             )
         return resolved(self._columns, edges, sizes)
@@ -244,7 +245,10 @@ class TurnMotion:
         places = self.at(dead).points[point].place
         if len(dead) < 2 or float(np.ptp((places * way.conjugate()).real)) == 0.0:
             raise _fault(
-                self.problem, "loads", f"point {point} does not move to and fro", "Check `at`."
+                self.problem,
+                "loads",
+                say("point {} does not move to and fro", point),
+                "Check `at`.",
             )
         last, following = np.abs(first.place[0] - places[[-1, 0]])
         if not at_start and last <= following:
@@ -260,8 +264,13 @@ class TurnMotion:
             raise _fault(
                 self.problem,
                 "loads",
-                f"point {point} does not move on a straight line: it is "
-                f"{off / abs(towards):.3g} m off, the stroke is {abs(towards):.4g} m",
+                say(
+                    "point {} does not move on a straight line: it is {:.3g} m off, the stroke "
+                    "is {:.4g} m",
+                    point,
+                    off / abs(towards),
+                    abs(towards),
+                ),
                 'Give the load over the path of a slider, or over "phi".',
             )
         return Stroke(start, towards, dead)

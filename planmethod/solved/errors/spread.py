@@ -331,14 +331,14 @@ class Errors:
         unknown = [label for label in labels if label not in self.items]
         if unknown:
             raise UnknownItemError(
-                f"a drawing does not give {', '.join(unknown)}. Known: {', '.join(self.items)}."
+                "a drawing does not give {}. Known: {}.", ", ".join(unknown), ", ".join(self.items)
             )
 
     def ellipse(self, point: PointName, index: int) -> Reals:
         """Return the covariance of a point on its plan, mm², ndarray of shape (2, 2)."""
         if point not in self._first.points:
             raise UnknownItemError(
-                f"no plan has a point {point}. Known: {', '.join(sorted(self._first.points))}."
+                "no plan has a point {}. Known: {}.", point, ", ".join(sorted(self._first.points))
             )
         return np.array(self._first.points[point][:, :, index])
 

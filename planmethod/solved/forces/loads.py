@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Number
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.problem.bodies import rotation
@@ -288,8 +289,13 @@ def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | fl
             if given != there:
                 fault = Fault(
                     f"loads[{index}].force.strokes",
-                    f"{given} strokes, point {load.at} makes {there} in a cycle of "
-                    f"{np.degrees(turn.cycle):g} degrees",
+                    say(
+                        "{} strokes, point {} makes {} in a cycle of {:g} degrees",
+                        given,
+                        load.at,
+                        there,
+                        np.degrees(turn.cycle),
+                    ),
                     "A four-stroke engine has [machine] cycle_deg = 720.",
                 )
                 raise ProblemError(solution.problem.name, [fault])
@@ -349,7 +355,7 @@ def _numbers(solution: MotionValues, path: str) -> npt.NDArray[np.intp]:
         first = solution.problem.drive.coordinate.told(f"{float(asked[strange[0]]):.12g}")
         fault = Fault(
             f"{path}.values",
-            f"given for the positions of the file, and {first} is none of them",
+            say("given for the positions of the file, and {} is none of them", first),
             "Give the table over phi, s, x or y, or ask the file's own positions.",
         )
         raise ProblemError(solution.problem.name, [fault])

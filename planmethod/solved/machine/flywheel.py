@@ -12,12 +12,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
+from typing import TypeVar
 
 import numpy as np
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.load_records import (
     Dynamics,
@@ -153,15 +155,20 @@ class Flywheel(Remembering):
         if self.work_per_cycle > least:
             return
         driving = self.machine.constant is Side.DRIVING
-        does, other = ("resist", "resisting") if driving else ("drive", "driving")
+        told = (
+            "a constant driving moment cannot balance the work of the loads over the cycle: they "
+            "do {:.6g} J and must resist"
+            if driving
+            else "a constant resisting moment cannot balance the work of the loads over the cycle: "
+            "they do {:.6g} J and must drive"
+        )
         done = -self.sign * self.work_per_cycle  # by the loads; positive where they drive
         nothing = abs(done) <= least
-        message = (
-            f"a constant {self.machine.constant.value} moment cannot balance the work of the "
-            f"loads over the cycle: they do {0.0 if nothing else done:.6g} J and must {does}"
-        )
-        hint = "Check their directions and phases"
-        hint += "." if nothing else f', or say constant = "{other}".'
+        message = say(told, 0.0 if nothing else done)
+        hint = 'Check their directions and phases, or say constant = "{}".'
+        hint = say(hint, "resisting" if driving else "driving")
+        if nothing:
+            hint = "Check their directions and phases."
         raise ProblemError(self.problem.name, [Fault("machine.constant", message, hint)])
 
     # Exactly ---------------------------------------------------------------------------------
@@ -292,8 +299,8 @@ class Flywheel(Remembering):
                 three = rate(k + 1, omega + step / 2.0 * two)
                 four = rate(k + 2, omega + step * three)
                 after = omega + step / 6.0 * (one + 2.0 * two + 2.0 * three + four)
-                for share in _turning_points(omega, after, step * one, step * rate(k + 2, after)):
-                    value = _hermite(omega, after, step * one, step * rate(k + 2, after), share)
+                for share in turning_points(omega, after, step * one, step * rate(k + 2, after)):
+                    value = hermite(omega, after, step * one, step * rate(k + 2, after), share)
                     found = Extreme(value, float(at[k]) + share * step)
                     highest = max(highest, found, key=lambda extreme: extreme.value)
                     lowest = min(lowest, found, key=lambda extreme: extreme.value)
@@ -381,17 +388,38 @@ class Flywheel(Remembering):
         step = self.cycle / count
         taken = middles if ordinates is Ordinates.MIDDLE else (moments[:-1] + moments[1:]) / 2.0
         work = self.sign * np.append(0.0, np.cumsum(taken)) * step
-        turned = step * np.arange(count + 1)
+        turned = np.asarray(step * np.arange(count + 1), dtype=float)
         gain = self.sign * (work[-1] / self.cycle * turned - work)
         inertia = np.append(both.inertia[::2], both.inertia[0])
-        speed = self.middle_speed
-        highs = gain - slopes[0] * speed**2 / 2.0 * inertia
-        lows = gain - slopes[1] * speed**2 / 2.0 * inertia
-        top, bottom = int(np.argmax(highs[:-1])), int(np.argmin(lows[:-1]))
-        high, low = float(highs[top]), float(lows[bottom])
-        found = (high - low) / (speed**2 * self.machine.delta)
-        tangents = Tangents(found, high, low, float(turned[top]), float(turned[bottom]))
+        tangents = touching(turned, gain, inertia, slopes, self.middle_speed, self.machine.delta)
         return Points(moments, middles, work, gain, inertia, tangents)
+
+
+def touching(
+    turned: Reals,
+    gain: Reals,
+    inertia: Reals,
+    slopes: tuple[float, float],
+    speed: float,
+    delta: float,
+) -> Tangents:
+    """Return the flywheel between tangents that touch one of some points each.
+
+    Parameters
+    ----------
+    turned, gain, inertia : ndarray of shape (n + 1,), rad, J and kg·m²
+        The last position is the first again.
+    slopes : (float, float)
+        Of the tangents, over omega²/2.
+    speed, delta : float
+        Mean speed, 1/s, and irregularity.
+    """
+    highs = gain - slopes[0] * speed**2 / 2.0 * inertia
+    lows = gain - slopes[1] * speed**2 / 2.0 * inertia
+    top, bottom = int(np.argmax(highs[:-1])), int(np.argmin(lows[:-1]))
+    high, low = float(highs[top]), float(lows[bottom])
+    found = (high - low) / (speed**2 * delta)
+    return Tangents(found, high, low, float(turned[top]), float(turned[bottom]))
 
 
 @remembered
@@ -400,14 +428,17 @@ def flywheel_of(solution: Solution) -> Flywheel:
     return Flywheel(solution.problem)
 
 
-def _hermite(one: float, two: float, slope_1: float, slope_2: float, share: float) -> float:
+_Value = TypeVar("_Value", float, Reals)
+
+
+def hermite(one: _Value, two: _Value, slope_1: _Value, slope_2: _Value, share: _Value) -> _Value:
     """Return a cubic with given ends and slopes, the step being 1."""
     rest = 1.0 - share
     ends = one * rest * rest * (1.0 + 2.0 * share) + two * share * share * (3.0 - 2.0 * share)
     return ends + slope_1 * share * rest * rest - slope_2 * share * share * rest
 
 
-def _turning_points(one: float, two: float, slope_1: float, slope_2: float) -> list[float]:
+def turning_points(one: float, two: float, slope_1: float, slope_2: float) -> list[float]:
     """Return the end of a step, and where a cubic turns within it."""
     if slope_1 * slope_2 >= 0.0:
         return [1.0]

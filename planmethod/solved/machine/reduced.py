@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.plans.forces.loads import Applied
 from planmethod.problem.load_records import (
     Against,
@@ -118,7 +119,7 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
     assert dynamics is not None
     for index, load in enumerate(dynamics.loads):
         if isinstance(load.size, Table) and load.size.over is Over.POSITION:
-            raise _load_fault(turn, index, "is given for the positions of the file only", _OVER)
+            raise _load_fault(turn, index, "{} is given for the positions of the file only", _OVER)
     cuts = [turn.curve.edges, *(_breaks(turn, load) for load in dynamics.loads)]
     edges = np.unique(np.concatenate(cuts))
     edges = edges[np.append(True, np.diff(edges) > 1e-12)]
@@ -140,7 +141,9 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
     peaks = np.max(np.abs(made(made.samples)), axis=0)
     for index, peak in enumerate(peaks[:-3]):
         if peak <= NEVER * peaks[:-2].max():
-            raise _load_fault(turn, index, "never works: its power is 0 all over the cycle", _WORK)
+            raise _load_fault(
+                turn, index, "{} never works: its power is 0 all over the cycle", _WORK
+            )
     sums = np.zeros((len(peaks), 3))
     sums[:-2, 0] = sums[-2, 1] = sums[-1, 2] = 1.0
     return Curve(made.edges, made.terms @ sums)
@@ -153,7 +156,7 @@ _WORK = "Check its point, its direction and its phases."
 def _load_fault(turn: TurnMotion, index: int, message: str, hint: str) -> ProblemError:
     dynamics = turn.problem.dynamics
     assert dynamics is not None
-    fault = Fault(f"loads[{index}]", f"{dynamics.loads[index].name} {message}", hint)
+    fault = Fault(f"loads[{index}]", say(message, dynamics.loads[index].name), hint)
     return ProblemError(turn.problem.name, [fault])
 
 

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
+from planmethod.languages import say
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.failures import (
@@ -20,6 +21,7 @@ from planmethod.solved.failures import (
     MoreDoubts,
     Place,
     PositionError,
+    others_fail,
     same_at,
 )
 from planmethod.solved.impossible import failing
@@ -111,12 +113,14 @@ class Gaps:
     def refusal(self) -> str:
         """Return the message of a request that is refused for its first impossible position."""
         others = int(np.count_nonzero(self.reason > 0))
-        return self.sentences[0] + (f" Other steps fail at {others} positions." if others else "")
+        return self.sentences[0] + others_fail(others)
 
     def warning(self) -> str:
         """Return what is said of a request whose impossible positions stay empty."""
-        left = "is impossible and left empty" if self.count == 1 else "are impossible, left empty"
-        return f"{self.count} of {len(self.reason)} positions {left}. {self.told[0]}"
+        left = (
+            "{0} of {1} positions {0:|is impossible and left empty|are impossible, left empty}. {2}"
+        )
+        return say(left, self.count, len(self.reason), self.told[0])
 
     def joined(self, at: Places, other: Gaps) -> Gaps:
         """Return these gaps and those found among the positions ``at``."""

@@ -15,6 +15,7 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.referee import DIGITS, Precise
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
+from planmethod.languages import say
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.solved.impossible import failing
@@ -137,7 +138,7 @@ def examine(
         if closely:
             reason, warned = _told(problem, position)
         elif fails[i] >= 0:
-            reason = f"step {program.steps[int(fails[i])].out} is impossible"
+            reason = say("step {} is impossible", program.steps[int(fails[i])].out)
         margin = min(float(_entry(value, i)) for value in trace.margin.values())
         lost = 0 if fails[i] >= 0 else len(results.all) - len(verdicts)
         found.append(Refereed(position, margin, reason, warned, agreed, verdicts, lost))

@@ -18,6 +18,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import TANGENT, evaluate
 from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointName, Touch
 from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import CycleTask, Problem, Zero
 from planmethod.solved.closings import drive_data
@@ -91,7 +92,7 @@ class Turn(Remembering):
                 [
                     Fault(
                         "cycle",
-                        f"the driver, link {problem.drive.link}, slides: it has no turn",
+                        say("the driver, link {}, slides: it has no turn", problem.drive.link),
                         "A cycle is a turn of a crank",
                     )
                 ],

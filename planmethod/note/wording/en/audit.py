@@ -64,4 +64,20 @@ AUDIT = AuditWording(
         "no direction": "the force is zero: it has no direction and no arm",
         "stands": "the driving link stands: there is no lever",
     },
+    chain="From the printed flywheel to the exact one, one cause of error less at each step. "
+    "Constructions integrate by trapezoids.",
+    chain_columns=("J_f, kg·m²", "change, %", "what is taken", "what is put right"),
+    chain_steps={
+        "printed": ("the printed KL and the formula", ""),
+        "tables": ("the printed tables of M and J, tangents 1 ± δ", "KL is not that of its tables"),
+        "inertia": ("the printed table of M, exact J", "errors of the table of kinetic energies"),
+        "moments": (
+            "exact M with the source's signs, exact J, ω and δ not rounded",
+            "velocities of the plans, rounding",
+        ),
+        "signs": ("the same with true signs", "the sign with which weights are added"),
+        "positions": ("the same by twice as many positions", "few positions"),
+        "curve": ("the whole curves", "still few positions"),
+        "exact": ("the whole curves, tangents (1 ± δ/2)²", "slopes 1 ± δ are approximate"),
+    },
 )

@@ -27,6 +27,15 @@ LAYOUTS = MappingProxyType(
         "in the problem file.",
         "flywheel_about": "flywheel: moments, work, inertia, energy-mass diagram, sizes",
         "flywheel_title": "Choice of the flywheel",
+        "balancing_head": "Static balancing by counterweights.\n# Needs [balancing] and masses in "
+        "[dynamics] of the problem file.",
+        "balancing_about": "balancing: the mechanism with counterweights, polygons of m·r, "
+        "hodographs of inertia before and after, tables",
+        "balancing_title": "Balancing of the mechanism",
+        "runup_head": "Run-up and stop of a machine with its flywheel.\n# Needs motor or brake in "
+        "[machine] of the problem file.",
+        "runup_about": "run-up and stop: the motor, angular velocity over time and angle, tables",
+        "runup_title": "Run-up and stop of the machine",
         "forces_head": "Sheet 2 of a course work: forces in one position. Groups are cut free "
         "from the last to the first.\n# The problem file needs [dynamics] and [[loads]]; of "
         "several positions each has its sheet.",

@@ -19,6 +19,8 @@ LIVE = LiveWording(
     no_forces="The force plan does not close: a dead position.",
     unknown="A load is given in the positions of the file only: no forces between them.",
     nearest="The nearest that exist:",
+    steady="Angular velocity of the crank in the steady motion of the machine",
+    follows="moves as {speed}",
     zoom="picture ×{times}",
     made="Made by planmethod live from the problem file; the values are computed here, from the "
     "same steps as the drawings. Millimetres are those of the sheet at the scale given.",

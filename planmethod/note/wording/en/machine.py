@@ -46,4 +46,55 @@ MACHINE = MachineWording(
         "Draw tangents at ψ_{{max}} = {psi_max}° (point {top}) and ψ_{{min}} = {psi_min}° "
         "(point {bottom}); they cut off KL = {KL}.",
     ),
+    run_up="Run-up and stop of the machine",
+    kloss="{M} = 2M_{{max}}·s·s_{{k}}/(s^{{2}} + s_{{k}}^{{2}}), s = 1 − ω/ω_{{0}} (Kloss): "
+    "M_{{max}} = {moment}, s_{{k}} = {slip}, ω_{{0}} = {idle}, reduced to the crank",
+    line="{M} = M_{{0}}·(1 − ω/ω_{{0}}): M_{{0}} = {moment}, ω_{{0}} = {idle}, reduced to the "
+    "crank",
+    ran_up="Run-up with {J}: t_{{r}} = {time}, φ_{{r}} = {angle}° ({turns} turns); from there ω is "
+    "within {near} % of the steady one",
+    steady="Steady motion with the motor: ω_{{max}} = {high}, ω_{{min}} = {low}, δ = {delta}",
+    by_motor="δ = {wanted} with this motor is what {J} gives",
+    stays="The motor does not start the machine: at ω = 0 {M} = {motor} is not more than "
+    "{R} = {resists} of position 0",
+    stalled="The motor does not hold the load: the crank stands at t = {time}, φ = {angle}°",
+    not_steady="In {count} cycles the motion does not become steady",
+    braked="Stop by the brake {M} = {brake} from position 0: t_{{b}} = {time}, "
+    "φ_{{b}} = {angle}° ({turns} turns)",
+    coasted="Coasting without motor and brake from position 0: t_{{b}} = {time}, "
+    "φ_{{b}} = {angle}° ({turns} turns)",
+    not_stopped="In {count} cycles the crank does not stop",
+    motor_diagram="Characteristic of the motor and the mean moment of resistance",
+    by_time="Run-up: ω over time",
+    by_angle="Run-up: ω over the angle turned",
+    stop_diagram="Stop: ω over time",
+    run_up_table="Run-up",
+    stop_table="Stop",
+    balancing="Static balancing",
+    run_up_wanted="To be found: time and angle of run-up and stop, the steady motion.",
+    balancing_wanted="To be found: masses and places of counterweights, main vector of inertia.",
+    structures={"four-bar": "four-bar linkage", "slider-crank": "slider-crank mechanism"},
+    weighings={
+        "full": "balanced in full",
+        "partial": "balanced in part, by the crank's counterweight",
+    },
+    substituted="The mass of rod {link} is replaced statically by masses in {A} and {B}: {one}; "
+    "{two}",
+    off_line="The centre of mass of rod {link} is off the line {A}{B}: vectors m·r stand for two "
+    "masses",
+    weight="Link {link}: {terms}; counterweight m·r = {moment}, at r = {radius} the mass "
+    "m = {mass} at {angle}° from {line}",
+    no_weight="Link {link}: no counterweight is needed",
+    measured="by the polygon with the ruler {moment}",
+    force_falls="Largest main vector of the inertia forces: {before} before, {after} after",
+    centre_stands="The centre of all masses stands: ({x}; {y}) {unit}; links {bare}, with "
+    "counterweights {whole}",
+    centre_moves="The centre of all masses moves within {before} before and {after} after; links "
+    "{bare}, with counterweights {whole}",
+    polygon_of="Polygon of m·r of link {link}",
+    before="Main vector of inertia before balancing",
+    after="Main vector of inertia after balancing",
+    weights_table="Counterweights",
+    forces_table="Main vector of inertia by positions",
+    with_weights="The mechanism with counterweights",
 )

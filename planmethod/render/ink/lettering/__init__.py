@@ -253,7 +253,7 @@ def lettering(name: str) -> OutlineLettering:
     latin = name.strip().replace("А", "A").replace("Б", "B").replace("В", "B")
     style = STYLES.get(latin)
     if style is None:
-        raise LayoutError(f"Unknown lettering {name!r}. Choose one of: {', '.join(STYLES)}.")
+        raise LayoutError("Unknown lettering {!r}. Choose one of: {}.", name, ", ".join(STYLES))
     return OutlineLettering(style)
 
 

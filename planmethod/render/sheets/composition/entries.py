@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
+from planmethod.languages import say
 from planmethod.plans.model import MOTION, PlanKind
-from planmethod.problem.fields import Faults, Table, read_keys, read_text, show
+from planmethod.problem.fields import Faults, Table, read_keys, read_text
 from planmethod.problem.names import is_label
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition.values import (
@@ -48,10 +49,10 @@ def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
         faults.add("blocks", "missing", example)
         return ()
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
-        faults.add("blocks", f"expected tables [[blocks]], got {show(value)}", example)
+        faults.expected("blocks", "tables [[blocks]]", value, example)
         return ()
     if not 1 <= len(value) <= BLOCK_LIMIT:
-        faults.add("blocks", f"expected 1 to {BLOCK_LIMIT} blocks, got {len(value)}")
+        faults.add("blocks", say("expected 1 to {} blocks, got {}", BLOCK_LIMIT, len(value)))
         return ()
     entries: list[tuple[int, Entry]] = []
     for k, item in enumerate(value):
@@ -62,15 +63,15 @@ def read_entries(faults: Faults, value: object) -> tuple[Entry, ...]:
     _check_order(faults, entries)
     for number, count in Counter(entry.sheet for _, entry in entries).items():
         if count > ON_SHEET_LIMIT:
-            limit = f"sheet {number} has {count} blocks, the limit is {ON_SHEET_LIMIT}"
-            faults.add("blocks", limit, f"Put some on another sheet: sheet = {number + 1}.")
+            limit = say("sheet {} has {} blocks, the limit is {}", number, count, ON_SHEET_LIMIT)
+            faults.add("blocks", limit, say("Put some on another sheet: sheet = {}.", number + 1))
     return tuple(entry for _, entry in entries)
 
 
 def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | None:
     """Read a block; it stands on the ``sheet`` of the one before unless it names another."""
     if "kind" not in table:
-        faults.add(f"{path}.kind", "missing", f"The kinds are {', '.join(BLOCKS)}.")
+        faults.add(f"{path}.kind", "missing", say("The kinds are {}.", ", ".join(BLOCKS)))
         return None
     kind = read_choice(faults, f"{path}.kind", table["kind"], tuple(BLOCKS))
     if kind is None:
@@ -80,7 +81,7 @@ def _read_block(faults: Faults, path: str, table: Table, sheet: int) -> Entry | 
     for key in ("of", "text"):
         if key in known and key not in given:
             hint = 'Say whose: of = "velocity".' if key == "of" else 'For example: text = "...".'
-            faults.add(f"{path}.{key}", f"missing in a block of kind {kind}", hint)
+            faults.add(f"{path}.{key}", say("missing in a block of kind {}", kind), hint)
     values: dict[str, Any] = {"sheet": sheet}
     for key, item in given.items():
         if key != "kind":
@@ -100,9 +101,10 @@ def _read_group(faults: Faults, path: str, value: object) -> tuple[str, ...]:
     named = all(is_label(name) and name not in GROUP for name in names)
     if text is None or (names and len(names) <= GROUP_DEPTH and named):
         return names
-    faults.add(
+    faults.expected(
         path,
-        f"expected names with dots between, {GROUP_DEPTH} at the most, got {show(value)}",
+        say("names with dots between, {} at the most", GROUP_DEPTH),
+        value,
         'For example: "left" or "left.equations".',
     )
     return ()
@@ -150,13 +152,13 @@ def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
         if entry.sheet < last:
             faults.add(
                 f"{path}.sheet",
-                f"sheet {entry.sheet} after sheet {last}",
+                say("sheet {} after sheet {}", entry.sheet, last),
                 "Blocks stand in the order of the sheets.",
             )
         elif entry.sheet > last + 1 or (k == 0 and entry.sheet != 1):
             faults.add(
                 f"{path}.sheet",
-                f"sheet {entry.sheet}, but no sheet {last + 1 if k else 1}",
+                say("sheet {}, but no sheet {}", entry.sheet, last + 1 if k else 1),
                 "Number the sheets from 1 without gaps.",
             )
         last = max(last, entry.sheet)
@@ -170,7 +172,7 @@ def _check_order(faults: Faults, entries: list[tuple[int, Entry]]) -> None:
                 name = ".".join(entry.group[:depth])
                 faults.add(
                     f"{path}.group",
-                    f"group '{name}' is taken up again after another",
+                    say("group '{}' is taken up again after another", name),
                     "Put the blocks of a group one after another.",
                 )
                 break

@@ -6,14 +6,13 @@ from functools import cache
 from pathlib import Path
 
 from planmethod.errors import CompositionError, LayoutError, ProblemError
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import (
     Faults,
     Table,
     read_keys,
     read_table,
-    show,
 )
 from planmethod.problem.names import joined, near, segment, short
 from planmethod.problem.source import parse, read_source
@@ -72,7 +71,11 @@ def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
     path = Path(asked)
     if path.suffix != ".toml" and not path.exists():
         guess = near(str(asked), SHIPPED)
-        hint = f"Did you mean '{guess}'?" if guess else f"Shipped are {', '.join(SHIPPED)}."
+        hint = (
+            say("Did you mean '{}'?", guess)
+            if guess
+            else say("Shipped are {}.", ", ".join(SHIPPED))
+        )
         faults = Faults()
         faults.add("", "there is no such layout and no such file", hint)
         raise CompositionError(str(asked), faults.found)
@@ -125,12 +128,14 @@ def _read_formats(faults: Faults, value: object) -> tuple[str, ...]:
     for k, name in enumerate(read_list(faults, "formats", value, "paper formats", 20)):
         path = f"formats[{k}]"
         if not isinstance(name, str):
-            faults.add(path, f"expected a paper format, got {show(name)}", 'For example: "A2".')
+            faults.expected(path, "a paper format", name, 'For example: "A2".')
             continue
         try:
             found.append(paper_format(name).name)
         except LayoutError:
-            faults.add(path, f"unknown paper format '{short(name)}'", 'For example: "A2", "A4x3".')
+            faults.add(
+                path, say("unknown paper format '{}'", short(name)), 'For example: "A2", "A4x3".'
+            )
     return tuple(dict.fromkeys(found))
 
 
@@ -160,7 +165,7 @@ def _read_sizes(faults: Faults, value: object, *, whole: bool) -> dict[str, Size
             if key in VIEWS:
                 pair = item if isinstance(item, list) and len(item) == 2 else [None, None]
                 if pair is not item:
-                    faults.add(at, f"expected [width, height] in mm, got {show(item)}")
+                    faults.expected(at, "[width, height] in mm", item)
                     continue
                 ends = [
                     read_size(faults, f"{at}[{k}]", side, "a side", 10.0, 1200.0)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from planmethod.errors import LayoutError
-from planmethod.problem.fields import Faults, read_number, read_text, show
+from planmethod.languages import say
+from planmethod.problem.fields import Faults, read_number, read_text
 from planmethod.problem.names import near
 from planmethod.render.ink.style import HEIGHTS
 from planmethod.render.ink.typeset import SMALLEST, typeset
@@ -32,7 +33,7 @@ def _is_markup(faults: Faults, path: str, text: str) -> bool:
         depth += (sign == "{") - (sign == "}")
         deepest = max(deepest, depth)
     if deepest > BRACE_DEPTH:
-        faults.add(path, f"braces are nested {deepest} deep, the limit is {BRACE_DEPTH}")
+        faults.add(path, say("braces are nested {} deep, the limit is {}", deepest, BRACE_DEPTH))
         return False
     try:
         for line in text.split("\n"):
@@ -47,11 +48,13 @@ def _is_markup(faults: Faults, path: str, text: str) -> bool:
 def read_paragraph(faults: Faults, path: str, value: object) -> str:
     r"""Read rich text of several lines; ``\n`` starts a new one."""
     if not isinstance(value, str):
-        faults.add(path, f"expected a string, got {show(value)}", "Put it in quotes.")
+        faults.expected(path, "a string", value, "Put it in quotes.")
         return ""
     if len(value) > TEXT_LIMIT:
         faults.add(
-            path, f"the text has {len(value)} characters, the limit is {TEXT_LIMIT}", "Shorten it."
+            path,
+            say("the text has {} characters, the limit is {}", len(value), TEXT_LIMIT),
+            "Shorten it.",
         )
         return ""
     lines = [read_line(faults, path, line, TEXT_LIMIT) for line in value.strip("\n").split("\n")]
@@ -66,14 +69,14 @@ def read_switch(faults: Faults, path: str, value: object) -> bool:
     """Read true or false; false after a fault."""
     if isinstance(value, bool):
         return value
-    faults.add(path, f"expected true or false, got {show(value)}")
+    faults.expected(path, "true or false", value)
     return False
 
 
 def read_whole(faults: Faults, path: str, value: object, low: int, high: int) -> int | None:
     """Read a whole number within bounds."""
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        faults.add(path, f"expected a whole number from {low} to {high}, got {show(value)}")
+        faults.expected(path, say("a whole number from {} to {}", low, high), value)
         return None
     return value
 
@@ -83,10 +86,11 @@ def read_choice(faults: Faults, path: str, value: object, known: tuple[str, ...]
     if isinstance(value, str) and value in known:
         return value
     guess = near(value, known) if isinstance(value, str) else None
-    faults.add(
+    faults.expected(
         path,
-        f"expected one of {', '.join(known)}, got {show(value)}",
-        f"Did you mean '{guess}'?" if guess else "",
+        say("one of {}", ", ".join(known)),
+        value,
+        say("Did you mean '{}'?", guess) if guess else "",
     )
     return None
 
@@ -99,7 +103,7 @@ def read_size(
     if number is not None and not low <= number <= high:
         faults.add(
             path,
-            f"expected {what} from {low:g} to {high:g}, got {number:g}",
+            say("expected {} from {:g} to {:g}, got {:g}", what, low, high, number),
             "Sizes are in millimetres.",
         )
         return None
@@ -115,7 +119,9 @@ def read_height(faults: Faults, path: str, value: object) -> float | None:
     listed = ", ".join(f"{height:g}" for height in known)
     closest = min(known, key=lambda height: abs(height - number))
     faults.add(
-        path, f"expected a height of GOST 2.304 ({listed}), got {number:g}", f"Take {closest:g}."
+        path,
+        say("expected a height of GOST 2.304 ({}), got {:g}", listed, number),
+        say("Take {:g}.", closest),
     )
     return None
 
@@ -124,7 +130,7 @@ def read_heights(faults: Faults, path: str, value: object) -> tuple[float, ...]:
     """Read one height, or several to try."""
     many = value if isinstance(value, list) else [value]
     if not 1 <= len(many) <= 4:
-        faults.add(path, f"expected one to four letter heights, got {show(value)}")
+        faults.expected(path, "one to four letter heights", value)
         return ()
     paths = [f"{path}[{k}]" for k in range(len(many))] if isinstance(value, list) else [path]
     read = [read_height(faults, *pair) for pair in zip(paths, many, strict=True)]
@@ -135,5 +141,5 @@ def read_list(faults: Faults, path: str, value: object, what: str, most: int) ->
     """Read a list that is neither empty nor too long; empty after a fault."""
     if isinstance(value, list) and 1 <= len(value) <= most:
         return value
-    faults.add(path, f"expected a list of {what}, one to {most} of them, got {show(value)}")
+    faults.expected(path, say("a list of {}, one to {} of them", say(what), most), value)
     return []

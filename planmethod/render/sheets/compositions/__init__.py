@@ -21,6 +21,8 @@ SHIPPED = (
     "forces",
     "forces-cycle",
     "flywheel",
+    "run-up",
+    "balancing",
 )
 """Compositions that come with the program; the first two are taken when none is asked for."""
 

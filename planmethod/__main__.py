@@ -1,0 +1,5 @@
+"""``python -m planmethod``: the command line, where PATH does not lead to it."""
+
+from planmethod.cli import main
+
+main()

@@ -1,0 +1,78 @@
+"""Machine-readable record of static balancing: ``balancing`` of ``solve --json``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from planmethod.note.narrate.balancing import COUNT
+from planmethod.note.numbers import plain
+from planmethod.solved.machine.balancing import SAMPLES, balancing_of
+from planmethod.solved.reading import Complexes
+from planmethod.solved.solution import Solution
+
+
+def balancing_record(solution: Solution) -> dict[str, Any]:
+    """Return masses, counterweights, forces and centres, SI and degrees.
+
+    Masses in the pins of a rod whose centre of mass is off their line are null.
+    """
+    made = balancing_of(solution)
+    before, after = made.forces(COUNT)
+    off_line = abs(made.share.imag) > 1e-9 * max(abs(made.share), 1.0)
+    weights = []
+    for number, one in enumerate(made.counterweights):
+        polygon = made.polygon(number, solution.profile)
+        weights.append(
+            {
+                "link": one.link,
+                "about": one.pivot,
+                "line": one.pivot + one.pin,
+                "terms": {name: _vector(value) for name, value in one.terms},
+                "mr": plain(abs(one.moment)),
+                "mr_read": plain(polygon[3].number(polygon[0].moment)[0]),
+                "r": plain(one.radius),
+                "m": plain(one.mass),
+                "angle_deg": plain(one.angle_deg),
+            }
+        )
+    return {
+        "structure": made.structure,
+        "method": made.task.method.value,
+        "share": made.task.share,
+        "rod": {
+            "link": made.rod,
+            **{
+                pin: None if off_line else plain(mass.real)
+                for pin, mass in zip((made.crank_pin, made.rod_pin), made.rod_masses, strict=True)
+            },
+            **({"reason": "its centre of mass is off the line of its pins"} if off_line else {}),
+        },
+        "counterweights": weights,
+        "mass": {"before": plain(made.mass_before), "after": plain(made.mass_after)},
+        "force": {
+            name: _largest(column, made.phi(SAMPLES))
+            for name, column in zip(("before", "after"), made.forces(SAMPLES), strict=True)
+        },
+        "centre": {
+            name: {
+                "x": [plain(np.min(column.real)), plain(np.max(column.real))],
+                "y": [plain(np.min(column.imag)), plain(np.max(column.imag))],
+            }
+            for name, column in zip(("before", "after"), made.centres(SAMPLES), strict=True)
+        },
+        "positions": [
+            {"phi_deg": plain(phi), "before": _vector(one), "after": _vector(two)}
+            for phi, one, two in zip(made.phi(COUNT), before, after, strict=True)
+        ],
+    }
+
+
+def _vector(value: complex) -> dict[str, float]:
+    return {"x": plain(value.real), "y": plain(value.imag)}
+
+
+def _largest(column: Complexes, phi: Any) -> dict[str, float]:
+    at = int(np.argmax(np.abs(column)))
+    return {"max": plain(abs(column[at])), "phi_deg": plain(phi[at])}

@@ -1,0 +1,75 @@
+"""``[balancing]`` of a problem file: static balancing by counterweights (уравновешивание)."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from planmethod.languages import say
+from planmethod.problem import keys
+from planmethod.problem.fields import Faults, read_keys, read_member, read_number, read_table
+from planmethod.problem.load_records import CounterweightTask, Dynamics, Weighing
+from planmethod.problem.model import Drive
+from planmethod.problem.names import listed, near, segment
+
+_EXAMPLE = '[balancing] method = "full", radii = { 1 = 0.1, 3 = 0.08 }'
+
+
+def read_balancing(
+    faults: Faults,
+    given: Mapping[str, Any],
+    links: Collection[str],
+    drive: Drive | None,
+    dynamics: Dynamics | None,
+) -> CounterweightTask | None:
+    """Read ``[balancing]``; None after noting a fault.
+
+    Parameters
+    ----------
+    given : mapping
+        The whole file.
+    links : collection of str
+    drive, dynamics : Drive and Dynamics, or None
+        None where the file has none of them, or they could not be read.
+    """
+    before = len(faults)
+    table = read_table(faults, "balancing", given["balancing"], _EXAMPLE)
+    if table is None:
+        return None
+    body = read_keys(faults, "balancing", table, keys.BALANCING)
+    if drive is not None and not drive.is_crank:
+        hint = "Counterweights stand on the links of a crank mechanism: give it phi and n."
+        faults.add("balancing", say("link {} slides and has no turn", drive.link), hint)
+    elif drive is not None and not drive.rate:
+        faults.add("balancing", "the crank stands", "Give its speed: [driver] n or omega.")
+    if dynamics is None or not any(one.mass for one in dynamics.masses.values()):
+        hint = 'Give them: [dynamics.links.2] mass = 3, centre = "S2".'
+        faults.add("balancing", "no link has a mass", hint)
+    method, share = Weighing.FULL, None
+    if "method" in body:
+        method = read_member(faults, "balancing.method", body["method"], Weighing) or method
+    if "share" in body:
+        share = read_number(
+            faults, "balancing.share", body["share"], "a share from 0 to 1", low=0.0, high=1.0,
+            hint="1/2 takes half of the force along the slide, and puts as much across it.",
+        )  # fmt: skip
+        if method is Weighing.FULL:
+            hint = 'Say method = "partial", or leave the share out.'
+            faults.add("balancing.share", "everything is balanced in full", hint)
+    radii: dict[str, float] = {}
+    path = "balancing.radii"
+    for link, value in (read_table(faults, path, body.get("radii", {}), _EXAMPLE) or {}).items():
+        where = f"{path}.{segment(link)}"
+        if link not in links:
+            guess = near(link, links)
+            hint = (
+                say("Did you mean '{}'?", guess)
+                if guess
+                else say("There are {}.", listed(list(links)))
+            )
+            faults.add(where, say("there is no link '{}'", link), hint)
+            continue
+        found = read_number(faults, where, value, "a distance in metres", low=1e-6, high=1e4)
+        if found is not None:
+            radii[link] = found
+    return None if len(faults) != before else CounterweightTask(method, share, radii)

@@ -1,0 +1,319 @@
+"""Formulas and arithmetic of problem files: a grammar of their own, nothing is executed (формулы).
+
+.. code-block:: text
+
+    sum     = product { ("+" | "-") product }
+    product = signed { ("*" | "/") signed }
+    signed  = { "+" | "-" } power
+    power   = atom [ ("^" | "**") signed ]
+    atom    = number | "t" | constant | function "(" sum ")" | "(" sum ")"
+
+Arithmetic, the number of a statement, has of the names ``pi`` and ``sqrt`` only. It is written as
+a textbook prints it, too: ``0,25/3``, ``2·0,11``, ``√2/2``, ``√(0,2² + 0,1²)``.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+from types import MappingProxyType
+
+from planmethod.languages import say
+from planmethod.problem.names import listed, near, short
+
+LENGTH_LIMIT = 500
+DEPTH_LIMIT = 40
+
+FUNCTIONS: Mapping[str, str] = MappingProxyType(
+    {
+        **{name: name for name in ("sin", "cos", "tg", "ctg", "exp", "ln", "lg", "sqrt", "abs")},
+        **dict.fromkeys(("sh", "sinh"), "sh"),
+        **dict.fromkeys(("ch", "cosh"), "ch"),
+        **dict.fromkeys(("th", "tanh"), "th"),
+        **dict.fromkeys(("asin", "arcsin"), "arcsin"),
+        **dict.fromkeys(("acos", "arccos"), "arccos"),
+        **dict.fromkeys(("atan", "arctan", "arctg"), "arctg"),
+        "tan": "tg",
+        "cot": "ctg",
+        "log": "ln",
+    }
+)
+"""Names that a function may be written with, and the one it is known by."""
+
+CONSTANTS: Mapping[str, float] = MappingProxyType({"pi": math.pi, "e": math.e})
+TIME = "t"
+
+_TOKEN = re.compile(
+    r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<sign>\*\*|[-+*/^()])"
+)
+_INSTEAD: Mapping[str, str] = MappingProxyType(
+    {
+        ",": "The decimal sign is a point: 7.5.",
+        **dict.fromkeys("−–—", "Write -."),
+        **dict.fromkeys("·×∙", "Write *."),
+        **dict.fromkeys("÷:", "Write /."),
+        "π": "Write pi.",
+        "√": "Write sqrt(...).",
+        "²": "Write ^2.",
+        "³": "Write ^3.",
+        **dict.fromkeys("[]{}", "Use round brackets."),
+        "=": "Only the right side stands here.",
+    }
+)
+
+
+class Kind(Enum):
+    """What one operation of a formula does (вид действия)."""
+
+    NUMBER = "number"
+    TIME = "t"
+    CONSTANT = "constant"
+    CALL = "call"
+    MINUS = "minus"
+    ADD = "+"
+    SUBTRACT = "-"
+    MULTIPLY = "*"
+    DIVIDE = "/"
+    POWER = "^"
+
+
+@dataclass(frozen=True, slots=True)
+class Operation:
+    """One operation, which takes its operands from the results before it (действие).
+
+    ``is_exact`` tells of a number whether float64 has it as it is written: 0.5, not 0.1.
+    """
+
+    kind: Kind
+    name: str = ""
+    value: float = 0.0
+    is_exact: bool = True
+
+
+class FormulaError(Exception):
+    """A formula cannot be read; ``hint`` says what to do."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.hint = hint
+
+
+def is_exact(text: str) -> bool:
+    """Tell whether float64 has a number as it is written in decimal."""
+    return Decimal(text) == Decimal(float(text))
+
+
+_PRINTED = re.compile(_TOKEN.pattern.removesuffix(")") + "|[√²³π])")
+_AS_TYPED = str.maketrans("−–—·×∙÷:", "---***//")
+_COMMA = re.compile(r"(?<=\d),(?=\d)")
+
+
+def work_out(text: str) -> float:
+    """Return the value of arithmetic (вычислить).
+
+    Raises
+    ------
+    FormulaError
+        It cannot be read, or has no value: a division by zero, the root of a negative number.
+    """
+    if len(text) > LENGTH_LIMIT:
+        raise FormulaError(say("it has {} characters, the limit is {}", len(text), LENGTH_LIMIT))
+    stack: list[float] = []
+    for operation in Parser(_COMMA.sub(".", text.translate(_AS_TYPED)), printed=True).parse():
+        try:
+            stack.append(_carried_out(operation, stack))
+        except ZeroDivisionError:
+            raise FormulaError("a division by zero has no value", "Correct the divisor.") from None
+        except OverflowError:
+            raise FormulaError("a power in it is too large", "Correct the exponent.") from None
+        except ValueError:
+            raise FormulaError("the root of a negative number has no value") from None
+    return stack[-1]
+
+
+def _carried_out(operation: Operation, stack: list[float]) -> float:
+    """Return the result of an operation; its operands are taken off the stack."""
+    match operation.kind:
+        case Kind.NUMBER | Kind.CONSTANT:
+            return operation.value
+        case Kind.MINUS:
+            return -stack.pop()
+        case Kind.CALL:
+            return math.sqrt(stack.pop())
+    second, first = stack.pop(), stack.pop()
+    match operation.kind:
+        case Kind.ADD:
+            return first + second
+        case Kind.SUBTRACT:
+            return first - second
+        case Kind.MULTIPLY:
+            return first * second
+        case Kind.DIVIDE:
+            return first / second
+    return math.pow(first, second)
+
+
+class Parser:
+    """Recursive descent with bounded depth; what is read becomes a row of operations.
+
+    ``printed``: arithmetic as a textbook prints it, without time.
+    """
+
+    def __init__(self, text: str, *, printed: bool = False) -> None:
+        self.tokens = _tokens(text, _PRINTED if printed else _TOKEN)
+        self.names = ("pi", "sqrt") if printed else (TIME, *CONSTANTS, *FUNCTIONS)
+        self.at, self.depth = 0, 0
+        self.made: list[Operation] = []
+
+    def parse(self) -> list[Operation]:
+        """Return the operations in the order in which they are carried out."""
+        if len(self.tokens) == 1:
+            raise FormulaError("the formula is empty", 'For example: "4*t*(1 + t/2)".')
+        self._sum()
+        kind, text, where = self.tokens[self.at]
+        if text == ")":
+            raise FormulaError(say("character {}: ')' closes no '('", where))
+        if kind != "end":
+            before = self.tokens[self.at - 1][1]
+            hint = say(
+                "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
+            )
+            raise FormulaError(
+                say("character {}: expected an operator before '{}'", where, text), hint
+            )
+        return self.made
+
+    def _sum(self) -> None:
+        self._row(("+", "-"), self._product)
+
+    def _product(self) -> None:
+        self._row(("*", "/"), self._signed)
+
+    def _row(self, signs: tuple[str, str], part: object) -> None:
+        assert callable(part)
+        part()
+        while (sign := self._text) in signs:
+            self.at += 1
+            part()
+            self.made.append(Operation(Kind(sign)))
+
+    def _signed(self) -> None:
+        negative = False
+        while self._text in ("+", "-"):
+            negative ^= self._text == "-"
+            self.at += 1
+        self._power()
+        if negative:
+            self.made.append(Operation(Kind.MINUS))
+
+    def _power(self) -> None:
+        self._atom()
+        while (raised := "²³".find(self._text)) >= 0 and self._text:
+            self.at += 1
+            self.made += [Operation(Kind.NUMBER, value=raised + 2.0), Operation(Kind.POWER)]
+        if self._text in ("^", "**"):
+            self._deeper()
+            self._signed()
+            self.depth -= 1
+            self.made.append(Operation(Kind.POWER))
+
+    def _atom(self) -> None:
+        kind, text, where = self.tokens[self.at]
+        if kind == "number":
+            number = float(text)
+            if not math.isfinite(number):
+                raise FormulaError(
+                    say("character {}: the number {} is too large", where, short(text, 12))
+                )
+            self.at += 1
+            self.made.append(Operation(Kind.NUMBER, value=number, is_exact=is_exact(text)))
+        elif kind == "name":
+            self._name(text, where)
+        elif text == "(":
+            self._bracket()
+        elif text == "√":
+            self._deeper()
+            self._atom()
+            self.depth -= 1
+            self.made.append(Operation(Kind.CALL, "sqrt"))
+        elif text == "π":
+            self.at += 1
+            self.made.append(Operation(Kind.CONSTANT, "pi", math.pi))
+        elif kind == "end":
+            raise FormulaError("the formula ends where a number or a name is expected")
+        else:
+            hint = 'A bracket holds something: "(1 + t)".' if text == ")" else ""
+            raise FormulaError(say("character {}: expected a number, got '{}'", where, text), hint)
+
+    def _name(self, text: str, where: int) -> None:
+        self.at += 1
+        if text not in self.names:
+            guess = near(text, self.names)
+            hint = (
+                say("Did you mean '{}'?", guess)
+                if guess
+                else say("Known: {}.", listed(self.names, limit=30))
+            )
+            raise FormulaError(say("character {}: unknown name '{}'", where, short(text)), hint)
+        if text == TIME:
+            self.made.append(Operation(Kind.TIME))
+        elif text in CONSTANTS:
+            self.made.append(Operation(Kind.CONSTANT, text, CONSTANTS[text]))
+        else:
+            if self._text != "(":
+                hint = f"Write {text}({TIME if TIME in self.names else 2})."
+                raise FormulaError(say("character {}: expected '(' after {}", where, text), hint)
+            self._bracket()
+            self.made.append(Operation(Kind.CALL, FUNCTIONS[text]))
+
+    def _bracket(self) -> None:
+        where = self.tokens[self.at][2]
+        self._deeper()
+        self._sum()
+        if self._text != ")":
+            _, text, place = self.tokens[self.at]
+            if text:
+                before = self.tokens[self.at - 1][1]
+                hint = say(
+                    "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
+                )
+                raise FormulaError(
+                    say("character {}: expected an operator before '{}'", place, text), hint
+                )
+            raise FormulaError(say("character {}: '(' is not closed", where), "Add ')'.")
+        self.at += 1
+        self.depth -= 1
+
+    def _deeper(self) -> None:
+        self.at += 1
+        self.depth += 1
+        if self.depth > DEPTH_LIMIT:
+            raise FormulaError(say("the formula is nested deeper than {} levels", DEPTH_LIMIT))
+
+    @property
+    def _text(self) -> str:
+        return self.tokens[self.at][1]
+
+
+def _tokens(text: str, pattern: re.Pattern[str]) -> list[tuple[str, str, int]]:
+    """Return kind, text and place (from 1) of every token, and an end."""
+    found: list[tuple[str, str, int]] = []
+    at = 0
+    while at < len(text):
+        if text[at] == " ":
+            at += 1
+            continue
+        match = pattern.match(text, at)
+        if match is None:
+            char = text[at]
+            shown = f"'{char}'" if char.isprintable() else f"U+{ord(char):04X}"
+            message = say("character {}: {} has no meaning in a formula", at + 1, shown)
+            raise FormulaError(message, _INSTEAD.get(char, ""))
+        found.append((str(match.lastgroup), match[0], at + 1))
+        at = match.end()
+    return [*found, ("end", "", len(text) + 1)]

@@ -1,0 +1,217 @@
+"""Positions told by the output: ``x_B``, ``phi_3``, a share of the stroke, an extreme."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
+
+from planmethod.languages import say
+from planmethod.problem import keys
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    read_angle,
+    read_coordinate,
+    read_length,
+    read_line_name,
+    read_number,
+    report_unknown,
+)
+from planmethod.problem.formula import FormulaError, work_out
+from planmethod.problem.links import LinkText
+from planmethod.problem.model import Posed, PosedBy
+from planmethod.problem.names import split_pair
+
+_READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
+    "x": read_coordinate,
+    "y": read_coordinate,
+    "phi": read_angle,
+    "stroke": partial(read_number, what="a share of the stroke", low=0.0, high=1.0, hint=""),
+}
+_SIDE = "|".join(keys.EXTREMES)
+_AT = re.compile(rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z")
+_ROOT = 'For example: x_B = 0.12, root = "going right".'
+_WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30"'
+
+
+def is_posed(key: str) -> bool:
+    """Whether a key of the driver tells a position by a point or a link: ``x_B``, ``phi_3``."""
+    kind, line, name = key.partition("_")
+    if not line:
+        return is_length(key)
+    return bool(name) and (kind in keys.POSED or is_rate(key))
+
+
+def is_length(key: str) -> bool:
+    """Whether a key of the driver is the length of an actuator: ``DE``."""
+    return key[:1].isupper() and split_pair(key) is not None
+
+
+def is_rate(key: str) -> bool:
+    """Whether a key of the driver is a rate of an actuator: ``v_DE``, ``a_DE``."""
+    return key[:2] in ("v_", "a_") and split_pair(key[2:]) is not None
+
+
+def is_place(key: str) -> bool:
+    """Whether a key of the driver tells where it stands: of such keys one replaces the others."""
+    return key in keys.PLACES or (is_posed(key) and not is_rate(key))
+
+
+def read_posed(
+    faults: Faults,
+    given: Table,
+    link: LinkText,
+    links: Mapping[str, LinkText],
+    fixed: Collection[str],
+    *,
+    crank: bool,
+) -> Posed | None:
+    """Read what tells the positions, where that is not the driver's own coordinate.
+
+    None where there is no such key, or after a fault.
+    """
+    foreign = "s" if crank else "phi"  # reported as what does not go with the driver
+    first, *others = [key for key in given if is_place(key) and key != foreign] or [""]
+    for key in others:
+        said = say("{} and {} both tell the position", first, key)
+        faults.add(f"driver.{key}", said, "Keep one of them.")
+    found = None
+    if first and first not in ("phi", "s"):
+        kind, _, name = first.partition("_")
+        if is_length(first):
+            found = _read_actuator(faults, given, first, links, fixed, crank=crank)
+        else:
+            found = _read(faults, given, kind, name, links, fixed, crank=crank)
+        if kind == "phi" and name == link.name:
+            hint = say("Write phi = ..., the angle of link {} itself.", name)
+            faults.add(f"driver.{first}", say("link {} drives", name), hint)
+    for key in given:
+        if is_rate(key) and key[2:] != first:
+            hint = say("Give the length itself: {} = 0.4.", key[2:])
+            faults.add(
+                f"driver.{key}", say("is the rate of {}, which tells no position", key[2:]), hint
+            )
+    if "root" in given and first in ("", "phi", "s", "at"):
+        faults.add("driver.root", "goes only with a position that the output tells", _ROOT)
+    return None if others else found
+
+
+def _read(
+    faults: Faults,
+    given: Table,
+    kind: str,
+    name: str,
+    links: Mapping[str, LinkText],
+    fixed: Collection[str],
+    *,
+    crank: bool,
+) -> Posed | None:
+    path = f"driver.{kind}_{name}" if name else f"driver.{kind}"
+    moving = [p for one in links.values() for p in one.points if p not in fixed]
+    known: Collection[str] = links if kind == "phi" else dict.fromkeys(moving)
+    said = "unknown link '{}'" if kind == "phi" else "unknown moving point '{}'"
+    if name and name not in known:
+        report_unknown(faults, path, name, known, said=said)
+        return None
+    if kind in ("stroke", "at") and not crank:
+        faults.add(path, "a driving slider has no turn", "Give x_B, y_B or phi_1 of a link.")
+        return None
+    value = given[f"{kind}_{name}" if name else kind]
+    items = value if isinstance(value, list) else [value]
+    if not items or len(items) > keys.POSITION_LIMIT:
+        faults.add(
+            path, say("expected from 1 to {} positions, got {}", keys.POSITION_LIMIT, len(items))
+        )
+        return None
+    values: list[float] = []
+    extremes: list[str] = []
+    for index, item in enumerate(items):
+        where = f"{path}[{index}]" if isinstance(value, list) else path
+        if kind == "at":
+            told = _read_extreme(faults, where, item)
+            number = None if told is None else told[1]
+            extremes += [] if told is None else [told[0]]
+        else:
+            number = _READERS[kind](faults, where, item)
+        values += [] if number is None else [number]
+    going, near = _read_root(faults, kind, given.get("root"), crank=crank)
+    if len(values) != len(items):
+        return None
+    return Posed(PosedBy(kind), name, tuple(values), tuple(extremes), going, near)
+
+
+def _read_actuator(
+    faults: Faults,
+    given: Table,
+    pair: str,
+    links: Mapping[str, LinkText],
+    fixed: Collection[str],
+    *,
+    crank: bool,
+) -> Posed | None:
+    """Read an actuator (гидроцилиндр): the distance of two points, and its rate."""
+    before = len(faults)
+    known = dict.fromkeys([*fixed, *(p for one in links.values() for p in one.points)])
+    ends = read_line_name(faults, f"driver.{pair}", pair, known, of="the mechanism")
+    if isinstance(given[pair], list):
+        hint = "Its rate makes another speed in each: write the others as variants."
+        faults.add(f"driver.{pair}", "an actuator has one position", hint)
+        return None
+    length = read_length(faults, f"driver.{pair}", given[pair])
+    rates = [
+        read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
+        for key, what in (
+            (f"v_{pair}", "a velocity in m/s"),
+            (f"a_{pair}", "an acceleration in m/s²"),
+        )
+    ]
+    if f"v_{pair}" not in given:
+        faults.add(f"driver.v_{pair}", "missing", say("How fast {} grows, m/s.", pair))
+    _, near = _read_root(faults, "length", given.get("root"), crank=crank)
+    if ends is None or length is None or len(faults) != before:
+        return None
+    speed, gain = (rate or 0.0 for rate in rates)
+    return Posed(PosedBy.LENGTH, pair, (length,), (), "", near, (speed, gain))
+
+
+def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float] | None:
+    """Read ``extreme left + 30``: which extreme, and how far after it, degrees."""
+    match = _AT.match(" ".join(value.split())) if isinstance(value, str) else None
+    if match is None or (match[1] and match[2]):
+        faults.expected(path, "an extreme position", value, say("Known: {}.", _WAYS))
+        return None
+    after = 0.0
+    if match[3]:
+        try:
+            after = work_out(match[3].rstrip(" °"))
+        except FormulaError as error:
+            faults.add(
+                path, say("expected degrees after the extreme, got {!r}: {}", match[3], error)
+            )
+            return None
+    degrees = read_angle(faults, path, after)
+    return None if degrees is None else (match[1] or match[2] or "", degrees)
+
+
+def _read_root(
+    faults: Faults, kind: str, value: object, *, crank: bool
+) -> tuple[str, float | None]:
+    """Read which of several positions is meant: ``going right``, or ``near 40``."""
+    if value is None or kind == "at":
+        return "", None
+    words = value.split() if isinstance(value, str) else []
+    ways = keys.GOING.get(kind, ())
+    if len(words) == 2 and words[0] == "going" and words[1] in ways:
+        return words[1], None
+    if len(words) == 2 and words[0] == "near":
+        read = read_angle if crank else read_coordinate
+        try:
+            return "", read(faults, "driver.root", float(words[1]))
+        except ValueError:
+            pass
+    example = f'"near {40 if crank else 0.1}"'
+    if ways:
+        example = say('"going {}", "going {}" or {}', *ways, example)
+    faults.expected("driver.root", example, value)
+    return "", None

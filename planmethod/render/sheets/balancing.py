@@ -1,0 +1,170 @@
+"""Blocks of the balancing sheet: scheme, polygons, hodographs, tables (лист уравновешивания)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.steps import PointName
+from planmethod.errors import LayoutError
+from planmethod.note.narrate.balancing import COUNT, BalancingTeller
+from planmethod.note.narrate.forces.statement import mass_lines
+from planmethod.note.narrate.given import given
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.plans.model import PlanKind
+from planmethod.problem.model import Convention
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
+from planmethod.render.layout.block import Block, Column, Row, heading, paragraph
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.pictures.polar import polar_picture
+from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.texts import NBSP, stated
+from planmethod.render.sheets.views import Viewed, named
+from planmethod.render.symbols import arrowhead
+from planmethod.solved.solution import Solution
+
+_WEIGHT = 2.4  # mm: radius of a counterweight
+_ASIDE = 4.0  # mm: between vectors of a polygon that lie in one line
+
+
+def _teller(solution: Solution, manner: Manner) -> BalancingTeller:
+    if solution.problem.balancing is None:
+        raise LayoutError(
+            "{}: a layout with balancing needs [balancing] in the problem file. For "
+            'example: [balancing] method = "full".',
+            solution.problem.name,
+        )
+    return BalancingTeller(solution, manner.words)
+
+
+def balancing_text(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return what is given, the masses, the counterweights and the forces with numbers."""
+    tell = _teller(solution, manner)
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    assert solution.problem.dynamics is not None
+    facts = given(solution.problem, manner.words)
+    facts += mass_lines(solution.problem.dynamics, manner.words.say)
+    blocks: list[Block] = [
+        stated(facts, tell.said.balancing_wanted, manner),
+        heading(manner.entry.title or tell.said.balancing, height),
+    ]
+    lines = (line.replace(" = ", f"{NBSP}={NBSP}") for line in tell.lines())
+    blocks += [paragraph(line, height, width) for line in lines]
+    return Column(blocks, gap=3.0)
+
+
+def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return the scheme with its counterweights, all to scale."""
+    tell = _teller(solution, manner)
+    index = indices[0]
+    items = list(scheme_picture(solution, index, letter_height=manner.letter).items)
+    labels = []
+    for one in tell.balancing.counterweights:
+        if not one.mass:
+            continue
+        pivot, pin = (
+            complex(solution.paper.point(PointName(point))[index]) for point in (one.pivot, one.pin)
+        )
+        place = pivot + one.place * (pin - pivot)
+        items.append(Stroke((pivot, place), Pen.MAIN, tag=f"counterweight {one.link}"))
+        items.append(Disc(place, _WEIGHT, Ink.BLACK, f"counterweight {one.link}"))
+        labels.append(
+            Label(
+                typeset(f"m'_{{{one.link}}}", manner.letter),
+                place,
+                prefer=place - pivot,
+                gap=_WEIGHT + 1.2,
+                name=f"counterweight {one.link}",
+            )
+        )
+    scale = solution.scales[PlanKind.POSITION]
+    told = [scale_inscription(scale, solution.problem.scales.convention, tell.say)]
+    title = manner.entry.title or tell.said.with_weights
+    return Viewed(named(lettered(items, labels), title, told, manner), "scheme", scale)
+
+
+def polygon_views(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the polygons of m·r; vectors in one line stand below one another."""
+    tell = _teller(solution, manner)
+    views: list[Block] = []
+    for number, one in enumerate(tell.balancing.counterweights):
+        if not one.mass:
+            continue
+        made, per_mm, exact, _ = tell.balancing.polygon(number, tell.profile)
+        corners = [complex(exact.point(name)[0]) for name in made.corners]
+        straight = max(abs(z.imag) for z in corners) < _ASIDE
+        letters = [name for name, _ in one.terms] + [f"m'_{{{one.link}}} r"]
+        items: list[Item] = []
+        labels: list[Label] = []
+        for k, (tail, head) in enumerate(zip(corners, [*corners[1:], corners[0]], strict=True)):
+            shift = -2j * _ASIDE * k if straight else 0j
+            start, end = tail + shift, head + shift
+            if straight and k:
+                up = 2j * _ASIDE
+                items.append(Stroke((start + up, start), Pen.THIN, tag="polygon corner"))
+            way = (end - start) / abs(end - start)
+            items.append(Stroke((start, end - 1.5 * way), Pen.MAIN, tag="polygon vector"))
+            items += arrowhead(end, way, length=3.0, tag="polygon vector")
+            labels.append(
+                Label(
+                    typeset(letters[k], manner.letter),
+                    (start + end) / 2.0,
+                    along=(start, end),
+                    prefer=1j * way if way.real >= 0 else -1j * way,
+                    gap=1.0,
+                    name=f"polygon {one.link}: {k}",
+                )
+            )
+        scale = Scale("mu_mr", per_mm, "kg·m")
+        told = [scale_inscription(scale, Convention.UNIT_PER_MM, tell.say)]
+        title = tell.said.polygon_of.format(link=one.link)
+        views.append(Viewed(named(lettered(items, labels), title, told, manner), "diagram", scale))
+    return Row(views, gap=16.0, align="bottom")
+
+
+def hodograph_views(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the main vector of inertia before and after, in one scale."""
+    tell = _teller(solution, manner)
+    curves = [np.append(curve, curve[0]) for curve in tell.balancing.forces(360)]
+    alone = tell.balancing.largest[1] < 1e-6 * tell.balancing.largest[0]
+    side = (1.1 if alone else 0.68) * manner.width(manner.sizes.column)
+    size = max(float(np.ptp(np.append(part, 0.0))) for c in curves for part in (c.real, c.imag))
+    per_mm = choose_scale((size, 0.0), (side, 1.0))
+    scale = Scale("mu_F", per_mm, "N")
+    told = [scale_inscription(scale, Convention.UNIT_PER_MM, tell.say)]
+    views: list[Block] = []
+    ends = tell.balancing.forces(COUNT)
+    titles = (tell.said.before, tell.said.after)
+    for title, curve, points in zip(titles, curves, ends, strict=True):
+        if float(np.max(np.abs(curve))) < 1e-6 * size:
+            continue  # nothing is left: the text says so
+        name = f"force {len(views)}"
+        drawn = np.asarray(curve / per_mm, dtype=complex)
+        picture = polar_picture([drawn], np.asarray(points / per_mm), manner.letter, name, "O")
+        views.append(Viewed(named(picture, title, told, manner), "hodograph", scale))
+    return Row(views, gap=16.0, align="bottom")
+
+
+def tables(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the counterweights, and the main vector by positions."""
+    tell = _teller(solution, manner)
+    height = manner.text(min(manner.sizes.text, 3.5))
+    made = []
+    wholes = (
+        (tell.said.weights_table, 1, [("№", *column[1:]) if not k else column
+                                      for k, column in enumerate(tell.weights())]),
+        (tell.said.forces_table, 2, tell.columns()),
+    )  # fmt: skip
+    for title, lead, columns in wholes:
+        cells = [
+            TableColumn(head, tuple(told), unit=tell.unit(unit) if unit else "", least=9.0)
+            for head, unit, told in columns
+        ]
+        made.append(table_block(cells, height, leading=lead, title=title, row_height=2.0 * height))
+    return Column(made, gap=6.0)

@@ -1,0 +1,160 @@
+"""Blocks of the run-up sheet: the motor, diagrams of run-up and stop, tables (разбег и останов)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil
+
+import numpy as np
+
+from planmethod.construct.scale import Scale, choose_scale, series_near
+from planmethod.errors import LayoutError
+from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.runup import course_columns, courses, run_up_lines
+from planmethod.note.numbers import trimmed
+from planmethod.note.wording import Language
+from planmethod.render.ink.drawing import Pen
+from planmethod.render.layout.block import Block, Column, Row, heading, paragraph
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.texts import NBSP, stated
+from planmethod.render.sheets.views import Viewed, named
+from planmethod.solved.machine.drawing import drawing_of
+from planmethod.solved.machine.flywheel import flywheel_of
+from planmethod.solved.machine.runup import Course, run_up_of
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
+
+_POINTS, _MOST = 400, 4000  # of a curve, and of one of many turns
+
+
+def _teller(solution: Solution, words: Language) -> MachineTeller:
+    machine = solution.problem.machine
+    if machine is None or (machine.motor is None and machine.brake is None):
+        raise LayoutError(
+            "{}: a layout with a run-up needs a motor or a brake in [machine]. For "
+            "example: motor = {{ kloss = {{ M_max = 60, s_k = 0.2, n_sync = 150 }} }}.",
+            solution.problem.name,
+        )
+    return MachineTeller(drawing_of(flywheel_of(solution), solution.profile), words)
+
+
+def run_up_text(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return "Дано" and "Определить", the motor, run-up, steady motion and stop with numbers."""
+    tell = _teller(solution, manner.words)
+    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+    blocks: list[Block] = [
+        stated(tell.given(), tell.said.run_up_wanted, manner),
+        heading(manner.entry.title or tell.said.run_up, height),
+    ]
+    blocks += [paragraph(line.replace(" = ", f"{NBSP}={NBSP}"), height, width)
+               for line in run_up_lines(tell)]  # fmt: skip
+    return Column(blocks, gap=3.0)
+
+
+def run_up_tables(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return run-up and stop by even times, one table beside another."""
+    tell = _teller(solution, manner.words)
+    height = manner.text(min(manner.sizes.text, 3.5))
+    tables = []
+    for title, course in courses(tell):
+        columns = [
+            TableColumn(head, tuple(cells), unit=unit, least=14.0)
+            for head, unit, cells in course_columns(course, tell)
+        ]
+        tables.append(table_block(columns, height, title=title, row_height=2.0 * height))
+    return Row(tables, gap=14.0)
+
+
+def run_up_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the motor's characteristic, the speed over time and angle, and that of the stop."""
+    tell = _teller(solution, manner.words)
+    run, said = run_up_of(tell.flywheel), tell.said
+    blocks = _characteristic(tell, manner)
+    if run.machine.motor is not None and run.failure is None:
+        course = run.run_up
+        time, _, speeds = course.rows(_count(course))
+        blocks.append(_speed(tell, manner, said.by_time, ("t", "s"), time, speeds))
+        turned = np.linspace(course.turned[0], course.turned[-1], _count(course))
+        speeds = course.at(turned)[0]
+        speeds[0] = 0.0
+        blocks.append(_speed(tell, manner, said.by_angle, ("φ", "deg"), np.degrees(turned), speeds))
+    if run.stop is not None:
+        time, _, speeds = run.stop.rows(_count(run.stop))
+        blocks.append(_speed(tell, manner, said.stop_diagram, ("t", "s"), time, speeds))
+    rows = [Row(blocks[k : k + 2], gap=16.0, align="bottom") for k in range(0, len(blocks), 2)]
+    return Column(rows, gap=12.0)
+
+
+def _count(course: Course) -> int:
+    """Return of how many points a curve is drawn: as many as show every turn."""
+    return min(max(_POINTS, int(4.0 * course.turned[-1])), _MOST)
+
+
+def _room(manner: Manner) -> tuple[float, float]:
+    width = manner.width(manner.sizes.column)
+    return 0.82 * width, 0.58 * width
+
+
+def _numbered(symbol: str, largest: float, width: float, manner: Manner) -> Abscissae:
+    """Return an axis from 0 with round numbers beyond the largest, which is so many mm off."""
+    step = series_near(largest / 8.0, up=True)
+    count = ceil(largest / step + 0.3) + 1
+    numbers = tuple(manner.words.say.number(trimmed(k * step, 6)) for k in range(count))
+    return Abscissae(symbol, tuple(width * k * step / largest for k in range(count)), numbers)
+
+
+def _speed(
+    tell: MachineTeller,
+    manner: Manner,
+    title: str,
+    over: tuple[str, str],
+    across: Reals,
+    speeds: Reals,
+) -> Block:
+    """Return the speed over time or angle as a diagram."""
+    width, height = _room(manner)
+    per_mm = choose_scale((0.0, float(np.max(speeds))), (1.0, height))
+    largest = float(across[-1])
+    places = tuple(
+        complex(width * x / largest, y / per_mm) for x, y in zip(across, speeds, strict=True)
+    )
+    symbol, unit = over
+    axis = _numbered(f"{symbol}, {tell.unit(unit)}", largest, width, manner)
+    picture = diagram_picture(
+        axis,
+        Ordinates(f"ω, {tell.unit('1/s')}", per_mm, tell.say),
+        # ripples of many turns would run together
+        [Curve("", (places,), Pen.MAIN if len(places) <= 2 * _POINTS else Pen.THIN)],
+        letter_height=manner.letter,
+        name=f"speed over {symbol}",
+    )
+    scale = Scale("mu_ω", per_mm, "1/s")
+    return Viewed(named(picture, title, [tell.scale("ω", per_mm, "1/s")], manner), "diagram", scale)
+
+
+def _characteristic(tell: MachineTeller, manner: Manner) -> list[Block]:
+    """Return the motor's moment over the speed, and the mean moment of resistance."""
+    motor = tell.flywheel.machine.motor
+    if motor is None:
+        return []
+    width, height = _room(manner)
+    speeds = np.linspace(0.0, motor.idle, _POINTS)
+    moments = np.array([motor.at(speed) for speed in speeds.tolist()])
+    mean = tell.flywheel.constant
+    per_mm = choose_scale((0.0, max(float(moments.max()), mean)), (1.0, height))
+    curve = tuple(
+        complex(width * x / motor.idle, y / per_mm) for x, y in zip(speeds, moments, strict=True)
+    )
+    level = (complex(0.0, mean / per_mm), complex(0.7 * width, mean / per_mm))
+    picture = diagram_picture(
+        _numbered(f"ω, {tell.unit('1/s')}", motor.idle, width, manner),
+        Ordinates(f"M, {tell.unit('N·m')}", per_mm, tell.say),
+        [Curve(tell.letter("motor moment"), (curve,)), Curve(tell.moment, (level,), Pen.HIDDEN)],
+        letter_height=manner.letter,
+        name="motor",
+    )
+    scale = Scale("mu_M", per_mm, "N·m")
+    told = [tell.scale("M", per_mm, "N·m")]
+    return [Viewed(named(picture, tell.said.motor_diagram, told, manner), "diagram", scale)]

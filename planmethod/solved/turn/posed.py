@@ -1,0 +1,307 @@
+"""Positions of the driver that an output tells, as roots (положение, заданное выходом).
+
+Which way a group closes is judged in the position that is looked for, so every way in which the
+mechanism assembles anywhere is tried, and a root counts if the rules close the groups so there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.steps import PointName
+from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
+from planmethod.languages import say
+from planmethod.problem.keys import EXTREMES, GOING, UNITS
+from planmethod.problem.model import Posed, PosedBy, Problem, Zero
+from planmethod.problem.names import split_pair
+from planmethod.solved.failures import PositionError
+from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.roots import crossings, root, top
+from planmethod.solved.turn.turn import LOOKS, TURN, Extreme, Turn
+
+_TRIES = 36  # positions of a turn in which it is tried how the groups close
+_SLIDER_TRIES = 120
+_ASIDE = 0.0931  # degrees off round numbers, where singular places like to be
+_SAME = 1e-7  # degrees, or share of the way of a slider, within which two roots are one
+_OFF = 1e-6  # share of the range of the output that a root may miss it by
+
+_UNITS = {"m": "{:.5g} m", "cm": "{:.5g} cm", "mm": "{:.5g} mm", "deg": "{:.5g} deg"}
+
+Found = list[tuple[float, float]]
+"""Positions of the driver, each with the sense in which the output goes there: 1, -1 or 0."""
+
+
+def pose(problem: Problem) -> Problem:
+    """Return a problem with the positions that its output tells.
+
+    Raises
+    ------
+    ProblemError
+        Several positions fit and no ``root`` says which, or the groups close in no way that the
+        file tells.
+    AssemblyError
+        The output never comes there.
+    """
+    posed = problem.drive.posed
+    if posed is None:
+        return problem
+    ways, trouble = _ways(problem)
+    if isinstance(trouble, ProblemError | PositionError) and not ways:
+        raise trouble
+    if not ways:  # of a mechanism that no plans can be made of there are no positions
+        return problem
+    first: list[tuple[Solution, float, float]] = []
+    for solution in ways:
+        for position, going in _roots(solution, posed, 0):
+            at = _closed(problem, position)
+            if at is not None and _sides(at) == _sides(solution):
+                first.append((at, position, going))
+    chosen = _chosen(problem, posed, 0, [(p, going) for _, p, going in first], ways)
+    solution = next(s for s, p, _ in first if p == chosen)
+    positions = [chosen]
+    for index in range(1, len(posed.values)):
+        found = _roots(solution, posed, index)
+        positions.append(_chosen(problem, posed, index, found, [solution]))
+    drive = replace(problem.drive, positions=tuple(positions))
+    if posed.by is PosedBy.LENGTH:
+        rate, acceleration = _driven(solution, posed, chosen)
+        drive = replace(drive, rate=rate, acceleration=acceleration)
+    return replace(problem, drive=drive)
+
+
+def _driven(solution: Solution, posed: Posed, position: float) -> tuple[float, float]:
+    """Return the rates of the driver that give an actuator its own, by its analogues.
+
+    Of l(phi) with dl/dt = v and d²l/dt² = a: omega = v/l', epsilon = (a - l''·omega²)/l'.
+    """
+    drive = replace(solution.problem.drive, positions=(position,), rate=1.0, acceleration=0.0)
+    points = Solution(replace(solution.problem, drive=drive)).points
+    one, two = split_pair(posed.of) or ("", "")
+    place, velocity, acceleration = (
+        complex(getattr(points[two], part)[0] - getattr(points[one], part)[0])
+        for part in ("place", "velocity", "acceleration")
+    )
+    length = abs(place)
+    along = (velocity * place.conjugate()).real / length
+    curve = (acceleration * place.conjugate()).real / length
+    curve += (abs(velocity) ** 2 - along**2) / length
+    if abs(along) <= _OFF * abs(velocity):
+        raise AssemblyError(
+            say(
+                "{}: at {} = {:.5g} m the actuator is in a dead position: "
+                "{} does not change while link {} moves. Give another length.",
+                solution.problem.name,
+                posed.of,
+                length,
+                posed.of,
+                drive.link,
+            )
+        )
+    speed, gain = posed.rates
+    return speed / along, (gain - curve * (speed / along) ** 2) / along
+
+
+def _closed(problem: Problem, position: float) -> Solution | None:
+    """Return the mechanism as its rules close it in a position; None where they do not."""
+    drive = replace(problem.drive, positions=(position,))
+    try:
+        return Solution(replace(problem, drive=drive))
+    except PlanMethodError:
+        return None
+
+
+def _ways(problem: Problem) -> tuple[list[Solution], PlanMethodError | None]:
+    """Return the ways in which the rules close the groups, and what was said where they do not."""
+    ways: dict[object, Solution] = {}
+    trouble: PlanMethodError | None = None
+    count = _TRIES if problem.drive.is_crank else _SLIDER_TRIES
+    for position in _grid(problem, count):
+        drive = replace(problem.drive, positions=(float(position),))
+        try:
+            solution = Solution(replace(problem, drive=drive))
+        except PlanMethodError as error:
+            trouble = error
+            continue
+        ways.setdefault(repr(_sides(solution)), solution)
+    if not ways:  # what is said of the first position that can be assembled
+        drive = replace(problem.drive, positions=tuple(_grid(problem, LOOKS).tolist()))
+        try:
+            Solution(replace(problem, drive=drive))
+        except PlanMethodError as error:
+            trouble = error
+    return list(ways.values()), trouble
+
+
+def _sides(solution: Solution) -> list[tuple[tuple[str, ...], int, bool]]:
+    """Return how the groups of a solution close."""
+    choice = solution.construction.draft.choice
+    return sorted((links, one.side, one.parallel) for links, one in choice.items())
+
+
+def _grid(problem: Problem, count: int) -> Reals:
+    """Return positions over a turn, or over all that a slider can reach."""
+    if problem.drive.is_crank:
+        return _ASIDE + TURN * np.arange(count + 1) / count
+    sizes = [abs(length) for _, _, length in problem.lengths]
+    sizes += [abs(place) for body in problem.bodies.values() for place in body.points.values()]
+    reach = sum(sizes)
+    return np.linspace(-reach, reach, count + 1) * (1.0 + 1e-3 * _ASIDE)
+
+
+def _value(solution: Solution, posed: Posed) -> Callable[[Reals], Reals]:
+    """Return what tells the output in positions of the driver: m or degrees."""
+    draft = solution.construction.draft
+
+    def read(positions: Reals) -> Reading:
+        return solution.moved(positions.tolist()).read(Float64())
+
+    def angle(positions: Reals) -> Reals:
+        return np.asarray(np.degrees(np.angle(read(positions).course(draft.axes[posed.of]))))
+
+    def place(positions: Reals) -> Reals:
+        at = read(positions).point(PointName(posed.of)) + draft.origin
+        return np.asarray(at.real if posed.by is PosedBy.X else at.imag)
+
+    def length(positions: Reals) -> Reals:
+        reading, (one, two) = read(positions), split_pair(posed.of) or ("", "")
+        return np.abs(reading.vector(PointName(one), PointName(two)))
+
+    if posed.by is PosedBy.LENGTH:
+        return length
+    return angle if posed.by is PosedBy.PHI else place
+
+
+def _roots(solution: Solution, posed: Posed, index: int) -> Found:
+    """Return the positions in which the output is where a value says."""
+    if posed.by is PosedBy.EXTREME:
+        return _extreme(Turn(solution), posed, index)
+    target = posed.values[index]
+    grid = _grid(solution.problem, LOOKS if solution.problem.drive.is_crank else 3 * LOOKS)
+    value = _value(solution, posed)
+    if posed.by is PosedBy.STROKE:
+        turn = Turn(solution)
+        start, end = _ends(turn)
+        value, target = turn.values, start.value + target * (end.value - start.value)
+        if posed.values[index] in (0.0, 1.0):
+            return [((start, end)[int(posed.values[index])].phi % TURN, 0.0)]
+
+    def off(positions: Reals) -> Reals:
+        missed = value(positions) - target
+        return (missed + 180.0) % 360.0 - 180.0 if posed.by is PosedBy.PHI else missed
+
+    looks = off(grid)
+    size = float(np.nanmax(np.abs(looks))) if np.isfinite(looks).any() else 0.0
+    sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
+    if posed.by is PosedBy.STROKE and end.value < start.value:
+        sense = -sense
+    found: Found = []
+    for k in crossings(looks):
+        at = root(off, float(grid[k]), float(grid[k + 1]))
+        if abs(off(np.array([at]))[0]) <= _OFF * size:
+            going = sense * float(np.sign(looks[k + 1] - looks[k]))
+            found.append((at % TURN if solution.problem.drive.is_crank else at, going))
+    if not found and np.isfinite(looks).any():  # an extreme, which is come to and not passed
+        k = int(np.nanargmin(np.abs(looks)))
+        at, _ = top(lambda p: -np.abs(off(p)), 2 * grid[k] - grid[k - 1], float(grid[k - 1]))
+        if abs(off(np.array([at]))[0]) <= _OFF * size:
+            found.append((at % TURN if solution.problem.drive.is_crank else at, 0.0))
+    return found
+
+
+def _ends(turn: Turn) -> tuple[Extreme, Extreme]:
+    """Return the extreme of position zero and the other one."""
+    if turn.ends is None:
+        why = turn.why_no_stroke
+        raise _unknown(turn.solution, say("the output has no stroke: {}", why.value if why else ""))
+    start, end = turn.ends
+    return (end, start) if turn.task.zero is Zero.OTHER else (start, end)
+
+
+def _extreme(turn: Turn, posed: Posed, index: int) -> Found:
+    """Return the position so many degrees of the crank after an extreme."""
+    where, after = posed.extremes[index], turn.sense * posed.values[index]
+    if where in EXTREMES:
+        phi = np.array([one.phi for one in turn.extremes])
+        if not phi.size:
+            raise _unknown(turn.solution, "the output has no extreme position")
+        place = turn.read(phi).point(PointName(turn.output.point))
+        along = place.real if where in ("left", "right") else place.imag
+        chosen = phi[int(np.argmin(along) if where in ("left", "lower") else np.argmax(along))]
+    else:
+        chosen = _ends(turn)[1 if where == "other" else 0].phi
+    return [(float(chosen + after) % TURN, 0.0)]
+
+
+def _unknown(solution: Solution, why: str) -> ProblemError:
+    drive = solution.problem.drive
+    assert drive.posed is not None
+    hint = "Name the output: [cycle] output = ..., or give the angle of the crank"
+    return ProblemError(solution.problem.name, [Fault(f"driver.{drive.posed.key}", why, hint)])
+
+
+def _chosen(
+    problem: Problem, posed: Posed, index: int, found: Found, ways: list[Solution]
+) -> float:
+    """Return the one position that is meant."""
+    drive, unit = problem.drive, UNITS[problem.unit]
+    said = f"{posed.key} = {_told(posed, posed.values[index], problem)}"
+    if posed.by is PosedBy.EXTREME:
+        said = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}".replace(" +0", "")
+    found = sorted(found)
+    kept = [one for k, one in enumerate(found) if not k or one[0] - found[k - 1][0] > _SAME]
+    if not kept:
+        reached = ""
+        if posed.of:
+            every = np.concatenate([_value(way, posed)(_grid(problem, LOOKS)) for way in ways])
+            ends = [_told(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)]
+            reached = say(
+                ": {} goes from {} to {} as the groups are closed", posed.key, ends[0], ends[1]
+            )
+        raise AssemblyError(
+            "{}: {} is not reached{}. Check driver.{}, the lengths, and that the rules of "
+            "[assembly] hold in this position.",
+            problem.name,
+            said,
+            reached,
+            posed.key,
+        )
+    if posed.near is not None:
+        turn = drive.coordinate.turn
+        return min((p for p, _ in kept), key=lambda p: _apart(p - (posed.near or 0.0), turn))
+    ways_of = GOING.get(posed.by.value, ("", ""))
+    if posed.going:
+        kept = [one for one in kept if one[1] == (1.0 if posed.going == ways_of[0] else -1.0)]
+        said = say("{}, going {},", said, posed.going)
+    if len(kept) == 1:
+        return kept[0][0]
+    per = 1.0 if drive.is_crank else unit
+    places = [f"{p * per:.5g}" for p, _ in kept]
+    name = drive.coordinate.name
+    told = ", ".join(f"{name} = {place}" for place in places) or say("no position")
+    senses = [going for _, going in kept]
+    near = ", ".join(f'root = "near {place}"' for place in places)
+    hint = say("Say one of {}", near) if places else "Leave root out to see the positions"
+    if ways_of[0] and senses in ([1.0, -1.0], [-1.0, 1.0]):
+        one, two = ways_of[:: 1 if senses[0] > 0 else -1]
+        hint = say(
+            'Say root = "going {}" for the first or root = "going {}" for the second', one, two
+        )
+    message = say("{} fits {}, and one is meant", said, told)
+    raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
+
+
+def _apart(way: float, turn: float) -> float:
+    """Return how far apart two positions of the driver are, within a turn."""
+    return abs(way) if np.isinf(turn) else abs((way + turn / 2) % turn - turn / 2)
+
+
+def _told(posed: Posed, value: float, problem: Problem) -> str:
+    """Return a value of the output as the file has it."""
+    if posed.by in (PosedBy.X, PosedBy.Y, PosedBy.LENGTH):
+        return say(_UNITS[problem.unit], value * UNITS[problem.unit])
+    return say(_UNITS["deg"] if posed.by is PosedBy.PHI else "{:.5g}", value)

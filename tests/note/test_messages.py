@@ -1,0 +1,278 @@
+"""Every message is said in every language; found in the source, so that none can be forgotten."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from string import Formatter
+
+import click
+import pytest
+from cases import each
+from click.testing import CliRunner
+
+import planmethod
+from planmethod.cli import cli
+from planmethod.errors import PlanMethodError
+from planmethod.kinds import load
+from planmethod.languages import LANGUAGES, WRITTEN, say, speaking, spoken_to
+
+HOME = Path(planmethod.__file__).parent
+WORDING = HOME / "note" / "wording"
+OTHERS = [lang for lang in LANGUAGES if lang != WRITTEN]
+FAULTY = sorted((HOME.parent / "tests" / "problem" / "faulty").glob("*.toml"))
+
+SAYS = {"say", "translated", "Fault", "_fail", "_fault", "_load_fault", "expected", "UsageError"}
+"""Calls whose texts a reader sees, beside errors that are raised and ``faults.add``."""
+
+NO_MESSAGES = (
+    "bench/",  # a document for developers
+    "check/pages/htmlpage.py",  # HTML
+    "check/sheet.py",  # names of answers
+    "__init__.py",  # for programs in Python
+    "check/works/vocabulary.py",  # what works of students say
+    "construct/",  # mistakes of ours; names of steps, as in the next
+    "gears/construction.py",
+    "gears/drawn/front.py",
+    "gears/drawn/side.py",
+    "gears/involute/diagrams.py",
+    "gears/involute/meshpicture.py",
+    "gears/involute/quantities.py",  # formulas
+    "moving/construction.py",
+    "moving/pictures.py",
+    "note/",  # the words of notes, and mistakes of ours
+    "plans/diagrams/",
+    "problem/keys.py",  # the table of the title block's fields in the documents
+    "render/control/remarks.py",  # mistakes of ours
+    "render/forces/",
+    "render/ink/lettering/",
+    "render/live/film.py",  # SVG
+    "render/live/page.py",  # HTML
+    "render/pictures/",
+    "render/sheets/flywheel.py",
+    "render/sheets/runup.py",
+    "solved/closings.py",  # rules, in the words of the file
+    "solved/many/sweep.py",  # for programs in Python
+    "solved/turn/",  # codes of JSON, as in the next but one
+    "synthesis/board.py",
+    "synthesis/measured.py",
+    "synthesis/file.py",  # what the file says
+)
+"""Modules whose English texts no reader sees as a message."""
+
+NOT_SAID = {
+    "PROBLEM [WORK]...",  # a metavariable
+    "a part was left out without a word",
+    "[x, y, z]",
+    '[["3", "H"]]',
+    '["U_1_5", "n_5"]',
+    "a couple has no point",
+    "a machine has loads",
+    "the crank turns",
+    "a crank drives",
+    "a motor is given",
+}
+"""Texts elsewhere that only mistakes of ours show, and metavariables."""
+
+READS = re.compile(
+    r"(?!<)"  # HTML
+    r"(?:(a|an|the) [a-z]{2}"  # the beginning of a phrase
+    r"|[A-Z].* .*\.$"  # a whole sentence
+    r"|(?=.*\{[\w.\[\]]*[!:}])(?=.*\b[a-z]{3,} |.* [a-z]{3,}\b))"  # words and places
+)
+"""A text that reads as a message, or a part of one."""
+
+PLAIN_ENGLISH = re.compile(r"\b(the|is|are|an|of|not|and|or|with|has|expected|must|give|to)\b")
+
+
+def is_said(call: ast.Call) -> bool:
+    """Tell whether the texts of a call are messages."""
+    name = call.func.id if isinstance(call.func, ast.Name) else getattr(call.func, "attr", "")
+    return name in SAYS or name.endswith("Error") or ast.unparse(call.func).endswith("faults.add")
+
+
+@cache
+def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
+    """Return the sentences that are said, f-strings that read as one, and all texts there are."""
+    said: dict[str, str] = {}
+    formatted: dict[str, str] = {}
+    every: set[str] = set()
+    for path in sorted(HOME.rglob("*.py")):
+        module = path.relative_to(HOME).as_posix()
+        text = path.read_text("utf-8")
+        silent = module.startswith(NO_MESSAGES)
+        if module.startswith("note/wording/") or (
+            silent and not re.search(r"(Error|Fault)\(", text)
+        ):
+            continue
+        inside: set[ast.AST] = set()
+        direct: set[ast.AST] = set()
+        nodes = list(ast.walk(ast.parse(text)))
+        for node in nodes:
+            match node:
+                case ast.Expr(ast.Constant(str(told)) as value):  # a docstring
+                    every.add(inspect.cleandoc(told))
+                    inside.add(value)
+                case ast.JoinedStr():
+                    inside |= {part for part in ast.walk(node) if part is not node}
+                case ast.Call() if is_said(node):
+                    direct |= set(node.args)
+                case ast.keyword("hint" | "what" | "said" | "of" | "message", value):
+                    direct.add(value)
+        for node in nodes:
+            where = f"{module}:{getattr(node, 'lineno', 0)}"
+            match node:
+                case ast.Constant(str(told)) if node not in inside:
+                    every.add(told)
+                    message = node in direct and re.search(r"\S \S|\.$", told) and "=" not in told
+                    if (message or READS.match(told)) and told not in NOT_SAID and not silent:
+                        said.setdefault(told, where)
+                case ast.JoinedStr() if not silent:
+                    parts = [part.value for part in node.values if isinstance(part, ast.Constant)]
+                    words = " ".join(map(str, parts))
+                    if re.search(r"[a-z]{3,} +[a-z]{3,}|[A-Za-z]{3,} [a-z]{2,}", words):
+                        formatted[where] = ast.unparse(node)
+    return said, formatted, every
+
+
+def catalogue(lang: str) -> dict[str, str]:
+    """Return the messages of a language; none is given twice."""
+    pairs: list[tuple[str, str]] = []
+    for room in (WORDING / lang / "messages").glob("*.json"):
+        pairs += json.loads(room.read_text("utf-8"), object_pairs_hook=list)
+    assert len(dict(pairs)) == len(pairs), "given twice"
+    return dict(pairs)
+
+
+def places(text: str) -> tuple[set[str], set[str]]:
+    """Return the places of a sentence for facts, and those that only give a word its form."""
+    found: dict[str, bool] = {}
+    for number, (_, name, spec, _) in enumerate(
+        p for p in Formatter().parse(text) if p[1] is not None
+    ):
+        key = name or str(number)
+        found[key] = found.get(key, False) or not (spec or "").startswith("|")
+    return {key for key, shown in found.items() if shown}, set(found)
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_every_message_is_said_in_every_language(lang: str) -> None:
+    said, formatted, _ = source()
+    assert len(said) > 700
+    known = catalogue(lang)
+    missing = [f"{where}: {text}" for text, where in said.items() if text not in known]
+    assert not missing, "add these to the catalogue of messages, or to NO_MESSAGES with the reason"
+    assert not formatted, "a message is a sentence with places that say() fills in"
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_no_message_is_kept_that_nobody_says(lang: str) -> None:
+    foreign = json.loads((WORDING / lang / "messages" / "foreign.json").read_text("utf-8"))
+    assert set(catalogue(lang)) - set(foreign) <= source()[2]
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_a_message_has_the_same_places_in_every_language(lang: str) -> None:
+    for english, other in catalogue(lang).items():
+        if english not in source()[0] or not re.search(r"\{[\w.\[\]]*[!:}]", english):
+            continue
+        shown, all_of_them = places(english)
+        there, those = places(other)
+        assert shown <= those <= all_of_them, english
+        assert there <= all_of_them, english
+
+
+def helps() -> Iterator[str]:
+    """Yield the help of the commands and their options, and that of the program."""
+    for command in (cli, *cli.commands.values()):
+        yield inspect.cleandoc(command.help or "")
+        for param in command.params:
+            if isinstance(param, click.Option) and param.help:
+                yield param.help
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_help_is_in_every_language(lang: str) -> None:
+    assert set(helps()) <= set(catalogue(lang))
+
+
+def test_the_help_is_shown_in_russian() -> None:
+    shown = CliRunner().invoke(cli, ["--lang", "ru", "--help"]).output
+    assert "Вызов:" in shown
+    assert "Команды:" in shown
+    assert "Показать эту справку и выйти." in shown
+    assert not PLAIN_ENGLISH.search(shown)
+    one = CliRunner().invoke(cli, ["solve", "--lang=ru", "--hlep"])
+    assert one.exit_code == 2
+    assert "Ошибка: Нет ключа '--hlep'." in one.output
+    assert "--hlep" in CliRunner().invoke(cli, ["solve", "--lang=en", "--hlep"]).output
+    assert "Usage:" in CliRunner().invoke(cli, ["--help"]).output  # as before
+
+
+@each("path", FAULTY)
+def test_the_faults_of_a_file_are_told_in_russian(path: Path) -> None:
+    """No fact of a message stays English: what is quoted, or in braces, is of the file."""
+    with speaking("ru"), pytest.raises(PlanMethodError) as caught:
+        load(path)
+    told = str(caught.value).split("\n", 1)[1]
+    ours = re.sub(r"«[^»]*»|'[^']*'|\"[^\"]*\"|\{[^}]*\}|[\w.]+ = [^,\n]*", "", told)
+    assert not PLAIN_ENGLISH.search(ours), ours
+
+
+def test_a_table_is_the_same_in_every_language(tmp_path: Path) -> None:
+    """The reasons of empty cells are bytes of a file; the warning is said to who asks."""
+    text = (HOME.parent / "problems" / "linkages" / "ex1.toml").read_text("utf-8")
+    file = tmp_path / "short.toml"
+    file.write_text(text.replace("BC = 0.1", "BC = 0.028"), "utf-8")
+    asked = ["solve", str(file), "--phi", "0:360:30", "--partial", "--csv"]
+    one, other = (CliRunner().invoke(cli, ["--lang", lang, *asked]) for lang in ("ru", "en"))
+    assert one.stdout == other.stdout
+    assert "does not reach the guide" in one.stdout
+    assert "невозможны и оставлены пустыми" in one.stderr
+
+
+def test_python_runs_the_package() -> None:
+    words = [sys.executable, "-m", "planmethod", "--lang", "ru"]
+    done = subprocess.run(words, capture_output=True, encoding="utf-8", cwd=HOME.parent)
+    assert done.returncode == 0
+    assert "Начните так" in done.stdout
+
+
+def test_words_go_with_their_numbers() -> None:
+    head = "{0}: {1} fault{1:||s} in the problem file"
+    assert [say(head, "a", n).split()[2] for n in (1, 2, 21)] == ["fault", "faults", "faults"]
+    with speaking("ru"):
+        told = [say(head, "a", n).split()[2] for n in (1, 2, 5, 11, 21, 22, 112)]
+    assert told == ["ошибка", "ошибки", "ошибок", "ошибок", "ошибка", "ошибки", "ошибок"]
+
+
+def test_what_a_file_says_is_left_as_it_is() -> None:
+    with speaking("ru"):
+        once = say("the mechanism has no '{}'", "missing {0}")
+        assert once == "в механизме нет имени «missing {0}»"
+        assert say(once) == once
+        assert say("nobody knows {this}") == "nobody knows {this}"
+
+
+def test_the_language_is_asked_for() -> None:
+    cases: list[tuple[str, dict[str, str], str]] = [
+        ("", {}, "ru"),
+        ("solve --lang en", {"PLANMETHOD_LANG": "ru"}, "en"),
+        ("solve --lang=en", {}, "en"),
+        ("", {"PLANMETHOD_LANG": "EN", "LANG": "ru_RU.UTF-8"}, "en"),
+        ("", {"LANG": "en_US.UTF-8"}, "en"),
+        ("", {"LC_ALL": "C", "LANG": "en_GB"}, "en"),
+        ("", {"LC_ALL": "POSIX", "LC_MESSAGES": "C.UTF-8"}, "ru"),
+        ("", {"LC_MESSAGES": "ru_RU", "LANG": "en_US"}, "ru"),
+        ("", {"LANG": "kk_KZ.UTF-8"}, "ru"),
+        ("--lang", {"PLANMETHOD_LANG": "nonsense"}, "ru"),
+    ]
+    for words, environ, lang in cases:
+        assert spoken_to(words.split(), environ) == lang, (words, environ)
