@@ -2,4 +2,5 @@
 
 from planmethod.cli import main
 
-main()
+if __name__ == "__main__":  # processes at work may import this file
+    main()

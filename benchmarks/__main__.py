@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from benchmarks import report
+from benchmarks.peers import missing
 from benchmarks.whole import SECTIONS, make
 from planmethod.commands.problems import guarded
 from planmethod.problem import load
@@ -49,6 +50,9 @@ def main(
     """
     if find_spec("mpmath") is None:
         raise click.UsageError("mpmath, the judge, is missing: pip install -e '.[bench]'")
+    if missing() and not (only or quick):
+        lost = " ".join(missing())
+        raise click.UsageError(f"{lost} Install them with make bench, or look with --quick.")
     loaded = [load(path) for path in problems]
     if count is None:
         count = 200 if quick else 10_000

@@ -27,6 +27,9 @@ from numpy.typing import NDArray
 
 Floats: TypeAlias = NDArray[np.float64]
 
+PEERS = 2
+"""Those looked for: compiled C and pylinkage."""
+
 ROWS = 20
 OMEGA = 10.0  # 1/s
 FRAME, CRANK, COUPLER, ROCKER = 0.4, 0.1, 0.35, 0.3  # m
@@ -105,7 +108,9 @@ def _found() -> tuple[tuple[Peer, ...], tuple[str, ...]]:
     """Look for the peers: those found, and sentences on the others."""
     found: list[Peer] = []
     absent: list[str] = []
-    for search in (_compiled, _pylinkage):
+    searches = (_compiled, _pylinkage)
+    assert len(searches) == PEERS
+    for search in searches:
         try:
             found += search()
         except _Unavailable as reason:

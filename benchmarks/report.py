@@ -11,7 +11,7 @@ import numpy as np
 
 from benchmarks import processes, rivals
 from benchmarks.figure import draw
-from benchmarks.peers import missing
+from benchmarks.peers import PEERS, missing
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
 from planmethod.bench import speed
 from planmethod.bench.clock import Timing
@@ -49,6 +49,12 @@ def compiler() -> str:
 # Sections ---------------------------------------------------------------------------------------
 
 
+def peers_ran() -> str:
+    """Return how many of the peers ran beside the rows of a table."""
+    lost = len(missing())
+    return f"{PEERS - lost} of {PEERS} peers"
+
+
 def rivals_section(compared: Sequence[rivals.Rival]) -> Table:
     """Return the table of the four-bar: this package, C, pylinkage."""
     sizes = list(compared[0].seconds)
@@ -60,6 +66,7 @@ def rivals_section(compared: Sequence[rivals.Rival]) -> Table:
                 rival.name,
                 *(_rate(rival.seconds[n], n) for n in sizes),
                 number(worst) if rival.error else "—",
+                peers_ran(),
             )
         )
     ours = compared[0]
@@ -82,7 +89,7 @@ def rivals_section(compared: Sequence[rivals.Rival]) -> Table:
         "buffer that was there before, except where a peer cannot take one. The error is the "
         "largest over the three sizes.",
         "",
-        *table(("who", *header, "largest error"), rows),
+        *table(("who", *header, "largest error", "beside"), rows),
         "",
         *notes,
         "",

@@ -39,11 +39,13 @@ class Rival:
     error: dict[int, float]
 
 
-def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
+def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 9) -> list[Rival]:
     """Time this package and its peers on one four-bar, taking turns."""
-    sweep = Sweep(fourbar(), FOURBAR_ROWS)
-    angled = Sweep(fourbar(), [*(r for r in FOURBAR_ROWS if r[0] != "u"), "phi_2", "phi_3"])
-    loose = Sweep(fourbar(), FOURBAR_ROWS)
+    sweep = Sweep(fourbar(), FOURBAR_ROWS, native=False)
+    with_phi = [*(r for r in FOURBAR_ROWS if r[0] != "u"), "phi_2", "phi_3"]
+    angled = Sweep(fourbar(), with_phi, native=False)
+    loose = Sweep(fourbar(), FOURBAR_ROWS, native=False)
+    machine = Sweep(fourbar(), FOURBAR_ROWS, native=True)
     buffers = {n: np.empty((len(sweep.rows), n)) for n in sizes}
     more = {n: np.empty((len(angled.rows), n)) for n in sizes}
     angles = {n: turn(n) for n in sizes}
@@ -57,6 +59,9 @@ def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
 
     def uneven(n: int) -> Array:
         return loose.run(shuffled[n], out=None if n <= 40 else buffers[n])
+
+    def stored(n: int) -> None:
+        buffers[n].fill(1.0)
 
     acts: list[tuple[str, str, Callable[[int], Array | None], tuple[int, ...]]] = [
         (
@@ -73,6 +78,21 @@ def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
         ),
         ("planmethod, sweep, uneven phi", "20 rows, no table of angles", uneven, ()),
     ]
+    if not machine.uncompiled:
+        bound = {n: machine.bind(angles[n], out=buffers[n]) for n in sizes}
+        more_acts = (
+            (
+                "machine code",
+                "the same tape compiled",
+                lambda n: machine.run(angles[n], out=buffers[n]),
+            ),
+            ("bound call", "the same, prepared and checked once", lambda n: bound[n]()),
+        )
+        acts += [
+            (f"planmethod, {name}", f"20 rows; {said}", act, tuple(range(20)))
+            for name, said, act in more_acts
+        ]
+    acts.append(("stores alone", "the buffer of 20 rows filled, nothing computed", stored, ()))
     for peer in peers():
         acts.append(
             (peer.name, peer.computes, lambda n, p=peer: p.run(angles[n]), peer.rows)  # type: ignore[misc]
@@ -82,7 +102,7 @@ def rivals(sizes: Sequence[int] = SIZES, *, rounds: int = 3) -> list[Rival]:
         for n in sizes:
             for name, _, act, _ in acts:
                 times.setdefault((name, n), []).append(
-                    clock(lambda a=act, k=n: a(k), enough=0.25, least=3)  # type: ignore[misc]
+                    clock(lambda a=act, k=n: a(k), enough=0.1, least=3)  # type: ignore[misc]
                 )
     right = {n: right_rows(fourbar(), FOURBAR_ROWS, angles[n][spread(n)]) for n in sizes}
     found = []

@@ -6,10 +6,8 @@ called, and the imports of the work stand in its functions.
 
 from __future__ import annotations
 
-import gc
 import io
 import sys
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from typing import Any
@@ -17,6 +15,7 @@ from typing import Any
 import click
 
 from planmethod.commands.helptext import Spoken
+from planmethod.commands.output import settle_process
 from planmethod.errors import ExitCode
 from planmethod.languages import LANGUAGES, say, speaking, spoken_to
 
@@ -39,6 +38,7 @@ COMMANDS = (
     "check",
     "bench",
     "form",
+    "batch",
 )
 """Names of the commands; each is a function of the module of its name in `planmethod.commands`."""
 
@@ -108,10 +108,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
-    # A command lives a fraction of a second and makes few cycles: the search costs a twentieth.
-    gc.set_threshold(100_000)
-    if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
-        warnings.simplefilter("ignore")
+    settle_process()
     with speaking(spoken_to(sys.argv[1:])):
         _run()
 

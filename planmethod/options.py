@@ -179,6 +179,17 @@ def reading_options(command: F) -> F:
     return positions_option(MOST_POSITIONS)(hand_options(command))
 
 
+def jobs_option(command: F) -> F:
+    """Add the number of processes."""
+    return click.option(
+        "--jobs",
+        type=click.IntRange(1, 64),
+        default=1,
+        show_default=True,
+        help="Processes at work.",
+    )(command)
+
+
 def out_option(command: F) -> F:
     """Add the folder that files are written into."""
     return click.option(
@@ -221,9 +232,9 @@ def dxf_text_option(command: F) -> F:
     return click.option(
         "--dxf-text",
         type=click.Choice(["text", "strokes"]),
-        default="text",
+        default="strokes",
         show_default=True,
-        help="Letters of DXF: text, or outlines that look the same everywhere.",
+        help="Letters of DXF: strokes that look the same everywhere, or text.",
     )(command)
 
 

@@ -5,7 +5,7 @@ shapely widens it by half the line thickness, and for each style of GOST 2.304 (
 upright and slanted) two files come into ``planmethod/render/ink/fonts/``:
 
 - ``PlanmethodGOST-B-Slanted.ttf`` and so on: the font, for formats that embed one;
-- ``PlanmethodGOST-B-Slanted.json``: advance, ink bounds and outline of each letter and the pairs
+- ``PlanmethodGOST-B-Slanted.json``: advance, ink bounds and strokes of each letter and the pairs
   that stand closer, so that drawing needs no font library at run time.
 
 The same skeletons give the same bytes.
@@ -51,14 +51,19 @@ KERNED = (
 """Letters that may stand closer: not digits, which stand under one another in tables."""
 
 
-def outline(strokes: Strokes, style: Style) -> list[Polygon]:
-    """Return what the pen leaves along the strokes, d; slanted if the style is."""
+def leant(strokes: Strokes, style: Style) -> Strokes:
+    """Return the strokes slanted if the style is."""
     lean = style.lean
     waist = style.proportions.small / 2  # what leans to the right above it leans to the left below
-    parts = []
-    for line in strokes:
-        points = [(point.real + lean * (point.imag - waist), point.imag) for point in line]
-        parts.append(LineString(points).buffer(0.5, quad_segs=ROUND))
+    return tuple(tuple(p + lean * (p.imag - waist) for p in line) for line in strokes)
+
+
+def outline(strokes: Strokes) -> list[Polygon]:
+    """Return what the pen leaves along the strokes, d."""
+    parts = [
+        LineString([(p.real, p.imag) for p in line]).buffer(0.5, quad_segs=ROUND)
+        for line in strokes
+    ]
     whole = union_all(parts).simplify(WITHIN)
     found = whole.geoms if isinstance(whole, MultiPolygon) else [whole]
     return sorted((orient(part) for part in found), key=lambda part: part.bounds)
@@ -74,9 +79,15 @@ def contours(polygons: Iterable[Polygon], unit: float) -> list[list[tuple[int, i
     return found
 
 
-def svg_path(rings: Sequence[Sequence[tuple[int, int]]]) -> str:
-    """Return contours as an SVG path of M, L and Z."""
-    return "".join("M" + "L".join(f"{x} {y}" for x, y in ring) + "Z" for ring in rings)
+def svg_path(strokes: Strokes, unit: float) -> str:
+    """Return strokes as an SVG path of M and l, in font units."""
+    path = ""
+    for line in strokes:
+        points = [(round(p.real * unit), round(p.imag * unit)) for p in line]
+        steps = [(c - a, d - b) for (a, b), (c, d) in pairwise(points)]
+        ways = " ".join(f"{x} {y}" for x, y in steps if x or y)
+        path += f"M{points[0][0]} {points[0][1]}l{ways}"
+    return path.replace(" -", "-")
 
 
 def closer(kind: str) -> dict[str, str]:
@@ -122,10 +133,8 @@ def make(style: Style, target: Path) -> None:
     unit = CAP_HEIGHT / measures.cap
     shapes: dict[str, Skeleton] = {"": missing_box(style.kind)}
     shapes |= {char: skeleton(char, style.kind) for char in letters()}
-    rings = {
-        char: contours(outline(shape.strokes, style), unit) if shape.strokes else []
-        for char, shape in shapes.items()
-    }
+    strokes = {char: leant(shape.strokes, style) for char, shape in shapes.items()}
+    rings = {char: contours(outline(own), unit) if own else [] for char, own in strokes.items()}
     advances = {char: round(shape.advance * unit) for char, shape in shapes.items()}
     kern = closer(style.kind)
     data = {
@@ -137,7 +146,7 @@ def make(style: Style, target: Path) -> None:
             f"{ord(char):x}" if char else "": [
                 advances[char],
                 *_bounds(rings[char]),
-                svg_path(rings[char]),
+                svg_path(strokes[char], unit),
             ]
             for char in shapes
         },

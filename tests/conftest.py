@@ -52,11 +52,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.fixture(scope="session", autouse=True)
 def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """The tests read an empty config file, never that of who runs them; no warning is let pass."""
+    """The tests read an empty config file and no cache of who runs them; no warning is let pass."""
     empty = Path(tmp_path_factory.mktemp("config")) / "config.toml"
     empty.touch()
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PLANMETHOD_CONFIG", str(empty))
+        patch.setenv("PLANMETHOD_NATIVE", "0")  # nor what a compiler left in a cache
         patch.setenv("PLANMETHOD_LANG", "en")
         patch.setenv("PYTHONWARNINGS", "error")  # in processes that tests start, too
         yield

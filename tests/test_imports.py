@@ -24,6 +24,9 @@ FORCES = {
     "planmethod.note.narrate.forces.statement",
 }
 
+OTHER_WORDS = {f"planmethod.note.wording.ru.{name}" for name in ("check", "gears", "sheets")}
+"""Words of subjects that tables of results do not have."""
+
 
 def imported(folder: Path, *commands: tuple[str, ...]) -> set[str]:
     """Return the modules there are after commands in one process."""
@@ -83,8 +86,11 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
         (
             drawing(SIX_LINK, "--format", "svg"),
             {"numpy", "shapely", "svgwrite"},
-            {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES},
+            {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES}
+            | {"urllib.request", "svgwrite.data.svgparser"},
         ),
+        ((("--help",),), {"click"}, {*ALL, *FONTS, "fractions", "planmethod.problem.model"}),
+        ((("solve", EX3),), {"numpy"}, {*FORCES, "fractions", *OTHER_WORDS}),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
         (
             (("live", EX3), ("animate", EX3, "--format", "svg", "--frames", "8")),

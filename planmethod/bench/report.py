@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
@@ -29,7 +30,9 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
 
 
 def span(seconds: float) -> str:
-    """Return a time with three digits and its unit."""
+    """Return a time with three digits and its unit; a dash where there is none."""
+    if math.isnan(seconds):
+        return "—"
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
         if seconds * factor >= 1.0:
             return f"{seconds * factor:.3g} {unit}"
@@ -39,6 +42,13 @@ def span(seconds: float) -> str:
 def number(value: float) -> str:
     """Return an error with two digits; a dash where there is none."""
     return "—" if math.isnan(value) else "0" if value == 0 else f"{value:.1e}"
+
+
+def load() -> str:
+    """Return how busy the machine was, as a clause."""
+    if not hasattr(os, "getloadavg"):
+        return "how busy the machine was is not known"
+    return f"{os.getloadavg()[0]:.1f} processes were busy on {os.cpu_count()} cores"
 
 
 def timed(found: Sequence[speed.Reading]) -> Table:
@@ -68,7 +78,8 @@ def speed_section(readings: Sequence[speed.Reading]) -> Table:
         f"against a referee of {speed.RIGHT} digits: of a sweep, each row in units of its own "
         f"largest value (at most {speed.JUDGED} positions, evenly spread); of one position and of "
         "the hand, in units of the largest result of its kind. The hand reads the plans at the "
-        "scales that planmethod chooses; its error is that of reading alone.",
+        "scales that planmethod chooses; its error is that of reading alone. Sweeps take turns, "
+        f"nine rounds; {load()}.",
         "",
         *timed(readings),
     ]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.bench.clock import clock
+from planmethod.bench.clock import clock, clock_all
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
@@ -17,7 +19,7 @@ from planmethod.construct.referee import Precise
 from planmethod.errors import AssemblyError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
-from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.many.sweep import FEW, Sweep
 from planmethod.solved.results import results_of
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
@@ -129,24 +131,39 @@ def row_error(right: Array, found: Array) -> float:
 def sweeps(
     problem: Problem, counts: Sequence[int], asked: Sequence[str] | None = None
 ) -> list[Reading]:
-    """Time sweeps in float64 and float32, the output buffer passed in."""
+    """Time sweeps into buffers, taking turns: NumPy's blocks, machine code, float32, no work."""
     asked = everything(problem) if asked is None else asked
-    batches = [places(problem, count) for count in counts]
-    rights = [right_rows(problem, asked, batch[spread(len(batch))]) for batch in batches]
+    machine = Sweep(problem, asked, native=True)
+    kinds = [
+        ("sweep, float64", Sweep(problem, asked, native=False)),
+        ("sweep, machine code", machine),
+        ("sweep, float32", Sweep(problem, asked, dtype=np.float32)),
+    ]
     found = []
-    for dtype in (np.dtype(np.float64), np.dtype(np.float32)):
-        sweep = Sweep(problem, asked, dtype=dtype)
-        for batch, right in zip(batches, rights, strict=True):
-            found.append(_swept(problem.name, sweep, batch.astype(dtype), right))
+    for count in counts:
+        batch = places(problem, count)
+        right = right_rows(problem, asked, batch[spread(count)])
+        acts: dict[str, Callable[[], Array | None]] = {}
+        for name, sweep in kinds:
+            if sweep is machine and machine.uncompiled:
+                continue
+            single = name.endswith("32")
+            at = batch.astype(np.float32 if single else np.float64)
+            out = np.empty((len(sweep.rows), count), at.dtype)
+            some = out if count > FEW or sweep is machine else None
+            acts[name] = partial(sweep.run, at, out=some)
+            if sweep is machine:
+                acts["sweep, bound call"] = machine.bind(at, out=out)
+            elif not single:
+                acts["its results stored, nothing computed"] = partial(out.fill, 1.0)
+        for (name, act), timing in zip(acts.items(), clock_all(list(acts.values())), strict=True):
+            answer = act()
+            error = math.nan if answer is None else row_error(right, answer[:, spread(count)])
+            found.append(Reading(name, problem.name, count, timing.median, error))
+        if machine.uncompiled:
+            name = f"sweep, machine code: {machine.uncompiled}"
+            found.append(Reading(name, problem.name, count, math.nan, math.nan))
     return found
-
-
-def _swept(name: str, sweep: Sweep, positions: Array, right: Array) -> Reading:
-    count, dtype = len(positions), positions.dtype
-    out = None if count <= 40 else np.empty((len(sweep.rows), count), dtype)
-    timing = clock(lambda: sweep.run(positions, out=out))
-    error = row_error(right, sweep.run(positions, out=out)[:, spread(count)])
-    return Reading(f"sweep, {dtype.name}", name, count, timing.median, error)
 
 
 def single_readings(problem: Problem) -> list[Reading]:

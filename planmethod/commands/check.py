@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, is_narrow
 from planmethod.commands.problems import each, finish, guarded, stem
-from planmethod.errors import ExitCode
+from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
-from planmethod.options import lang_option, out_option
+from planmethod.options import jobs_option, lang_option, out_option
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants
+    from planmethod.check.key import Key
     from planmethod.check.marks import Settings
     from planmethod.check.model import Checked, Work
+    from planmethod.commands.processes import Part
     from planmethod.kinds import Kind, KindProblem
+    from planmethod.note.wording import Language
     from planmethod.problem.model import Problem
 
 POLICIES = ("construction", "department", "wider", "stricter")
@@ -59,9 +63,7 @@ FORMATS = ("html", "pdf")
 @click.option(
     "--salt", default="", metavar="WORD", help="Word of the course that these numbers depend on."
 )
-@click.option(
-    "--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Processes at work."
-)
+@jobs_option
 @lang_option
 @guarded
 def check(
@@ -88,7 +90,7 @@ def check(
     """
     settings = _settings(settings_file, policy, profile)
     if key_only:
-        _write_keys(files, variant, all_variants, settings, out, lang)
+        _write_keys(files, variant, all_variants, settings, out, lang, jobs)
         return
     if all_variants:
         raise click.UsageError(
@@ -146,33 +148,43 @@ def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Che
 
     works = [work for path in paths for work in read_works(path)]
     if jobs > 1 and len(works) > jobs:
-        return _in_processes(variants, works, jobs), works
+        parts = _in_processes(variants, works, jobs)
+    else:
+        parts = ([one] for one in check_works(variants, works))
+    checked: list[Checked] = []
     with bar(len(works), long=len(works) >= MANY_WORKS) as done:
-        checked = []
-        for one in check_works(variants, works):
-            checked.append(one)
-            done(1)
+        for part in parts:
+            checked += part
+            done(len(part))
     return checked, works
 
 
-def _in_processes(variants: Variants, works: list[Work], jobs: int) -> list[Checked]:
+def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[Checked]]:
     """Check works in several processes."""
-    from concurrent.futures import ProcessPoolExecutor
-    from functools import partial
+    from planmethod.commands.processes import shared
 
     share = -(-len(works) // jobs)
     parts = [works[start : start + share] for start in range(0, len(works), share)]
-    part = partial(_part, variants.path, variants.default, variants.settings, works)
-    with ProcessPoolExecutor(jobs) as pool:
-        return [one for done in pool.map(part, parts) for one in done]
+    told = shared(parts, jobs, _checker, variants.path, variants.default, variants.settings, works)
+    for part, heard in zip(parts, told, strict=True):
+        if heard is None:
+            raise PlanMethodError(
+                "The process at work on {} to {} was killed, twice; perhaps it needs more memory "
+                "than there is. Check fewer works at once.",
+                part[0].student or part[0].where,
+                part[-1].student or part[-1].where,
+            )
+        yield heard.told() or []
 
 
-def _part(
-    problem: Path, variant: str | None, settings: Settings, works: list[Work], part: list[Work]
-) -> list[Checked]:
+def _checker(
+    problem: Path, variant: str | None, settings: Settings, works: list[Work]
+) -> Callable[[list[Work]], Part[list[Checked]]]:
     from planmethod.check.group import Variants, check_works
+    from planmethod.commands.processes import heard
 
-    return list(check_works(Variants(problem, settings, variant), part, among=works))
+    variants = Variants(problem, settings, variant)
+    return lambda part: heard(lambda: list(check_works(variants, part, among=works)))
 
 
 def _warn_of_others(problem: Path, works: list[Work]) -> None:
@@ -231,37 +243,55 @@ def _write_keys(
     settings: Settings,
     out: Path,
     lang: str,
+    jobs: int,
 ) -> None:
-    from planmethod.check.calculation import Calculation
-    from planmethod.check.key import Key, key_of, key_of_task
-    from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
+    from planmethod.check.pages.keypage import key_text
     from planmethod.note.wording import language
     from planmethod.problem import variant_names
     from planmethod.render.backends.output import write
-    from planmethod.solved.solution import Solution
+
+    def solve(problem: Problem) -> Key:
+        return key_of_problem(None, problem, settings)
+
+    def compute(kind: Kind, problem: KindProblem) -> Key:
+        return key_of_problem(kind, problem, settings)
 
     words = language(lang)
     code = ExitCode.DONE
     for path in files:
         keys: list[Key] = []
-
-        def solve(problem: Problem, into: list[Key] = keys) -> None:
-            into.append(key_of(Solution(problem), settings))
-
-        def compute(kind: Kind, problem: KindProblem, into: list[Key] = keys) -> None:
-            into.append(key_of_task(Calculation(kind, problem, settings)))
-
         try:
             every = all_variants or (variant is None and bool(variant_names(path)))
         except OSError:
             every = False
-        code = each((path,), variant, every, solve, compute) or code
+        code = each((path,), variant, every, solve, compute, jobs=jobs, take=keys.append) or code
         if not keys:
             continue
         click.echo(key_text(keys, words), nl=False)
         name = stem(keys[0].problem) if len(keys) == 1 else path.stem
-        for ending, data in (("pdf", key_pdf(keys, words)), ("xlsx", key_xlsx(keys, words))):
+        for ending, data in key_files(keys, words):
             target = out / f"{name}-key.{ending}"
             write(target, data)
             click.echo(str(target))
     finish(code)
+
+
+def key_of_problem(kind: Kind | None, problem: Problem | KindProblem, settings: Settings) -> Key:
+    """Return the key of a problem of any kind; None for a linkage."""
+    if kind is None:
+        from planmethod.check.key import key_of
+        from planmethod.solved.solution import Solution
+
+        return key_of(Solution(cast("Problem", problem)), settings)
+    from planmethod.check.calculation import Calculation
+    from planmethod.check.key import key_of_task
+
+    return key_of_task(Calculation(kind, problem, settings))
+
+
+def key_files(keys: list[Key], words: Language) -> Iterator[tuple[str, bytes]]:
+    """Yield the files of keys, each with its ending."""
+    from planmethod.check.pages.keypage import key_pdf, key_xlsx
+
+    yield "pdf", key_pdf(keys, words)
+    yield "xlsx", key_xlsx(keys, words)

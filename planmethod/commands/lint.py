@@ -16,6 +16,7 @@ from planmethod.languages import say
 from planmethod.options import (
     Positions,
     drawn_by,
+    jobs_option,
     layout_option,
     problem_options,
     reading_options,
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 )
 @click.option("--strict", is_flag=True, help="Exit with 1 for warnings, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print the findings as one JSON object.")
+@jobs_option
 @guarded
 def lint(
     problems: tuple[Path, ...],
@@ -56,6 +58,7 @@ def lint(
     structural: bool,
     strict: bool,
     as_json: bool,
+    jobs: int,
 ) -> None:
     """Check the sheets and say what a norm inspector would mark (нормоконтроль).
 
@@ -84,10 +87,9 @@ def lint(
         composition(layout)  # its faults are told once, before any problem is drawn
     positions = None if phi is None else phi.tolist()
     settled = asked.settle()
-    records: list[dict[str, Any]] = []
-    found: list[Controlled] = []
+    looked: list[tuple[dict[str, Any] | None, int]] = []
 
-    def look(problem: Problem) -> None:
+    def look(problem: Problem) -> tuple[dict[str, Any] | None, int]:
         problem = settled(problem)
         lang = problem.sheet.lang or LANGUAGES[0]
         if structural:
@@ -102,16 +104,16 @@ def lint(
                 sigma=sigma,
                 layout=layout,
             )
-        tell(problem, "structure" if structural else "kinematics", sheets, lang)
+        return tell(problem, "structure" if structural else "kinematics", sheets, lang)
 
-    def look_other(kind: Kind, problem: KindProblem) -> None:
+    def look_other(kind: Kind, problem: KindProblem) -> tuple[dict[str, Any] | None, int]:
         refuse_plans(
             kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma),
             structure=structural,
         )  # fmt: skip
         problem = settled(problem)
         drawings = kind.drawings(problem, fields=asked.fields, profile=drawn_by(profile, ruler))
-        tell(
+        return tell(
             problem,
             kind.table,
             looked_over(drawings, kind.scales),
@@ -120,19 +122,21 @@ def lint(
 
     def tell(
         problem: Problem | KindProblem, kind: str, sheets: list[Controlled], lang: str
-    ) -> None:
-        found.extend(sheets)
+    ) -> tuple[dict[str, Any] | None, int]:
+        marked = counted(sheets, Severity.ERROR)
+        if strict:
+            marked += counted(sheets, Severity.WARNING)
         if as_json:
-            records.append(control_record(problem.name, problem.variant, kind, sheets, lang))
-        else:
-            click.echo(control_text(stem(problem), sheets, lang))
+            return control_record(problem.name, problem.variant, kind, sheets, lang), marked
+        click.echo(control_text(stem(problem), sheets, lang))
+        return None, marked
 
-    code = each(problems, variant, all_variants, look, look_other)
+    code = each(problems, variant, all_variants, look, look_other, jobs=jobs, take=looked.append)
+    records = [record for record, _ in looked if record is not None]
     if records:
         import json
 
         whole: Any = records[0] if len(records) == 1 else records
         click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
     finish(code)
-    marked = counted(found, Severity.ERROR) + (counted(found, Severity.WARNING) if strict else 0)
-    finish(ExitCode.FINDINGS if marked else ExitCode.DONE)
+    finish(ExitCode.FINDINGS if any(marked for _, marked in looked) else ExitCode.DONE)

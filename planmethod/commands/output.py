@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +17,14 @@ from planmethod.languages import say
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
+
+
+def settle_process() -> None:
+    """Set up a process that lives for one command and says itself what there is to say."""
+    # A command lives a fraction of a second and makes few cycles: the search costs a twentieth.
+    gc.set_threshold(100_000)
+    if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
+        warnings.simplefilter("ignore")
 
 
 def put(text: str, file: str | None) -> None:
@@ -71,7 +81,7 @@ def write_drawings(
     *,
     dpi: int = 100,
     author: str | None = None,
-    dxf_text: Literal["text", "strokes"] = "text",
+    dxf_text: Literal["text", "strokes"] = "strokes",
 ) -> None:
     """Write the sheets of a problem; files appear only when all are made.
 

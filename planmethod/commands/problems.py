@@ -4,27 +4,40 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
+from dataclasses import dataclass
 from functools import partial
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
 
 import click
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
-from planmethod.kinds import Kind, KindProblem, kind_of
-from planmethod.kinds import load as load_linkage
 from planmethod.languages import say
 
 if TYPE_CHECKING:
+    from planmethod.commands.processes import Part
     from planmethod.construct.drafting import Profile
+    from planmethod.kinds import Kind, KindProblem
     from planmethod.options import Positions
     from planmethod.problem.model import Problem
     from planmethod.solved.solution import Solution
 
 F = TypeVar("F", bound=Callable[..., Any])
 T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Todo:
+    """A problem that was read: its file, its kind (None for a linkage), what was read."""
+
+    path: Path
+    kind: Kind | None
+    problem: Problem | KindProblem
+
 
 MANY = 6
 """Number of problems from which a command shows its progress."""
@@ -51,6 +64,7 @@ def guarded(command: F) -> F:
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
     """Read a problem file: one problem, or one for each variant."""
+    from planmethod.kinds import load as load_linkage
     from planmethod.problem.unlikely import unlikely
 
     found = []
@@ -81,8 +95,11 @@ def each(
     paths: tuple[Path, ...],
     variant: str | None,
     all_variants: bool,
-    act: Callable[[Problem], None],
-    other: Callable[[Kind, KindProblem], None] | None = None,
+    act: Callable[[Problem], T],
+    other: Callable[[Kind, KindProblem], T] | None = None,
+    *,
+    jobs: int = 1,
+    take: Callable[[T], object] | None = None,
 ) -> ExitCode:
     """Act on every problem; a faulty one is reported and the others go on.
 
@@ -90,36 +107,135 @@ def each(
     ----------
     other : callable, optional
         Acts on problems that are no linkages (`planmethod.kinds`); without it they are faulty.
+    jobs : int
+        Processes at work. Each begins the command for itself and comes as far as this function;
+        what a problem says and gives is said and taken here, in order, so the outcome is the same.
+    take : callable, optional
+        Gets what was returned for every problem, in order.
 
     Returns
     -------
     ExitCode
         Of the first error.
     """
+
+    def do(one: Todo) -> T:
+        if one.kind is None:
+            return act(cast("Problem", one.problem))
+        assert other is not None
+        return other(one.kind, one.problem)
+
+    if _beginning.get():
+        raise _BegunError(do)
+
+    def steps(todo: list[Todo]) -> Iterator[Callable[[], T | None]]:
+        # Problems that are called alike write the same files: the last one wins, as in one process.
+        if jobs == 1 or len({stem(one.problem) for one in todo}) < max(2, len(todo)):
+            yield from (partial(do, one) for one in todo)
+        else:
+            yield from in_processes(todo, jobs)
+
+    return through(paths, variant, all_variants, steps, kinds=other is not None, take=take)
+
+
+def through(
+    paths: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    steps: Callable[[list[Todo]], Iterator[Callable[[], T | None]]],
+    *,
+    kinds: bool,
+    take: Callable[[T], object] | None = None,
+) -> ExitCode:
+    """Read all problems and take the steps, one for each problem; what fails is reported.
+
+    Parameters
+    ----------
+    steps : callable
+        Returns for the problems what is to be called in turn.
+    kinds : bool
+        Whether problems that are no linkages are wanted, too.
+    """
+    from planmethod.kinds import kind_of
+
     codes: list[ExitCode] = []
-
-    def problems() -> Iterator[Callable[[], None]]:
-        for path in paths:
-            try:
-                kind = None if other is None else kind_of(path)
-                if kind is None or other is None:
-                    for problem in load(path, variant, all_variants):
-                        yield partial(act, problem)
-                else:
-                    for one in _load_other(kind, path, variant, all_variants):
-                        yield partial(other, kind, one)
-            except PlanMethodError as error:
-                codes.append(error.exit_code)
-                fail(error)
-
-    found = list(problems())
-    for step in watched(found):
+    todo: list[Todo] = []
+    for path in paths:
         try:
-            step()
+            kind = kind_of(path) if kinds else None
+            if kind is None:
+                found = load(path, variant, all_variants)
+                todo += [Todo(path, None, problem) for problem in found]
+            else:
+                others = _load_other(kind, path, variant, all_variants)
+                todo += [Todo(path, kind, one) for one in others]
         except PlanMethodError as error:
             codes.append(error.exit_code)
             fail(error)
+    done = 0
+    try:
+        for step in watched(steps(todo), len(todo)):
+            try:
+                value = step()
+                if take is not None and value is not None:
+                    take(value)
+            except PlanMethodError as error:
+                codes.append(error.exit_code)
+                fail(error)
+            done += 1
+    except KeyboardInterrupt:
+        if len(todo) > 1:
+            told = say("Stopped: {} of {} problems are done; every file is whole.", done, len(todo))
+            click.echo(f"\n{told}", err=True)
+        raise
     return codes[0] if codes else ExitCode.DONE
+
+
+# Processes ---------------------------------------------------------------------------------------
+
+_beginning: ContextVar[bool] = ContextVar("beginning", default=False)
+
+
+class _BegunError(BaseException):
+    """Carries what a command does with one problem out of the command, for a process at work."""
+
+    def __init__(self, do: Callable[[Todo], Any]) -> None:
+        self.do = do
+
+
+def begin(command: str, params: Mapping[str, Any]) -> Callable[[Todo], Part[Any]]:
+    """Begin a command as far as `each`; return what it does with one problem, and hears it say."""
+    called: click.Command = getattr(import_module(f"planmethod.commands.{command}"), command)
+    token = _beginning.set(True)
+    try:
+        assert called.callback is not None
+        called.callback(**{**params, **({"watch": False} if "watch" in params else {})})
+    except _BegunError as begun:
+        do = begun.do
+        from planmethod.commands.processes import heard
+
+        return lambda one: heard(partial(do, one))
+    finally:
+        _beginning.reset(token)
+    raise AssertionError(command)  # it goes through no problems
+
+
+def in_processes(todo: list[Todo], jobs: int) -> Iterator[Callable[[], Any]]:
+    """Yield what tells of every problem that the running command gives to its processes."""
+    from planmethod.commands.processes import shared
+
+    context = click.get_current_context()
+    parts = shared(todo, jobs, begin, context.command.name, context.params)
+    for one, part in zip(todo, parts, strict=True):
+        yield partial(_told_of_killed, one) if part is None else part.told
+
+
+def _told_of_killed(one: Todo) -> NoReturn:
+    raise PlanMethodError(
+        "{}: the process at work on it was killed, twice; perhaps it needs more memory than there "
+        "is. Ask for fewer positions at once.",
+        stem(one.problem),
+    )
 
 
 def finish(code: ExitCode) -> None:
@@ -148,12 +264,12 @@ def refuse_plans(kind: Kind, **options: object) -> None:
         )
 
 
-def watched(found: list[T]) -> Iterator[T]:
+def watched(steps: Iterable[T], length: int) -> Iterator[T]:
     """Yield what is to do, on a terminal with a bar when they are many (about a second of work)."""
-    if len(found) < MANY or not is_terminal(sys.stderr):
-        yield from found
+    if length < MANY or not is_terminal(sys.stderr):
+        yield from steps
         return
-    with click.progressbar(found, label="planmethod", file=sys.stderr) as bar:
+    with click.progressbar(steps, length, label="planmethod", file=sys.stderr) as bar:
         yield from bar
 
 

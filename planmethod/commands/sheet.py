@@ -19,6 +19,7 @@ from planmethod.options import (
     drawn_by,
     dxf_text_option,
     format_option,
+    jobs_option,
     layout_option,
     out_option,
     problem_options,
@@ -57,7 +58,8 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     "--one-file",
     callback=read_name,
     metavar="NAME.pdf",
-    help="All sheets in one PDF, numbered consecutively, not one PDF for each problem.",
+    help="All sheets in one PDF, numbered consecutively, not one PDF for each problem; "
+    "by one process.",
 )
 @click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
 @click.option(
@@ -67,6 +69,7 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 )
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @dxf_text_option
+@jobs_option
 @watch_option(draws=True)
 @guarded
 def sheet(
@@ -85,6 +88,7 @@ def sheet(
     sigma: bool | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
+    jobs: int,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
     from planmethod.render.frame.furniture import Furniture
@@ -134,7 +138,7 @@ def sheet(
             problem = settled(problem)
             written(problem, drawn_other(kind, problem), formats)
 
-        finish(each(problems, variant, all_variants, draw, draw_other))
+        finish(each(problems, variant, all_variants, draw, draw_other, jobs=jobs))
         return
 
     whole: list[tuple[Problem | KindProblem, _Draw, list[Drawing]]] = []

@@ -11,7 +11,6 @@ from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import fail, finish, guarded, variants_of
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
-from planmethod.kinds import kind_of, part_of
 from planmethod.languages import say
 from planmethod.options import format_option, lang_option, out_option, problem_options
 
@@ -64,6 +63,8 @@ def _draw(
     path: Path, variant: str | None, out: Path, formats: tuple[str, ...], lang: str
 ) -> PlanMethodError | None:
     """Draw the sketch of a file; return what is wrong with the file."""
+    from planmethod.kinds import kind_of, part_of
+
     kind = kind_of(path)
     if kind is not None:
         hint = say("Its picture: planmethod sheet {}", path)

@@ -29,6 +29,7 @@ from planmethod.options import (
     Positions,
     drawn_by,
     hand_options,
+    jobs_option,
     lang_option,
     positions_option,
     problem_options,
@@ -112,6 +113,7 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
     help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads them.",
 )
 @lang_option
+@jobs_option
 @watch_option()
 @guarded
 def solve(
@@ -131,6 +133,7 @@ def solve(
     referee: int | None,
     work: Path | None,
     lang: str,
+    jobs: int,
 ) -> None:
     """Compute positions, velocities, accelerations and the plans' segments."""
     if work is not None:
@@ -160,18 +163,17 @@ def solve(
         )
     if referee is not None:
         _need_mpmath()
-    drawn: list[Solution] = []
     if partial and not swept and csv_file is None:
         raise click.UsageError(say("--partial goes with --csv, --npz or --ask"))
     if phi is not None and len(phi) > MOST_POSITIONS and not swept:
         raise click.UsageError(
             say("--phi: more than {} positions; so many only with --npz or --ask", MOST_POSITIONS)
         )
-    records: list[dict[str, Any]] = []
-    tables: list[Table] = []
-    sweeps: list[GappedSweep] = []
+    if npz_file is not None or (phi is not None and len(phi) > MOST_SHOWN):
+        jobs = 1  # large tables are solved while they are written
+    found: list[Any] = []
 
-    def compute(problem: Problem) -> None:
+    def compute(problem: Problem) -> dict[str, Any] | Table | GappedSweep | Solution | None:
         hand = drawn_by(profile, ruler)  # a train needs no arrays
         if swept:
             tell_changes(problem, phi)
@@ -180,30 +182,28 @@ def solve(
             made = _sweep(problem, phi, ask, partial)
             if npz_file is not None:
                 _refuse_huge(made)
-                sweeps.append(made)
-            elif csv_file is not None:
-                from planmethod.note.records.spreadsheet import swept_table
+                return made
+            from planmethod.note.records.spreadsheet import asked_text, swept_table
 
-                tables.append(swept_table(made, partial=partial))
-            else:
-                from planmethod.note.records.spreadsheet import asked_text
-
-                click.echo(asked_text(made, lang))
+            if csv_file is not None:
+                return held(swept_table(made, partial=partial))
+            click.echo(asked_text(made, lang))
         elif csv_file is not None:
-            tables.append(_table(problem, phi, hand.ruler, partial))
+            return held(_table(problem, phi, hand.ruler, partial))
         elif as_json:
             from planmethod.note.records.solution import record
 
             solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
-            records.append(record(solution))
+            whole: dict[str, Any] = record(solution)
             if referee is not None:
                 from planmethod.note.tables.referee import referee_record
 
                 judged = referee_record(solution, referee)
-                for entry, verdict in zip(records[-1]["positions"], judged, strict=True):
+                for entry, verdict in zip(whole["positions"], judged, strict=True):
                     entry["referee"] = verdict
+            return whole
         elif covariance_file is not None:
-            drawn.append(solution_of(problem, phi, hand, hint=HINT))
+            return solution_of(problem, phi, hand, hint=HINT)
         else:
             from planmethod.note.tables.results import result_tables
 
@@ -213,6 +213,10 @@ def solve(
                 from planmethod.note.tables.referee import referee_tables
 
                 click.echo("\n" + referee_tables(solution, referee, lang))
+        return None
+
+    def held(table: Table) -> Table:
+        return table if jobs == 1 else table.held()
 
     linkage_only = {
         "--csv": csv_file is not None,
@@ -224,29 +228,31 @@ def solve(
         "--referee": referee is not None,
     }
 
-    def compute_other(kind: Kind, problem: KindProblem) -> None:
+    def compute_other(kind: Kind, problem: KindProblem) -> dict[str, Any] | None:
         for option, given in linkage_only.items():
             if given:
                 raise click.UsageError(say("{} is for linkages, {} is none", option, problem.name))
         if as_json:
-            records.append(kind.record(problem, lang))
-        else:
-            click.echo(kind.solved_text(problem, lang))
+            return kind.record(problem, lang)
+        click.echo(kind.solved_text(problem, lang))
+        return None
 
-    code = each(problems, variant, all_variants, compute, compute_other)
-    if records:
+    code = each(
+        problems, variant, all_variants, compute, compute_other, jobs=jobs, take=found.append
+    )
+    if as_json and found:
         import json
 
-        whole: Any = records[0] if len(records) == 1 else records
+        whole: Any = found[0] if len(found) == 1 else found
         click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
-    if drawn and covariance_file is not None:
+    if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text
 
-        put_parts([covariance_text(drawn)], covariance_file)
-    if tables and csv_file is not None:
-        _write_text(tables, csv_file)
+        put_parts([covariance_text(found)], covariance_file)
+    if found and csv_file is not None:
+        _write_text(found, csv_file)
     if npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
-        _write_arrays(sweeps, npz_file)
+        _write_arrays(found, npz_file)
     finish(code)
 
 

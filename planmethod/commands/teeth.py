@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -15,12 +15,17 @@ from planmethod.errors import ExitCode
 from planmethod.languages import say
 from planmethod.options import lang_option
 
-MODULES = (Fraction(1, 100), Fraction(100))
-"""Least and largest module, mm."""
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+MODULES = (1, 10_000)
+"""Least and largest module, hundredths of a millimetre."""
 
 
 def read_fraction(ctx: click.Context, param: click.Parameter, value: str | None) -> Fraction | None:
     """Return a number as a fraction: ``6.5``, ``13/2``."""
+    from fractions import Fraction
+
     if value is None:
         return None
     try:
@@ -40,8 +45,9 @@ def read_modules(
     """Return the modules of the rows: ``2``, or ``2,2.5``."""
     if value is None:
         return None
-    found = [read_fraction(ctx, param, part) or Fraction(0) for part in value.split(",")]
-    if len(found) > 2 or not all(MODULES[0] <= m <= MODULES[1] for m in found):
+    read = (read_fraction(ctx, param, part) for part in value.split(","))
+    found = [number for number in read if number is not None]
+    if len(found) > 2 or not all(MODULES[0] <= 100 * m <= MODULES[1] for m in found):
         raise click.BadParameter(
             say("{!r}: one or two modules in mm are expected, 2 or 2,2.5", value)
         )

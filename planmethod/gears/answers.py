@@ -6,10 +6,15 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
+from planmethod.gears.angles import spread
 from planmethod.gears.asked import Asked, parse
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.efficiency import efficiency
+from planmethod.gears.model import PARALLEL, MeshKind
 from planmethod.gears.motion import Motion
+
+ALPHA = math.radians(20)
+"""Pressure angle of the standard rack, rad."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,4 +120,31 @@ def _size(motion: Motion, name: str, asked: Asked) -> Answer:
     one, other = (train.body_of[x] for x in asked.labels)
     if one not in heights or other not in heights:
         return _none(name, "wheel", label)
-    return _exact(name, abs(heights[one] - heights[other]) * train.unit_m * 1000, "mm")
+    apart = abs(heights[one] - heights[other]) * train.unit_m * 1000
+    share = _spread(motion, one, other)
+    if share is None:
+        return _exact(name, apart, "mm")
+    if math.isnan(share):
+        return _none(name, "wheel", label)
+    return Answer(name, float(apart) * share, None, "mm")
+
+
+def _spread(motion: Motion, one: str, other: str) -> float | None:
+    """Return a_w/a of the two axes that wheels with shifts stand on; None without shifts."""
+    train, axis = motion.train, motion.axes.axis_of
+    for mesh in train.meshes:
+        ends = {axis[body] for body in train.ends(mesh)}
+        if mesh.kind not in PARALLEL or ends != {axis[one], axis[other]}:
+            continue
+        way = 1 if mesh.kind is MeshKind.EXTERNAL else -1
+        pair = sorted((mesh.first, mesh.second), key=lambda label: motion.axes.sizes[label])
+        z, x = (
+            [float(size) for size in sizes]
+            for sizes in (
+                [motion.axes.sizes[label] for label in pair],
+                [train.wheels[label].shift for label in pair],
+            )
+        )
+        if train.toothed and x[1] + way * x[0]:
+            return spread(z[1] + way * z[0], x[1] + way * x[0], ALPHA)
+    return None

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
-from fractions import Fraction
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +16,8 @@ from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
 
 

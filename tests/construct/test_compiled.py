@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cases import each, some
+from tapes import INPUTS, drawn
 from worked import every_file
 
 from benchmarks.generator import random_problem
@@ -137,41 +138,6 @@ def test_a_node_is_not_the_constant_of_its_number(tape: Tape) -> None:
 
 
 # Against plain arithmetic -------------------------------------------------------------------------
-
-INPUTS = 3
-
-
-def drawn(rng: random.Random, tape: Tape, steps: int) -> list[tuple[Ref, Callable[..., float]]]:
-    """Draw operations; return each node and what it should be."""
-    made: list[tuple[Ref, Callable[..., float]]] = [
-        (tape.input(k), lambda *values, k=k: values[k]) for k in range(INPUTS)
-    ]
-    made += [(c, lambda *values, c=c: c) for c in (0.0, 1.0, -1.0, 2.0, 3.0, 0.5)]
-    for _ in range(steps):
-        (a, f), (b, g) = rng.choice(made), rng.choice(made)
-        match rng.choice(("add", "sub", "mul", "div", "neg", "abs", "sqrt", "max", "min")):
-            case "add":
-                made.append((tape.add(a, b), lambda *v, f=f, g=g: f(*v) + g(*v)))
-            case "sub":
-                made.append((tape.sub(a, b), lambda *v, f=f, g=g: f(*v) - g(*v)))
-            case "mul":
-                made.append((tape.mul(a, b), lambda *v, f=f, g=g: f(*v) * g(*v)))
-            case "div":
-                # A divisor that is not zero: 1 + its absolute value.
-                one = tape.add(1.0, tape.abs(b))
-                made.append((tape.div(a, one), lambda *v, f=f, g=g: f(*v) / (1.0 + abs(g(*v)))))
-            case "neg":
-                made.append((tape.neg(a), lambda *v, f=f: -f(*v)))
-            case "abs":
-                made.append((tape.abs(a), lambda *v, f=f: abs(f(*v))))
-            case "sqrt":
-                root = tape.make("sqrt", tape.abs(a))
-                made.append((root, lambda *v, f=f: math.sqrt(abs(f(*v)))))
-            case kind:
-                pick = max if kind == "max" else min
-                node = tape.make(kind, a, b)
-                made.append((node, lambda *v, f=f, g=g, pick=pick: pick(f(*v), g(*v))))
-    return made
 
 
 def both(

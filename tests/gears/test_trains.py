@@ -260,3 +260,19 @@ def test_equations_in_fractions() -> None:
     assert dict(found.values) == {"a": 3, "b": 1}
     assert (found.free, found.rank) == (("c",), 2)
     assert not solve(("a",), [({"a": one}, one), (MappingProxyType({"a": two}), one)]).consistent
+
+
+def test_the_distance_of_shifted_wheels_is_that_of_the_standard(tmp_path: Path) -> None:
+    text = "wheels = {{ 1 = {{ z = 20, x = {} }}, 2 = {{ z = 60, x = {} }} }}\nmodule = 5\n"
+    text += 'meshes = [{{ of = [1, 2], kind = "{}" }}]\nn = {{ 1 = 1 }}\n'
+    for kind, shifts, due in (
+        ("external", (0.4, 0.4), 203.75037),
+        ("internal", (0.72, 1.4), 103.07584),
+    ):
+        found = answer(solved(tmp_path, text.format(*shifts, kind)), "a_w_1_2")
+        assert found.value == pytest.approx(due, abs=1e-4)
+        assert found.exact is None
+    alike = answer(solved(tmp_path, text.format(0.3, -0.3, "external")), "a_w_1_2")
+    assert alike.exact == 200
+    near = answer(solved(tmp_path, text.format(-5, -5, "external")), "a_w_1_2")
+    assert (near.value, near.reason) == (None, "wheel")

@@ -13,7 +13,8 @@ import planmethod
 from planmethod.errors import ExitCode
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
-from planmethod.note.wording import LANGUAGES, ForceWording, UnknownLanguageError, language
+from planmethod.note.wording import LANGUAGES, Language, UnknownLanguageError, language
+from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.machine_model import SYMBOLS as MACHINE
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.problem.model import FORCE, MOMENT
@@ -53,7 +54,10 @@ TERMS = {
 
 def said(words: object, path: str = "") -> Iterator[tuple[str, object]]:
     """Yield all that a language says, by its place."""
-    if is_dataclass(words):
+    if isinstance(words, Language):
+        for subject in Language.__annotations__:
+            yield from said(getattr(words, subject), f"{path}.{subject}")
+    elif is_dataclass(words):
         for field in fields(words):
             yield from said(getattr(words, field.name), f"{path}.{field.name}")
     elif isinstance(words, Mapping):

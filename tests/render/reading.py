@@ -13,6 +13,7 @@ from cmath import exp, phase, sqrt
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from io import StringIO
+from itertools import accumulate
 from math import cos, hypot, pi, radians, sin, tau
 from typing import Any
 
@@ -63,11 +64,13 @@ def read_svg(data: bytes) -> Page:
     height = box[3]
     assert root.attrib["width"].endswith("mm")
     page = Page(float(root.attrib["width"][:-2]), float(root.attrib["height"][:-2]), [])
-    outlines = {f"#{path.attrib['id']}" for path in root.iter(f"{SVG}path") if "id" in path.attrib}
-    for group in root.findall(f"{SVG}g"):
+    defined = {f"#{part.attrib['id']}": part for part in root.find(f"{SVG}defs") or ()}
+    drawn = root.findall(f"{SVG}g")[1]
+    for group in drawn:
+        said = {**drawn.attrib, **group.attrib}
         for element in group:
-            if element.tag == f"{SVG}g":
-                page.items.append(_svg_run(element, height, outlines))
+            if element.tag == f"{SVG}use":
+                page.items.append(_svg_run(element, height, defined))
                 continue
             if element.tag == f"{SVG}circle":
                 centre = complex(float(element.attrib["cx"]), height - float(element.attrib["cy"]))
@@ -76,35 +79,34 @@ def read_svg(data: bytes) -> Page:
                 path = Path([], along, 1, True)
             else:
                 path = _svg_path(element.attrib["d"], height)
-            path.filled = group.attrib["fill"] != "none"
-            colour = group.attrib["fill" if path.filled else "stroke"]
+            path.filled = said["fill"] != "none"
+            colour = said["fill" if path.filled else "stroke"]
             path.grey = int(colour[1:3], 16) / 255
-            path.width = 0.0 if path.filled else float(group.attrib["stroke-width"])
+            path.width = 0.0 if path.filled else float(said["stroke-width"])
             page.items.append(path)
     return page
 
 
-def _svg_run(element: ET.Element, height: float, outlines: set[str]) -> Run:
+def _svg_run(element: ET.Element, height: float, defined: dict[str, ET.Element]) -> Run:
     number = r"(-?[\d.]+)"
+    run = defined[element.attrib[f"{XLINK}href"]]
     found = re.fullmatch(
-        rf"translate\({number} {number}\)(?: rotate\({number}\))? scale\({number} -{number}\)",
-        element.attrib["transform"],
+        rf"(?:rotate\({number}\))?scale\({number}-{number}\)", run.attrib["transform"]
     )
-    assert found, element.attrib["transform"]
-    x, y, turn, unit, unit_y = (float(part or 0) for part in found.groups())
+    assert found, run.attrib["transform"]
+    turn, unit, unit_y = (float(part or 0) for part in found.groups())
     assert unit == unit_y
-    for use in element.findall(f"{SVG}use"):
-        assert use.attrib[f"{XLINK}href"] in outlines
-    assert element.attrib["role"] == "img"
-    return Run(
-        complex(x, height - y), in_use().units_per_em * unit, -turn, element.attrib["aria-label"]
-    )
+    letters = [use.attrib[f"{XLINK}href"] for use in run]
+    assert set(letters) <= set(defined)
+    text = "".join(chr(int(name[2:], 16)) for name in letters if name != "#none")
+    at = complex(float(element.attrib["x"]), height - float(element.attrib["y"]))
+    return Run(at, in_use().units_per_em * unit, -turn, text)
 
 
 def _svg_path(data: str, height: float) -> Path:
     path = Path()
-    for verb, numbers in re.findall("([MLAZ])([^MLAZ]*)", data):
-        values = [float(number) for number in numbers.split()]
+    for verb, told in re.findall("([MlAZ])([^MlAZ]*)", data):
+        values = [float(number) for number in re.findall(r"-?[\d.]+", told)]
         if verb == "Z":
             path.closed = True
             continue
@@ -112,8 +114,12 @@ def _svg_path(data: str, height: float) -> Path:
         if verb == "A":
             path.along += _svg_arc(path.corners[-1], point, values[0], values[3], values[4])
         path.starts += verb == "M"
-        path.corners.append(point)
-    assert "".join(re.findall("[A-Za-z]", data)) == "".join(re.findall("[MLAZ]", data))
+        if verb == "l":
+            steps = map(complex, values[::2], (-value for value in values[1::2]))
+            path.corners += accumulate(steps, initial=path.corners.pop())
+        else:
+            path.corners.append(point)
+    assert "".join(re.findall("[A-Za-z]", data)) == "".join(re.findall("[MlAZ]", data))
     return path
 
 

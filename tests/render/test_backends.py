@@ -23,9 +23,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from browser import browsing
 from cases import each
-from reading import Page, Path, Run, read_dxf, read_pdf, read_svg, turned_box
-from worked import problem_of
+from reading import SVG, Page, Path, Run, read_dxf, read_pdf, read_svg, turned_box
+from worked import drawn_sheets, problem_of
 
 from planmethod.errors import OutputError, PlanMethodError
 from planmethod.render.backends import BACKENDS, Options, render
@@ -36,6 +37,7 @@ from planmethod.render.ink.style import PENS, arc_spans, stroke_lines, sweep
 from planmethod.render.sheets.kinematics import kinematics_sheets
 
 NEAR = 0.01  # mm
+TEXT = Options(dxf_text="text")
 FORMATS = tuple(BACKENDS)
 VECTOR: dict[str, Callable[[bytes], Page]] = {
     "svg": read_svg,
@@ -192,7 +194,7 @@ def test_filled_area_is_where_it_was_put(fmt: str, item: Fill | Disc) -> None:
 @pytest.mark.parametrize("fmt", VECTOR)
 @each("item", TEXTS)
 def test_text_is_where_it_was_put(fmt: str, item: Text) -> None:
-    (found,) = VECTOR[fmt](render(sheet_of(item), fmt)).items
+    (found,) = VECTOR[fmt](render(sheet_of(item), fmt, options=TEXT)).items
     assert isinstance(found, Run)
     assert abs(found.at - item.at) < NEAR
     assert found.em == pytest.approx(in_use().em(item.height), abs=1e-4)
@@ -302,7 +304,7 @@ def test_order_of_drawing_is_kept(fmt: str) -> None:
     line = Stroke((1 + 7j, 19 + 7j), Pen.MAIN)
     text = Text(8 + 5j, "Ж", 3.5)
     for items in ((line, black, white, text), (text, white, line, black)):
-        data = render(sheet_of(*items), fmt)
+        data = render(sheet_of(*items), fmt, options=TEXT)
         if fmt == "png":
             pixels = read_png(render(sheet_of(*items), fmt, options=Options(dpi=254)))
             assert (pixels[62, 100] > 0.9) == (items[0] is line)
@@ -338,7 +340,7 @@ def test_items_without_extent_do_no_harm(fmt: str) -> None:
 )
 def test_any_text_can_be_drawn(fmt: str, text: str) -> None:
     drawing = Drawing(50.0, 20.0, title=text, items=[Text(2 + 2j, text, 3.5, tag=text)])
-    data = render(drawing, fmt)
+    data = render(drawing, fmt, options=TEXT)
     if fmt in VECTOR:
         assert len(VECTOR[fmt](data).items) == 1
 
@@ -424,29 +426,62 @@ def test_svg_needs_no_font_and_no_style_sheet() -> None:
     data = render(sample(), "svg").decode("utf-8")
     root = ET.fromstring(data)
     tags = {element.tag.partition("}")[2] for element in root.iter()}
-    assert tags == {"svg", "title", "defs", "rect", "g", "path", "circle", "use"}
-    assert "font" not in data
+    seen = {"svg", "title", "defs", "rect", "g", "path", "circle", "use"}
+    assert tags == seen | {"text"}
+    # What is text is white, and before all that is drawn on the white paper.
+    (_, _, paper, words, _) = root
+    assert paper.attrib["fill"] == words.attrib["fill"] == "#ffffff"
+    assert len([*words.iter(f"{SVG}text")]) == len([*root.iter(f"{SVG}text")])
+    data = re.sub(r'(id|xlink:href)="[^"]*"', "", data)
     assert not re.search(r"\bstyle=|\shref=|dasharray|[0-9]e-?[0-9]|\d\.\d{10}|nan|inf\b", data)
 
 
-def test_svg_holds_only_the_letters_that_occur_and_says_what_is_written() -> None:
-    items = (Text(1 + 1j, "аба 漢字", 3.5, tag="имя"), Text(1 + 6j, "ба", 3.5))
-    root = ET.fromstring(render(sheet_of(*items), "svg"))
-    letters = [path.attrib["id"] for path in root.iter("{http://www.w3.org/2000/svg}path")]
-    assert letters == ["letter-430", "letter-431", "letter-none"]
-    labels = [g.attrib["aria-label"] for g in root.iter() if "aria-label" in g.attrib]
-    assert labels == ["аба 漢字", "ба"]
+def test_svg_holds_each_letter_and_each_run_once() -> None:
+    twice = [Text(1 + k * 1j, "аба 漢字", 3.5, tag="имя") for k in (1, 4)]
+    root = ET.fromstring(render(sheet_of(*twice, Text(1 + 8j, "ба", 3.5)), "svg"))
+    defs = root.find(f"{SVG}defs")
+    assert defs is not None
+    assert [part.attrib["id"] for part in defs[:3]] == ["none", "u430", "u431"]
+    assert [len(run) for run in defs[3:]] == [5, 2]
+    assert [word.text for word in root.iter(f"{SVG}text")] == ["аба 漢字"] * 2 + ["ба"]
     assert "Проба «А» & <б>" in "".join(root.itertext())
-    assert [g.attrib["data-tag"] for g in root.iter() if "data-tag" in g.attrib] == ["имя"]
+    assert [g.attrib["data-tag"] for g in root.iter() if "data-tag" in g.attrib] == ["имя"] * 2
 
 
 def test_svg_letters_advance_as_the_lettering_says() -> None:
     text = Text(1 + 1j, "План ab", 3.5)
     root = ET.fromstring(render(sheet_of(text), "svg"))
     unit = text.height / in_use().cap_height
-    places = [float(use.attrib["x"]) * unit for use in root.iter("{http://www.w3.org/2000/svg}use")]
+    letters = root.findall(f"{SVG}defs/{SVG}g/{SVG}use")
+    places = [float(use.attrib.get("x", 0)) * unit for use in letters]
     starts = [k for k, char in enumerate(text.text) if char != " "]
     assert places == pytest.approx([in_use().width(text.text[:k], 3.5) for k in starts])
+
+
+@needs("chromium")
+def test_svg_text_is_found_and_copied_where_it_is_seen(tmp_path: FilePath) -> None:
+    """Inscriptions of several runs are one text; under the mouse is text, not a letter's stroke."""
+    (drawing,) = drawn_sheets("linkages/ex3")
+    data = render(drawing, "svg")
+    assert len(data) <= 150_000
+    file = tmp_path / "ex3.svg"
+    file.write_bytes(data)
+    item = next(item for item in drawing.items if isinstance(item, Text) and item.text == "Дата")
+    _, low, right, high = in_use().ink(item.text, item.height)
+    middle = item.at + complex(right, high + low) / 2
+    x, y = middle.real / drawing.width, 1.0 - middle.imag / drawing.height
+    with browsing(tmp_path / "profile") as page:
+        page.open(file, width=2300, height=1700)
+        found = "ω2 = ω3", "(pb) = 64 мм", "Кафедра ТММ", "vE = vEE0 = μv·(pe)"
+        for words in found:
+            assert page.ask(f"find({words!r}, true, false, true)"), words
+            assert page.ask("getSelection().toString()") == words
+        assert not page.ask("find('План сил', true, false, true)")
+        seen = (
+            "(() => { const r = document.documentElement.getBoundingClientRect();"
+            f"return document.elementFromPoint(r.width * {x}, r.height * {y}).textContent; }})()"
+        )
+        assert page.ask(seen) == "Дата"
 
 
 @needs("rsvg-convert")

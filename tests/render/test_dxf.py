@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import subprocess
 import sys
 from cmath import rect
 from collections import Counter
 from collections.abc import Callable
-from io import StringIO
+from io import BytesIO, StringIO
 from math import pi, tau
 from pathlib import Path
 from typing import Any
 
 import ezdxf
+import numpy as np
 import pytest
 from cases import each, thinned
 from click.testing import CliRunner, Result
+from PIL import Image
 from reading import Path as Painted
 from reading import Run, read_dxf
 from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of
@@ -40,7 +44,8 @@ from planmethod.solved.solution import Solution
 
 NEAR = 0.01  # mm
 FILES = {str(path.relative_to(PROBLEMS).with_suffix("")): path for path in every_file()}
-STROKES = Options(dxf_text="strokes")
+TEXT = Options(dxf_text="text")
+STROKES = Options()
 
 
 def read(data: bytes) -> Any:
@@ -73,7 +78,7 @@ def program(*args: object) -> Result:
 
 @pytest.mark.parametrize(
     ("name", "options"),
-    [*((name, Options()) for name in FILES), *((name, STROKES) for name in thinned([*FILES], 4))],
+    [*((name, TEXT) for name in FILES), *((name, STROKES) for name in thinned([*FILES], 4))],
 )
 def test_the_audit_of_every_sheet_has_nothing_to_say(name: str, options: Options) -> None:
     for drawing in drawn_sheets(name):
@@ -107,7 +112,7 @@ def test_the_structure_sheet_and_error_ellipses_are_drawn() -> None:
 @pytest.mark.parametrize("name", SIX)
 def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None:
     (drawing,) = drawn_sheets(name)
-    page = read_dxf(render(drawing, "dxf"))
+    page = read_dxf(render(drawing, "dxf", options=TEXT))
     assert (page.width, page.height) == (drawing.width, drawing.height)
     runs = [item for item in page.items if isinstance(item, Run)]
     wanted = [item for item in drawing.items if isinstance(item, Text) and item.text.strip()]
@@ -330,7 +335,7 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
         Text(70 + 50j, "ёЁ ", 2.5, angle=-30.0, tag="stamp"),
         Text(70 + 90j, " ^x %%d 50%", 2.5),
     ]
-    document = read(render(Drawing(210.0, 297.0, items=[*texts]), "dxf"))
+    document = read(render(Drawing(210.0, 297.0, items=[*texts]), "dxf", options=TEXT))
     assert document.styles.get("SHEET").dxf.font == "PlanmethodGOST-B-Slanted.ttf"
     for entity, item in zip(document.modelspace(), texts, strict=True):
         assert entity.dxftype() == "TEXT"
@@ -349,7 +354,7 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
 
 def test_the_words_of_a_sheet_are_found() -> None:
     (drawing,) = drawn_sheets("linkages/ex3")
-    space = read(render(drawing, "dxf")).modelspace()
+    space = read(render(drawing, "dxf", options=TEXT)).modelspace()
     words = {entity.plain_text() for entity in space.query("TEXT")}
     assert {"План скоростей", "План ускорений", "Кафедра ТММ", "Разраб."} <= words
 
@@ -370,10 +375,34 @@ def test_strokes_are_lines_with_the_extents_and_the_weight_of_the_letters() -> N
         assert edge == pytest.approx(ink, abs=NEAR)
 
 
+@pytest.mark.skipif(shutil.which("librecad") is None, reason="LibreCAD is not installed")
+def test_librecad_prints_the_sheet_as_it_is(tmp_path: Path) -> None:
+    """Not asked for anything: paper of the sheet's size, ink to the frame, letters as drawn."""
+    (drawing,) = drawn_sheets("linkages/ex3")
+    (tmp_path / "a.dxf").write_bytes(render(drawing, "dxf"))
+    own = {"QT_QPA_PLATFORM": "offscreen", "HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)}
+    asked: dict[str, Any] = {"cwd": tmp_path, "check": True, "capture_output": True, "timeout": 60}
+    subprocess.run(["librecad", "dxf2pdf", "a.dxf"], env={**os.environ, **own}, **asked)
+    subprocess.run(["pdftoppm", "-r", "50.8", "-png", "-singlefile", "a.pdf", "a"], **asked)
+    printed = np.asarray(Image.open(tmp_path / "a.png").convert("L"))
+    drawn = np.asarray(Image.open(BytesIO(render(drawing, "png", options=Options(dpi=50.8)))))
+    assert np.abs(np.subtract(printed.shape, drawn.shape)).max() <= 2
+    # The ink of squares of 6 mm; LibreCAD knows no wipeouts, and poppler thickens thin lines.
+    alike = np.corrcoef(squares(printed), squares(drawn))[0, 1]
+    print(alike)
+    assert alike > 0.98
+
+
+def squares(picture: Any) -> Any:
+    rows, columns = (size // 12 for size in (820, 1180))
+    cut = picture[: rows * 12, : columns * 12].reshape(rows, 12, columns, 12)
+    return cut.mean(axis=(1, 3)).ravel()
+
+
 # Files and the command line -----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("options", [Options(), STROKES], ids=["text", "strokes"])
+@pytest.mark.parametrize("options", [TEXT, STROKES], ids=["text", "strokes"])
 def test_the_same_bytes_twice(options: Options) -> None:
     (drawing,) = drawn_sheets("linkages/ex3")
     assert render(drawing, "dxf", options=options) == render(drawing, "dxf", options=options)

@@ -37,7 +37,7 @@ tr.wrong td:nth-child(6){background:#fbe3e0;font-weight:600}
 tr.blank td:nth-child(6),tr.unreadable td:nth-child(6){background:#ececec}
 .note{color:#555;font-size:9pt}.plans{display:flex;flex-wrap:wrap;gap:4mm;align-items:flex-end}
 figure{margin:0}section{break-inside:avoid}figcaption{font-size:9pt;text-align:center}
-.true [class^=pen]{stroke:#9c9c9c}.true .ink-black{fill:#9c9c9c}.true .text{fill:#5c5c5c}
+.true [class^=pen]{stroke:#9c9c9c}.true .ink-black{fill:#9c9c9c}.true .text{stroke:#5c5c5c}
 .own{fill:none;stroke-width:.6}.right{stroke:#1f5fbf}.off{stroke:#c0271b;stroke-dasharray:2.4 1.2}
 .own.head{stroke:none}.right.head{fill:#1f5fbf}.off.head{fill:#c0271b}
 .mistaken{stroke-width:.35}

@@ -146,8 +146,10 @@ def _tries(motion: Motion, asked: str | None) -> Iterator[tuple[str, PictureSett
         for target in TARGETS:
             if not asked and (target < LEAST_TARGET or (name == "A3" and target > MOST_A3)):
                 continue
-            mu_l = Fraction(repr(series_near(extent / target, up=True)))
-            tried = replace(settings, mu_l=mu_l)
+            mu_l = series_near(extent / target, up=True)
+            if not asked and extent / mu_l < LEAST:  # from 5 to 10 the series makes a wide step
+                mu_l = series_near(extent / target, up=False)
+            tried = replace(settings, mu_l=Fraction(repr(mu_l)))
             yield name, replace(tried, pole_mm=_pole(motion, tried)), sizes
 
 

@@ -15,8 +15,9 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from planmethod.gears.angles import involute
 from planmethod.gears.involute.model import Reals
-from planmethod.gears.involute.sizes import Pair, involute
+from planmethod.gears.involute.sizes import Pair
 
 Points = NDArray[np.complex128]
 

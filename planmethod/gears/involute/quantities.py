@@ -8,10 +8,11 @@ from enum import Enum
 
 import numpy as np
 
+from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import Limit, LimitKind, limits
 from planmethod.gears.involute.model import MeshingProblem, Reals
 from planmethod.gears.involute.profile import Contact, Tooth
-from planmethod.gears.involute.sizes import Pair, involute
+from planmethod.gears.involute.sizes import Pair
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
 

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from planmethod.errors import ProblemError
+from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import HIGH, LOW, LimitKind, choose, is_kept, limits, tried
 from planmethod.gears.involute.model import MeshingProblem, Rack
 from planmethod.gears.involute.profile import Tooth
-from planmethod.gears.involute.sizes import Pair, involute
+from planmethod.gears.involute.sizes import Pair
 from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.extras import read_heading

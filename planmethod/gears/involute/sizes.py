@@ -16,30 +16,8 @@ from math import pi
 
 import numpy as np
 
+from planmethod.gears.angles import angle_of_involute, involute
 from planmethod.gears.involute.model import MeshingProblem, Rack, Reals
-
-_ROUNDS = 40
-
-
-def involute(angle: Reals | float) -> Reals:
-    """Return inv α = tan α − α (инволюта угла)."""
-    return np.asarray(np.tan(angle) - angle)
-
-
-def angle_of_involute(value: Reals | float) -> Reals:
-    """Return the angle of an involute function by Newton's method, rad; NaN of a negative value.
-
-    From above the iteration comes down to the root of the convex function without passing it.
-    """
-    value = np.where(np.asarray(value) >= 0, value, np.nan)
-    angle = np.minimum(np.cbrt(3 * value), np.arctan(value + pi / 2))
-    for _ in range(_ROUNDS):
-        steep = np.tan(angle) ** 2
-        step = np.where(steep > 0, (involute(angle) - value) / np.where(steep > 0, steep, 1.0), 0.0)
-        angle = angle - step
-        if not np.any(np.abs(step) > 1e-16):
-            break
-    return np.asarray(angle)
 
 
 @dataclass(frozen=True)

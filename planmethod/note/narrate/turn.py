@@ -12,6 +12,9 @@ from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
 from planmethod.solved.turn.turn import TURN, Turn, Why
 
+NO_ANGLE = 1e-6
+"""Pressure angle that is none, degrees: a stone on the output link pushes along its motion."""
+
 
 def degrees(value: float, words: Language) -> str:
     """Return an angle of the crank as it is told, two decimals."""
@@ -67,9 +70,8 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
     if peak is not None:
         most, least = degrees(peak.most, words), degrees(peak.least, words)
         most_at, least_at = place(peak.most_at), place(peak.least_at)
-        facts.append(
-            said.pressure.format(most=most, most_at=most_at, least=least, least_at=least_at)
-        )
+        told = said.pressure if abs(peak.most) > NO_ANGLE else said.no_pressure
+        facts.append(told.format(most=most, most_at=most_at, least=least, least_at=least_at))
     return facts
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.plans.motion.board import pole_letter
 from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.solution import Segment, Solution
+from planmethod.solved.solution import Solution
 
 SCHEMA = 1
 """Version of the record's shape."""
@@ -53,61 +54,81 @@ def _vector(prefix: str, value: complex) -> dict[str, float]:
     }
 
 
-def _segments(
-    solution: Solution, kind: PlanKind, segments: list[Segment], index: int
-) -> dict[str, dict[str, float | None]]:
+Columns = dict[str, list[float | None]]
+"""Numbers of a record, each in all positions: what is asked of a solution is asked once."""
+
+
+def _column(values: Iterable[float]) -> list[float | None]:
+    return [finite_or_none(value) for value in values]
+
+
+def _row(columns: Columns, index: int) -> dict[str, float | None]:
+    return {name: values[index] for name, values in columns.items()}
+
+
+def _segments(solution: Solution, kind: PlanKind) -> dict[str, Columns]:
+    """Return what is told of the segments of a plan."""
     spreads = drafting_of(solution).spreads
     return {
         segment.name: {
-            "exact": plain(segment.exact[index]),
-            "read": finite_or_none(segment.read[index]),
-            "sigma": finite_or_none(spreads[f"{kind.value}.{segment.name}"].sigma[index]),
+            "exact": [plain(value) for value in segment.exact.tolist()],
+            "read": _column(segment.read.tolist()),
+            "sigma": _column(spreads[f"{kind.value}.{segment.name}"].sigma.tolist()),
         }
-        for segment in segments
+        for segment in solution.segments(kind)
     }
 
 
-def _hand(solution: Solution, index: int) -> dict[str, Any]:
-    """Return what follows from the read segments, and one sigma of each quantity."""
+def _hand(solution: Solution) -> Callable[[int], dict[str, Any]]:
+    """Return what follows from the read segments and the sigmas, for the number of a position."""
     spreads = drafting_of(solution).spreads
+    nothing = [0.0] * len(solution.positions)
 
-    def told(quantities: list[Quantity]) -> dict[str, float | None]:
+    def told(quantities: list[Quantity]) -> Columns:
         """Return quantities and their sigmas."""
-        record: dict[str, float | None] = {}
+        columns: Columns = {}
         for quantity in quantities:
-            name, spread = (
-                LONG.get(quantity.kind, quantity.kind.letter),
-                spreads.get(quantity.label),
-            )
-            record[name] = finite_or_none(solution.read_off(quantity.label)[index])
-            sigma = 0.0 if spread is None else finite_or_none(spread.sigma[index])
-            record[f"sigma_{name}"] = sigma
-        return record
+            name = LONG.get(quantity.kind, quantity.kind.letter)
+            spread = spreads.get(quantity.label)
+            columns[name] = _column(solution.read_off(quantity.label).tolist())
+            sigma = nothing if spread is None else spread.sigma.tolist()
+            columns[f"sigma_{name}"] = _column(sigma)
+        return columns
 
-    def place(name: str) -> dict[str, float | None]:
+    def place(name: str) -> Columns:
         return {
-            f"sigma_{axis}": finite_or_none(spreads[f"{axis}_{name}"].sigma[index])
+            f"sigma_{axis}": _column(spreads[f"{axis}_{name}"].sigma.tolist())
             for axis in ("x", "y")
         }
 
-    points = solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
-    links = solution.quantities(QuantityKind.OMEGA, QuantityKind.EPSILON)
+    points = {
+        name: {**told(quantities), **place(name)}
+        for name, quantities in solution.quantities(
+            QuantityKind.VELOCITY, QuantityKind.ACCELERATION
+        ).items()
+    }
+    turning = solution.quantities(QuantityKind.OMEGA, QuantityKind.EPSILON)
+    links = {name: told(quantities) for name, quantities in turning.items()}
     sliding = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
     )
-    return {
-        "ruler": solution.hand.ruler,
-        "profile": solution.profile.name,
-        "points": {
-            name: {**told(quantities), **place(name)} for name, quantities in points.items()
-        },
-        "links": {name: told(quantities) for name, quantities in links.items()},
-        "relative": [
-            {"point": r.point, "of": r.of, "to": r.to, **told(sliding[r.name])}
-            for r in solution.construction.kinematics.relatives.values()
-        ],
-        "monte_carlo": [label for label, spread in spreads.items() if spread.drawn[index]],
-    }
+    relatives = [
+        ({"point": r.point, "of": r.of, "to": r.to}, told(sliding[r.name]))
+        for r in solution.construction.kinematics.relatives.values()
+    ]
+    drawn = {label: spread.drawn.tolist() for label, spread in spreads.items()}
+
+    def at(index: int) -> dict[str, Any]:
+        return {
+            "ruler": solution.hand.ruler,
+            "profile": solution.profile.name,
+            "points": {name: _row(columns, index) for name, columns in points.items()},
+            "links": {name: _row(columns, index) for name, columns in links.items()},
+            "relative": [{**names, **_row(columns, index)} for names, columns in relatives],
+            "monte_carlo": [label for label, flags in drawn.items() if flags[index]],
+        }
+
+    return at
 
 
 def record(solution: Solution) -> dict[str, Any]:
@@ -119,7 +140,9 @@ def record(solution: Solution) -> dict[str, Any]:
     was found by random draws because first order does not hold. ``cycle`` is there for a problem
     with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see `planmethod.note.tables.forces`.
     """
-    segments = {kind: solution.segments(kind) for kind in MOTION}
+    segments = {kind: _segments(solution, kind) for kind in MOTION}
+    hand = _hand(solution)
+    poles = {kind: pole_letter(solution.problem, kind) for kind in MOTION}
     told = analogue_records(solution)
     links = {
         name: {q.kind.columns[0].removeprefix("."): solution.exact(q) for q in quantities}
@@ -163,12 +186,12 @@ def record(solution: Solution) -> dict[str, Any]:
         entry["plans"] = {
             kind.value: {
                 "mu": solution.scales[kind].per_mm,
-                **({"pole": pole} if (pole := pole_letter(solution.problem, kind)) else {}),
-                "segments": _segments(solution, kind, segments[kind], i),
+                **({"pole": poles[kind]} if poles[kind] else {}),
+                "segments": {name: _row(columns, i) for name, columns in segments[kind].items()},
             }
             for kind in MOTION
         }
-        entry["hand"] = _hand(solution, i)
+        entry["hand"] = hand(i)
         if solution.problem.dynamics is not None:
             from planmethod.note.tables.forces import forces_record
 

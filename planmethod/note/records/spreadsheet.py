@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -44,6 +45,10 @@ class Table:
     header: tuple[str, ...]
     count: int
     blocks: Callable[[], Iterator[Rows]]
+
+    def held(self) -> Table:
+        """Return the table with its rows made, which can travel to another process."""
+        return replace(self, blocks=partial(iter, list(self.blocks())))
 
 
 def motion_columns(solution: Solution) -> dict[str, Reals]:

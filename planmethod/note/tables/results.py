@@ -20,11 +20,9 @@ from planmethod.note.plaintext import (
     wrap,
 )
 from planmethod.note.tables.sigmas import Sigmas, levelled
-from planmethod.note.tables.turn import cycle_tables
 from planmethod.note.wording import Wording, language, wording
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Segment, Solution
 
@@ -66,6 +64,8 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
             lines += _forces(solution, words, index, sigmas)
             lines += _causes(solution, words, index) if sigma else []
     if solution.problem.cycle is not None:
+        from planmethod.note.tables.turn import cycle_tables
+
         lines += ["", *cycle_tables(solution, language(words.lang))]
     if solution.problem.machine is not None:
         from planmethod.note.tables.machine import machine_tables
@@ -271,6 +271,7 @@ def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:
 
 def _resultants(solution: Solution, words: Wording) -> list[str]:
     from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+    from planmethod.solved.forces.statics import statics_of
 
     said = [*shift_lines(statics_of(solution), words), *kept_lines(statics_of(solution), words)]
     return [line for text in said for line in wrap(plain_text(text))]

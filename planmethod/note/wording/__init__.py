@@ -6,11 +6,9 @@ What a language must be able to say stand in the modules beside this one; the fo
 from __future__ import annotations
 
 from functools import cache
-from importlib import import_module
 
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.language import Language
 from planmethod.note.wording.model import Wording
 
@@ -33,8 +31,7 @@ def language(lang: str) -> Language:
     if lang not in LANGUAGES:
         known = ", ".join(LANGUAGES)
         raise UnknownLanguageError(f"No words in the language {lang!r}. Choose one of: {known}.")
-    found: Language = import_module(f"{__name__}.{lang}").LANGUAGE
-    return found
+    return Language(lang)
 
 
 def wording(lang: str) -> Wording:
@@ -49,7 +46,6 @@ def wording(lang: str) -> Wording:
 
 __all__ = [
     "LANGUAGES",
-    "ForceWording",
     "Language",
     "UnknownLanguageError",
     "Wording",

@@ -25,6 +25,7 @@ class CycleWording:
     tightest: str
     range: str
     pressure: str
+    no_pressure: str
 
     # Extreme positions by construction, by what the end of the rod goes along
     construction: Mapping[str, str]

@@ -3,32 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from planmethod.note.numbers import Notation
-from planmethod.note.wording.audit_model import AuditWording
-from planmethod.note.wording.check_model import CheckWording
-from planmethod.note.wording.control_model import ControlWording
-from planmethod.note.wording.cycle_model import CycleWording
-from planmethod.note.wording.force_model import ForceWording
-from planmethod.note.wording.form_model import FormWording
-from planmethod.note.wording.frame_model import FrameWording
-from planmethod.note.wording.gear_model import GearWording
-from planmethod.note.wording.live_model import LiveWording
-from planmethod.note.wording.machine_model import MachineWording
-from planmethod.note.wording.meshing_model import MeshingWording
-from planmethod.note.wording.model import Wording
-from planmethod.note.wording.point_model import PointWording
-from planmethod.note.wording.sheet_model import SheetWording
-from planmethod.note.wording.specimen_model import SpecimenWording
-from planmethod.note.wording.structure_model import StructureWording
-from planmethod.note.wording.synthesis_model import SynthesisWording
-from planmethod.note.wording.teeth_model import TeethWording
+if TYPE_CHECKING:
+    from planmethod.note.numbers import Notation
+    from planmethod.note.wording.audit_model import AuditWording
+    from planmethod.note.wording.check_model import CheckWording
+    from planmethod.note.wording.control_model import ControlWording
+    from planmethod.note.wording.cycle_model import CycleWording
+    from planmethod.note.wording.force_model import ForceWording
+    from planmethod.note.wording.form_model import FormWording
+    from planmethod.note.wording.frame_model import FrameWording
+    from planmethod.note.wording.gear_model import GearWording
+    from planmethod.note.wording.live_model import LiveWording
+    from planmethod.note.wording.machine_model import MachineWording
+    from planmethod.note.wording.meshing_model import MeshingWording
+    from planmethod.note.wording.model import Wording
+    from planmethod.note.wording.point_model import PointWording
+    from planmethod.note.wording.sheet_model import SheetWording
+    from planmethod.note.wording.specimen_model import SpecimenWording
+    from planmethod.note.wording.structure_model import StructureWording
+    from planmethod.note.wording.synthesis_model import SynthesisWording
+    from planmethod.note.wording.teeth_model import TeethWording
+
+ELSEWHERE = {
+    "say": ("numbers", "NOTATION"),
+    "families": ("layouts", "FAMILIES"),
+    "tasks": ("layouts", "TASKS"),
+}
+"""Subjects that are not the constant of their name in the module of their name."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Language:
     """A language, handed down to all that write in it (язык).
+
+    The words of a subject are imported when they are first asked for.
 
     Attributes
     ----------
@@ -91,3 +101,17 @@ class Language:
     layouts: Mapping[str, str]
     families: Mapping[str, str]
     tasks: Mapping[str, str]
+
+    def __init__(self, lang: str) -> None:
+        self.lang = lang
+
+    if not TYPE_CHECKING:  # what is not declared above is no subject
+
+        def __getattr__(self, subject: str) -> Any:
+            """Import the words of a subject."""
+            if subject == "lang" or subject not in Language.__annotations__:
+                raise AttributeError(f"a language has no {subject!r}")
+            module, name = ELSEWHERE.get(subject, (subject, subject.upper()))
+            found = getattr(import_module(f"{__package__}.{self.lang}.{module}"), name)
+            setattr(self, subject, found)
+            return found

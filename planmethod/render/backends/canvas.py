@@ -22,7 +22,7 @@ class Options:
 
     dpi: float = 100.0
     author: str = "planmethod"
-    dxf_text: Literal["text", "strokes"] = "text"
+    dxf_text: Literal["text", "strokes"] = "strokes"
 
 
 class Canvas(Protocol):

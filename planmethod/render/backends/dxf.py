@@ -116,7 +116,17 @@ class DxfCanvas(Canvas):
         self._space.reset_limits((0.0, 0.0), (width, height))
         header.custom_vars.append("Title", _clean(title))
         header.custom_vars.append("Author", _clean(self._author))
-        document.set_modelspace_vport(height * 1.05, center=(width / 2, height / 2))
+        middle = (width / 2, height / 2)
+        document.set_modelspace_vport(height * 1.05, center=middle)
+        # What a program prints without being asked: the sheet as it lies, 1:1.
+        header["$PSVPSCALE"] = 1.0
+        paper = document.paperspace()
+        paper.page_setup(size=(width, height), scale=(1, 1))
+        paper.reset_extents((0.0, 0.0, 0.0), (width, height, 0.0))
+        paper.reset_limits((0.0, 0.0), (width, height))
+        window = paper.add_viewport(middle, (width, height), middle, height)
+        for viewport in (paper.main_viewport(), window):
+            viewport.dxf.layer = "Defpoints"  # whose lines are never printed
         document.set_wipeout_variables(frame=0)
         # Else the library adds them in the order of a set, which is another in every process.
         for name in ("ACDBPLACEHOLDER", "LAYOUT", "WIPEOUT", "WIPEOUTVARIABLES"):

@@ -1,8 +1,7 @@
-"""PNG preview: the same outlines painted by matplotlib's Agg, without pyplot."""
+"""PNG preview: the same strokes painted by matplotlib's Agg, without pyplot."""
 
 from __future__ import annotations
 
-import re
 from cmath import exp
 from functools import cache
 from io import BytesIO
@@ -25,8 +24,6 @@ from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
 _LARGEST = 16_384  # pixels a side: an A0 sheet at 350 dots to the inch, about a gigabyte at work
-_CODES: dict[str, Any] = {"M": Path.MOVETO, "L": Path.LINETO, "Z": Path.CLOSEPOLY}
-_VERBS = re.compile("([MLZ])([^MLZ]*)")
 
 
 class PngCanvas(Canvas):
@@ -63,20 +60,24 @@ class PngCanvas(Canvas):
         self._to_pixels = Affine2D().scale(columns / width, rows / height)
         self._paint(_polygon((0, width, width + height * 1j, height * 1j)), 1.0)
 
-    def _paint(self, path: Path, grey: float, transform: Any = None) -> None:
-        pen = self._agg.new_gc()
-        pen.set_linewidth(0.0)
-        pen.set_snap(False)  # snapped to pixels, thin strokes of letters would vanish
-        self._agg.draw_path(pen, path, transform or self._to_pixels, (grey, grey, grey))
+    def _paint(self, path: Path, grey: float) -> None:
+        self._agg.draw_path(self._gc(0.0), path, self._to_pixels, (grey, grey, grey))
 
     def _ink_pen(self, pen: Pen, path: Path) -> None:
         style = PENS[pen]
-        gc = self._agg.new_gc()
-        gc.set_linewidth(style.width * 72.0 / 25.4)  # points
-        gc.set_capstyle(style.cap)
-        gc.set_joinstyle("round")
-        gc.set_foreground((style.grey, style.grey, style.grey), isRGBA=False)
+        gc = self._gc(style.width, style.cap, style.grey)
+        gc.set_snap(None)  # upright lines stand on whole pixels
         self._agg.draw_path(gc, path, self._to_pixels)
+
+    def _gc(self, width: float, cap: str = "round", grey: float = 0.0) -> Any:
+        """Return what Agg draws lines with; ``width`` is mm."""
+        gc = self._agg.new_gc()
+        gc.set_linewidth(width * 72.0 / 25.4)  # points
+        gc.set_capstyle(cap)
+        gc.set_joinstyle("round")
+        gc.set_foreground((grey, grey, grey), isRGBA=False)
+        gc.set_snap(False)  # snapped to pixels, thin strokes of letters would vanish
+        return gc
 
     def stroke(self, item: Stroke) -> None:
         """Draw a polyline, or its dashes."""
@@ -100,14 +101,15 @@ class PngCanvas(Canvas):
             self._paint(_polygon(item.points), grey)
 
     def text(self, item: Text) -> None:
-        """Fill the outlines of a run."""
-        unit = item.height / self._lettering.cap_height
+        """Draw the strokes of a run."""
+        gc = self._gc(item.height * self._lettering.line)
+        unit = 1.0 / self._lettering.cap_height
         for char, pen in self._lettering.places(item.text):
             path = _letter(self._lettering, char)
             if path is not None:
-                place = Affine2D().translate(pen, 0).scale(unit).rotate_deg(item.angle)
-                place.translate(item.at.real, item.at.imag)
-                self._paint(path, 0.0, place + self._to_pixels)
+                place = Affine2D().translate(pen * unit, 0).scale(item.height)
+                place.rotate_deg(item.angle).translate(item.at.real, item.at.imag)
+                self._agg.draw_path(gc, path, place + self._to_pixels)
 
     def close(self) -> bytes:
         """Return the file."""
@@ -144,12 +146,6 @@ def _bent(centre: complex, radius: float, start: float, turn: float) -> Path:
 
 @cache
 def _letter(lettering: OutlineLettering, char: str) -> Path | None:
-    """Return the outline of a letter in font units, or None for a blank."""
-    vertices: list[tuple[float, float]] = []
-    codes: list[Any] = []
-    for verb, numbers in _VERBS.findall(lettering.outline(char).outline):
-        values = [float(number) for number in numbers.split()]
-        points = list(zip(values[::2], values[1::2], strict=True)) or [(0.0, 0.0)]
-        vertices += points
-        codes += [_CODES[verb]] * len(points)
-    return Path(vertices, codes) if vertices else None
+    """Return the strokes of a letter, in parts of h, or None for a blank."""
+    lines = [[(p.real, p.imag) for p in line] for line in lettering.strokes(char)]
+    return Path.make_compound_path(*map(Path, lines)) if lines else None

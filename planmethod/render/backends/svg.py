@@ -1,27 +1,64 @@
-"""SVG: one millimetre is one user unit, letters are outlines, so no font is needed to view it.
+"""SVG: one millimetre is one user unit, letters are strokes, so no font is needed to view it.
 
 What every viewer draws alike is used and nothing else: presentation attributes (no style sheet),
-``xlink:href`` (some programs drop a plain ``href``), generated dashes.
+``xlink:href`` (some programs drop a plain ``href``), generated dashes. What is written stands once
+more as text under everything, white on the white paper: it is found, marked and copied where the
+letters are, printed with them, and read aloud; no eye sees in which font.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from cmath import exp
-from collections.abc import Iterable
-from math import pi, tau
+from collections.abc import Iterable, Sequence
+from importlib import import_module
+from itertools import pairwise
+from math import pi, radians, tau
+from types import ModuleType
 from typing import Any
-
-import svgwrite
+from zlib import crc32
 
 from planmethod.render.backends.canvas import Canvas, Options, draw
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
+from planmethod.render.ink.typeset import PART_OF
 
 _INKS = {Ink.BLACK: "#000000", Ink.WHITE: "#ffffff"}
+_LINES = {
+    "fill": "none",
+    "stroke": _INKS[Ink.BLACK],
+    "stroke-linecap": "round",
+    "stroke-linejoin": "round",
+}
+"""What a group of pens does not say itself."""
+_HEADING, _LETTERS = 5.0, 8  # mm, and letters: an inscription larger and longer is a heading
 # XML 1.0 cannot hold these, not even as references.
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+class _Later(ModuleType):
+    """A module of functions that is imported when one of them is called."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return lambda *args, **words: getattr(import_module(self.__name__), name)(*args, **words)
+
+
+def _library() -> Any:
+    """Return svgwrite, without what it needs for downloads and checks alone: half of its import."""
+    later = {"urllib.request", "svgwrite.data.svgparser"} - set(sys.modules)
+    sys.modules.update((name, _Later(name)) for name in later)
+    try:
+        return import_module("svgwrite")
+    finally:
+        for name in later:
+            del sys.modules[name]
+
+
+_SVGWRITE = _library()
 
 
 def _clean(text: str) -> str:
@@ -29,11 +66,10 @@ def _clean(text: str) -> str:
 
 
 def _number(value: float, places: int = 3) -> str:
-    """Write a number plainly: no exponent, no trailing zeros, no minus zero."""
-    text = f"{value:.{places}f}"
-    if "." in text:
-        text = text.rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    """Write a number plainly: no exponent, no zeros at its ends, no minus zero."""
+    text = f"{value:.{places}f}".rstrip("0").rstrip(".")
+    sign, digits = ("-", text[1:]) if text[0] == "-" else ("", text)
+    return "0" if digits == "0" else sign + digits.removeprefix("0")
 
 
 class SvgCanvas(Canvas):
@@ -42,9 +78,15 @@ class SvgCanvas(Canvas):
     def __init__(self, _options: Options) -> None:
         self._height = 0.0
         self._letters: set[str] = set()
+        self._runs: dict[str, Any] = {}
+        self._keys: dict[str, str] = {}
+        self._sheet: Any = None
+        self._drawn: Any = None
         self._group: Any = None
         self._group_key = ""
-        self._sheet: Any = None
+        self._words: Any = None
+        self._written: list[Text] = []
+        self._headings: list[str] = []
         self._lettering: OutlineLettering
 
     def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
@@ -52,47 +94,53 @@ class SvgCanvas(Canvas):
         w, h = _number(width), _number(height)
         self._height = height
         self._lettering = lettering
-        self._sheet = svgwrite.Drawing(
+        white = _INKS[Ink.WHITE]
+        self._sheet = _SVGWRITE.Drawing(
             size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", debug=False
         )
-        self._sheet.set_desc(title=_clean(title))
-        self._sheet.add(
-            self._sheet.rect((0, 0), (w, h), class_="paper", fill=_INKS[Ink.WHITE], stroke="none")
+        # What is marked with the mouse is the text, not the letters over it.
+        self._sheet["pointer-events"] = "none"
+        self._title = _clean(title)
+        self._sheet.add(self._sheet.rect((0, 0), (w, h), class_="paper", fill=white, stroke="none"))
+        self._words = self._sheet.add(
+            self._sheet.g(class_="words", fill=white, pointer_events="all", font_size="5")
         )
+        self._drawn = self._sheet.add(self._sheet.g(**_LINES))
 
     def _xy(self, point: complex) -> str:
         return f"{_number(point.real)} {_number(self._height - point.imag)}"
 
+    def _way(self, points: Sequence[complex]) -> str:
+        """Return a polyline: where it starts, and its steps between places in thousandths of mm."""
+        places = [(round(p.real, 3), round(self._height - p.imag, 3)) for p in points]
+        steps = (f"{_number(c - a)} {_number(d - b)}" for (a, b), (c, d) in pairwise(places))
+        return f"M{self._xy(points[0])}l{' '.join(steps)}".replace(" -", "-")
+
     def _in_group(self, key: str, **attributes: str) -> Any:
         """Return the group of the items drawn now; items in a row of one kind share it."""
         if key != self._group_key:
-            self._group = self._sheet.add(self._sheet.g(class_=key, **attributes))
+            self._group = self._drawn.add(self._sheet.g(class_=key, **attributes))
             self._group_key = key
         return self._group
 
     def _pen_group(self, pen: Pen) -> Any:
         style = PENS[pen]
-        level = f"{round(255 * style.grey):02x}"
-        return self._in_group(
-            f"pen-{pen.value}",
-            fill="none",
-            stroke=f"#{level * 3}",
-            stroke_width=_number(style.width),
-            stroke_linecap=style.cap,
-            stroke_linejoin="round",
-        )
+        own = {"stroke_width": _number(style.width)}
+        if style.grey:
+            own["stroke"] = f"#{f'{round(255 * style.grey):02x}' * 3}"
+        if style.cap != _LINES["stroke-linecap"]:
+            own["stroke_linecap"] = style.cap
+        return self._in_group(f"pen-{pen.value}", **own)
 
     @staticmethod
     def _add(group: Any, element: Any, tag: str) -> None:
-        if tag:
+        if tag and not tag.startswith(PART_OF):
             element["data-tag"] = _clean(tag)
         group.add(element)
 
     def stroke(self, item: Stroke) -> None:
         """Draw a polyline, or its dashes, as one path."""
-        data = "".join(
-            "M" + "L".join(self._xy(point) for point in line) for line in stroke_lines(item)
-        )
+        data = "".join(map(self._way, stroke_lines(item)))
         if data:
             path = self._sheet.path(data + ("Z" if closes(item) else ""))
             self._add(self._pen_group(item.pen), path, item.tag)
@@ -122,33 +170,68 @@ class SvgCanvas(Canvas):
             centre = (_number(item.centre.real), _number(self._height - item.centre.imag))
             element = self._sheet.circle(centre, _number(item.radius))
         else:
-            data = "L".join(self._xy(point) for point in item.points)
-            element = self._sheet.path(f"M{data}Z")
+            element = self._sheet.path(f"{self._way(item.points)}Z")
         group = self._in_group(f"ink-{item.ink.value}", fill=_INKS[item.ink], stroke="none")
         self._add(group, element, item.tag)
 
     def text(self, item: Text) -> None:
-        """Place the outlines of a run; the run itself stays readable as its label."""
-        unit = _number(item.height / self._lettering.cap_height, 9)
-        turn = f" rotate({_number(-item.angle, 4)})" if item.angle else ""
-        name = _clean(item.text)
-        run = self._sheet.g(transform=f"translate({self._xy(item.at)}){turn} scale({unit} -{unit})")
-        run["role"] = "img"
-        run["aria-label"] = name
-        for char, pen in self._lettering.places(item.text):
-            if self._lettering.outline(char).outline:
-                self._letters.add(char)
-                run.add(self._sheet.use(f"#{self._glyph_id(char)}", x=str(pen)))
-        self._add(self._in_group("text", fill=_INKS[Ink.BLACK], stroke="none"), run, item.tag)
+        """Place the strokes of a run, and under everything its text."""
+        line = _number(self._lettering.line * self._lettering.cap_height)
+        x, y = _number(item.at.real, 2), _number(self._height - item.at.imag, 2)
+        run = self._sheet.use(f"#{self._run(item)}", x=x, y=y)
+        self._add(self._in_group("text", stroke_width=line), run, item.tag)
+        if not item.label or (self._written and item.label != self._written[-1].label):
+            self._write()
+        self._written.append(item)
+
+    def _run(self, item: Text) -> str:
+        """Return the name of a run of letters, which is put together once, wherever it stands."""
+        key = f"{item.text} {item.height} {item.angle}"
+        name = f"t{crc32(key.encode(errors='replace')):x}"
+        while self._keys.setdefault(name, key) != key:
+            name += "x"
+        if name not in self._runs:
+            unit = _number(item.height / self._lettering.cap_height, 8)
+            turn = f"rotate({_number(-item.angle, 4)})" if item.angle else ""
+            self._runs[name] = run = self._sheet.g(id=name)
+            run["transform"] = f"{turn}scale({unit}-{unit})"
+            for char, pen in self._lettering.places(item.text):
+                if self._lettering.glyph(char).strokes:
+                    self._letters.add(char)
+                    place = {"x": str(pen)} if pen else {}
+                    run.add(self._sheet.use(f"#{self._glyph_id(char)}", **place))
+        return name
+
+    def _write(self) -> None:
+        """Write the runs of an inscription as one text, as long as they are."""
+        if not self._written:
+            return
+        first, letters = self._written[0], _clean("".join(run.text for run in self._written))
+        along = exp(-1j * radians(first.angle))
+        length = max(
+            ((run.at - first.at) * along).real + self._lettering.width(run.text, run.height)
+            for run in self._written
+        )
+        x, y = _number(first.at.real, 1), _number(self._height - first.at.imag, 1)
+        text = self._words.add(self._sheet.text(letters, x=[x], y=[y]))
+        size = _number(self._lettering.em(first.height), 1)
+        if size != self._words["font-size"]:
+            text["font-size"] = size
+        if len(letters) > 1:
+            text["textLength"] = _number(length, 1)
+        if first.angle:
+            text["transform"] = f"rotate({_number(-first.angle, 4)} {x} {y})"
+        elif first.height >= _HEADING and len(letters) > _LETTERS and not first.tag:
+            self._headings.append(letters)
+        self._written.clear()
 
     def close(self) -> bytes:
-        """Return the file, with the outlines of the letters that occur."""
-        outlines = {
-            self._glyph_id(char): self._lettering.outline(char).outline for char in self._letters
-        }
-        for name in sorted(outlines):
-            self._sheet.defs.add(self._sheet.path(outlines[name], id=name))
-        text: str = self._sheet.tostring()
+        """Return the file, with the letters and runs that occur."""
+        self._write()
+        for part in self._defined():
+            self._sheet.defs.add(part)
+        self._sheet.set_desc(title=self._title, desc="; ".join(self._headings) or None)
+        text = str(self._sheet.tostring()).replace(" />", "/>")
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + text.encode("utf-8") + b"\n"
 
     def parts(self, items: Iterable[Item]) -> str:
@@ -156,16 +239,18 @@ class SvgCanvas(Canvas):
 
         The sheet is open; the letters that they use are in its `letters`.
         """
-        before, self._group_key = len(self._sheet.elements), ""
+        self._drawn, self._group_key = self._sheet.g(**_LINES), ""
         draw(items, self)
-        return "".join(str(one.tostring()) for one in self._sheet.elements[before:])
+        return str(self._drawn.tostring())
 
     def letters(self) -> str:
-        """Return the outlines of the letters that occur, as elements."""
-        return "".join(
-            str(self._sheet.path(self._lettering.outline(char).outline, id=name).tostring())
-            for name, char in sorted((self._glyph_id(char), char) for char in self._letters)
-        )
+        """Return the letters and runs that occur, as elements."""
+        return "".join(str(part.tostring()) for part in self._defined())
+
+    def _defined(self) -> list[Any]:
+        shapes = {self._glyph_id(c): self._lettering.glyph(c).strokes for c in self._letters}
+        letters = [self._sheet.path(shapes[name], id=name) for name in sorted(shapes)]
+        return [*letters, *self._runs.values()]
 
     def _glyph_id(self, char: str) -> str:
-        return "letter-none" if self._lettering.missing(char) else f"letter-{ord(char):x}"
+        return "none" if self._lettering.missing(char) else f"u{ord(char):x}"

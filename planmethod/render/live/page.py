@@ -131,7 +131,8 @@ class _Page:
         scheme = view.id == "scheme"
         zoom = "" if scheme else f'<span id="zoom-{view.id}"></span>'
         labels = "".join(
-            f'<g id="label-{view.id}-{number}">{self._lettered(view, one)}</g>'
+            f'<g id="label-{view.id}-{number}" role="img" '
+            f'aria-label="{escape(_plain(one["text"]))}">{self._lettered(view, one)}</g>'
             for number, one in enumerate(view.labels)
         )
         return (

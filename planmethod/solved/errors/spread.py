@@ -49,7 +49,7 @@ BENT = 0.03
 SHORT = 3.0
 """Sigmas that a length must have for first order to be believed."""
 
-BLOCK = 32
+BLOCK = 64
 """Positions propagated in one go: their slopes by every stroke are kept for all steps."""
 
 CENTRAL = (0.158655253931457, 0.841344746068543)
@@ -225,17 +225,16 @@ class Errors:
         root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
         pencil = Dithered(self.profile, self.drawing.free, self.draws, self.seed)
         off = root @ pencil.normals(len(rows))
-        env = {
-            name: value[:, None] + off[:, 2 * k] + (1j * off[:, 2 * k + 1])
-            if np.iscomplexobj(value)
-            else value[:, None] + off[:, 2 * k]
-            for k, (name, value) in enumerate(zip(leaves, values, strict=True))
-        }
+        env: dict[Name, Any] = {}
+        for k, (name, value) in enumerate(zip(leaves, values, strict=True)):
+            place = env[name] = np.empty((len(chosen), self.draws), value.dtype)
+            np.add(value.real[:, None], off[:, 2 * k], out=place.real)
+            if np.iscomplexobj(value):
+                np.add(value.imag[:, None], off[:, 2 * k + 1], out=place.imag)
         with np.errstate(all="ignore"):
             taken = item.take(go_on(Trace(env, {}), steps, {}, pencil))
         drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), self.draws))
-        found[chosen] = [_half_width(item, row) for row in drawn]
-        found[chosen] = np.nan_to_num(found[chosen], nan=np.inf)
+        found[chosen] = np.nan_to_num(_half_widths(item, drawn), nan=np.inf)
         return found
 
     def _at(self, index: int) -> _Slopes:
@@ -419,6 +418,16 @@ def _sigma(slopes: Reals) -> Reals:
 def _covariance(slopes: npt.NDArray[np.complex128]) -> Reals:
     rows = np.array([slopes.real, slopes.imag])
     return np.asarray(np.einsum("amn,bmn->abn", rows, rows), dtype=float)
+
+
+def _half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
+    """Return `_half_width` of every row; those that could all be are looked at together."""
+    if not np.isfinite(rows).all():
+        return np.array([_half_width(item, row) for row in rows])
+    if item.kind is DrawnKind.DIRECTION:
+        rows = np.array([_unwound(row) for row in rows])
+    low, high = np.quantile(rows, CENTRAL, axis=1)
+    return np.asarray((high - low) / 2, dtype=float)
 
 
 def _half_width(item: DrawnQuantity, values: Reals) -> float:

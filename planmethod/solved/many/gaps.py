@@ -47,7 +47,8 @@ class GappedSweep:
     ) -> None:
         labels = None if asked is None else tuple(asked)
         self.problem, self.positions = problem, positions
-        self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None)
+        # By NumPy: what is printed does not depend on what a compiler left in a cache.
+        self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None, native=False)
         gaps = Gaps.of(self._failed(), self._why)
         some = evenly(np.flatnonzero(gaps.reason < 0))
         looked = examine(problem, positions[some], numbers=some)

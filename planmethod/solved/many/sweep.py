@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,12 +30,19 @@ from planmethod.solved.results import Results
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
 if TYPE_CHECKING:
+    from planmethod.construct.compiled.native import Native
     from planmethod.solved.many.loads import LoadColumns
 
 Array = npt.NDArray[Any]
 
 FEW = 40
 """Positions up to which a line of Python is quicker than NumPy's calls."""
+
+MANY = 4096
+"""Positions from which a sweep looks whether its tape was compiled before."""
+
+PAYS = 30_000_000
+"""Positions that take NumPy about as long as the compiler takes: from there on it is called."""
 
 
 class SweepError(PlanMethodError, ValueError):
@@ -64,6 +72,11 @@ class Sweep:
     drawn : sequence of Name
         Points and numbers of the plans that are results as well, SI, each as ``.x`` and ``.y``:
         ``v:c.x``; places as they lie on their plan.
+    native : bool, optional
+        Compile the tape with the system's C compiler now (True), or never use such code (False).
+        When absent, it is used for `MANY` positions if it was compiled before, and compiled where
+        that pays (`PAYS`). Without a compiler, with ``PLANMETHOD_NATIVE=0`` and in float32 NumPy
+        gives the same numbers to rounding; `uncompiled` says why.
 
     Attributes
     ----------
@@ -78,6 +91,8 @@ class Sweep:
         Loads that must be told for every position.
     steps : int
         Steps of the program that are needed.
+    uncompiled : str
+        Why there is no machine code; empty if there is.
 
     Raises
     ------
@@ -93,6 +108,7 @@ class Sweep:
         dtype: npt.DTypeLike = np.float64,
         forces: bool = False,
         drawn: Sequence[Name] = (),
+        native: bool | None = None,
     ) -> None:
         self.problem = problem
         if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
@@ -133,6 +149,12 @@ class Sweep:
         self._refs, self._depends, self._written = refs, depends, written
         self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
         self._straight: Straight | None = None
+        self._native: Native | None = None
+        self._may_look = native is not False
+        self._done = 0
+        self.uncompiled = "it was not asked for"
+        if native:
+            self._compiled(make=True)
 
     def _changing(self, solution: Solution, results: Results) -> LoadColumns | None:
         """Return the loads that must be told for every position; None if there are none."""
@@ -201,7 +223,7 @@ class Sweep:
             When the shapes do not go together.
         """
         angle = np.asarray(positions, dtype=self._blocks.dtype)
-        alone = not self.varied and not parameters and angle.ndim == 1
+        alone = not self.varied and not parameters and angle.ndim == 1 and self._native is None
         if alone and out is None and failed is None and len(angle) <= FEW:
             found = self._in_line(angle, self._loaded(angle), len(angle))
             if found is not None:
@@ -213,15 +235,19 @@ class Sweep:
         shape = self._shape(angle, extra, out, failed)
         if out is None:
             quick = len(shape) == 1 and shape[0] <= FEW and failed is None
-            if quick:
+            if quick and self._native is None:
                 found = self._in_line(angle, [*extra, *self._loaded(angle)], shape[0])
                 if found is not None:
                     return found
             out = np.empty((len(self.rows), *shape), self._blocks.dtype)
+        runner = self._runner(math.prod(shape), out, failed)
         if len(shape) == 1:
             columns = [np.broadcast_to(value, shape) if value.ndim else value for value in extra]
-            here = np.broadcast_to(angle, shape)
-            self._blocks.run([here, *columns, *self._loaded(here)], out, failed)
+            here = angle if angle.shape == shape else np.broadcast_to(angle, shape)
+            runner.run([here, *columns, *self._loaded(here)], out, failed)
+            return out
+        if runner is self._native and not (self.branches or self.loads):
+            runner.run([angle, *extra], out, failed)
             return out
         wide = [np.broadcast_to(value, (shape[0], (value.shape or (1,))[-1])) for value in extra]
         for i in range(shape[0]):
@@ -231,8 +257,91 @@ class Sweep:
             ]
             here = np.broadcast_to(angle, shape)[i]
             columns += self._loaded(here)
-            self._blocks.run([here, *columns], out[:, i], None if failed is None else failed[i])
+            runner.run([here, *columns], out[:, i], None if failed is None else failed[i])
         return out
+
+    def bind(
+        self,
+        positions: npt.ArrayLike,
+        parameters: Mapping[str, npt.ArrayLike] | None = None,
+        *,
+        out: Array | None = None,
+        failed: npt.NDArray[np.int16] | None = None,
+    ) -> Callable[[], Array]:
+        """Return a function that does `run` for these arrays: all is prepared and checked now.
+
+        An array of float64 is read anew at every call, so that new positions and parameters are
+        written into it. For few positions that are asked again and again: the tape is compiled if
+        it can be.
+
+        Returns
+        -------
+        callable
+            Of nothing; it fills ``out`` (and ``failed``) and returns it, the same array every time.
+        """
+        angle = np.asarray(positions, dtype=self._blocks.dtype)
+        given = {k: np.asarray(v, dtype=self._blocks.dtype) for k, v in (parameters or {}).items()}
+        filled = self.run(angle, given, out=out, failed=failed)
+        out = np.array(filled, order="C") if out is None else out
+        self._compiled(make=True)
+        native = self._native
+        if native is None or not native.takes(out, failed) or (out.ndim == 3 and self.branches):
+            return lambda: self._again(angle, given, out, failed)
+        columns = [given[name] for name in self.varied]
+        if not (self.branches or self.loads):
+            call = native.bound([angle, *columns], out, failed)
+
+            def bound() -> Array:
+                call()
+                return out
+
+            return bound
+        loaded = self._loaded(angle)
+        call = native.bound([angle, *columns, *loaded], out, failed)
+
+        def bound_loads() -> Array:
+            for column, value in zip(loaded, self._loaded(angle), strict=True):
+                column[...] = value
+            call()
+            return out
+
+        return bound_loads
+
+    def _again(
+        self, angle: Array, parameters: Mapping[str, Array], out: Array, failed: Array | None
+    ) -> Array:
+        """Run into a buffer, few positions as one line of Python."""
+        if failed is None and out.ndim == 2 and out.shape[1] <= FEW:
+            out[...] = self.run(angle, parameters)
+            return out
+        return self.run(angle, parameters, out=out, failed=failed)
+
+    def _runner(self, count: int, out: Array, failed: Array | None) -> Blocks | Native:
+        """Return what runs the tape for so many positions into these buffers."""
+        self._done += count
+        if self._native is None and self._may_look and count >= MANY:
+            self._compiled(make=self._done >= PAYS)
+        if self._native is None or not self._native.takes(out, failed):
+            return self._blocks
+        return self._native
+
+    def _compiled(self, *, make: bool) -> None:
+        """Take the machine code of the tape if there is any."""
+        from planmethod.construct.compiled.csource import c_source
+        from planmethod.construct.compiled.native import Native, NotCompiledError
+
+        if self._native is not None or not self._may_look:
+            return
+        if self._blocks.dtype != np.float64:
+            self.uncompiled = "single precision is NumPy's alone"
+            return
+        w = self._written
+        try:
+            self._native = Native(c_source(w.tape, self._refs, w.guards, self._depends), make=make)
+            self.uncompiled = ""
+        except NotCompiledError as reason:
+            self.uncompiled = str(reason)
+            self._may_look = not make
 
     def _loaded(self, positions: Array) -> list[Array]:
         """Return the columns of branches and loads that differ from position to position."""

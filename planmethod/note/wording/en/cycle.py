@@ -25,6 +25,7 @@ CYCLE = CycleWording(
     range="the crank does not turn fully: the mechanism assembles for φ from {low} to {high}, "
     "beyond them links {links} do not close",
     pressure="pressure angle: greatest {most} at φ = {most_at}, least {least} at φ = {least_at}",
+    no_pressure="the pressure angle is zero in all positions",
     construction={
         "guide": "Extreme positions: arcs about {pivot} of the radii {far} = {far_mm} mm and "
         "{near} = "

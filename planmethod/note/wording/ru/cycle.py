@@ -26,6 +26,7 @@ CYCLE = CycleWording(
     "замыкается группа звеньев {links}",
     pressure="угол давления: наибольший {most} при φ = {most_at}, наименьший {least} при "
     "φ = {least_at}",
+    no_pressure="угол давления во всех положениях равен нулю",
     construction={
         "guide": "Крайние положения: из центра {pivot} дугами радиусов {far} = {far_mm} мм и "
         "{near} = "

@@ -1,4 +1,4 @@
-"""Lettering (шрифт): widths and outlines of the letters; heights are cap heights h in mm.
+"""Lettering (шрифт): widths and strokes of the letters; heights are cap heights h in mm.
 
 Who sets texts asks `in_use` for the lettering that a sheet is set in; `using` sets another. To the
 output formats a `Drawing` brings it along.
@@ -7,11 +7,13 @@ output formats a `Drawing` brings it along.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache, cached_property
+from itertools import accumulate
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -20,6 +22,8 @@ from planmethod.errors import LayoutError
 from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
 
 FONTS = Path(__file__).parent.parent / "fonts"
+
+_NUMBER = re.compile(r"-?\d+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +63,8 @@ STYLES: Mapping[str, Style] = MappingProxyType(
 class Glyph(NamedTuple):
     """One letter in font units, y up, origin on the base line.
 
-    ``outline`` is an SVG path of M, L and Z with absolute coordinates, filled by the non-zero
-    rule; it is empty for a blank, and the bounds are then all zero.
+    ``strokes`` is what the middle of the pen does, an SVG path of M and l; it is empty for a blank,
+    and the bounds, those of the ink, are then all zero.
     """
 
     advance: int
@@ -68,7 +72,7 @@ class Glyph(NamedTuple):
     ymin: int
     xmax: int
     ymax: int
-    outline: str
+    strokes: str
 
 
 @dataclass(eq=False)
@@ -88,7 +92,7 @@ class OutlineLettering:
 
     @property
     def font_file(self) -> Path:
-        """The font (TrueType) with the same outlines, for formats that embed one."""
+        """The font (TrueType) with the same letters, for formats that embed one."""
         return FONTS / f"{self.name}.ttf"
 
     @cached_property
@@ -129,7 +133,7 @@ class OutlineLettering:
         """Return the font size whose capitals are ``height`` high, in the unit of ``height``."""
         return height * self.units_per_em / self.cap_height
 
-    def outline(self, char: str) -> Glyph:
+    def glyph(self, char: str) -> Glyph:
         """Return the letter ``char``, or a box when the lettering has no such letter."""
         glyph = self._glyphs.get(char)
         if glyph is None:
@@ -151,7 +155,7 @@ class OutlineLettering:
             if char in closer.get(before, ""):
                 pen += kern
             placed.append((char, pen))
-            pen += self.outline(char).advance
+            pen += self.glyph(char).advance
             before = char
         return placed
 
@@ -171,7 +175,7 @@ class OutlineLettering:
                 parts.append((start, letters + char))
             else:
                 parts.append((pen, char))
-            end = pen + self.outline(char).advance
+            end = pen + self.glyph(char).advance
         return parts
 
     def width(self, text: str, height: float) -> float:
@@ -179,7 +183,7 @@ class OutlineLettering:
         if not text:
             return 0.0
         last, pen = self.places(text)[-1]
-        return (pen + self.outline(last).advance) * height / self.cap_height
+        return (pen + self.glyph(last).advance) * height / self.cap_height
 
     def ink(self, text: str, height: float) -> tuple[float, float, float, float]:
         """Return the bounds of the ink of a run that starts at the origin.
@@ -200,8 +204,8 @@ class OutlineLettering:
             return found
         boxes = []
         for char, pen in self.places(text):
-            glyph = self.outline(char)
-            if glyph.outline:
+            glyph = self.glyph(char)
+            if glyph.strokes:
                 boxes.append((pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax))
         if boxes:
             left, low, right, high = zip(*boxes, strict=True)
@@ -212,16 +216,12 @@ class OutlineLettering:
         return bounds
 
     def strokes(self, char: str) -> tuple[tuple[complex, ...], ...]:
-        """Return what the middle of the pen does for a letter, in parts of h, slanted if it is."""
-        from planmethod.render.ink.lettering.skeleton import has, missing_box, skeleton
-
-        kind, measures = self.style.kind, self.style.proportions
-        drawn = skeleton(char, kind) if has(char) else missing_box(kind)
-        lean, waist = self.style.lean, measures.small / 2
-        return tuple(
-            tuple((p + lean * (p.imag - waist)) / measures.cap for p in line)
-            for line in drawn.strokes
-        )
+        """Return what the middle of the pen does for a letter, in parts of h."""
+        lines = []
+        for line in self.glyph(char).strokes.split("M")[1:]:
+            numbers = [int(number) / self.cap_height for number in _NUMBER.findall(line)]
+            lines.append(tuple(accumulate(map(complex, numbers[::2], numbers[1::2]))))
+        return tuple(lines)
 
     @property
     def side(self) -> float:

@@ -1,0 +1,392 @@
+"""Command ``batch``: sheets and keys of all variants by a cluster of machines (рассылка)."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import logging
+import threading
+from collections import Counter, deque
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.helptext import Spoken
+from planmethod.commands.output import settle_process
+from planmethod.commands.problems import Todo, begin, finish, guarded, stem, through
+from planmethod.commands.processes import Part, heard
+from planmethod.errors import PlanMethodError
+from planmethod.languages import LANGUAGES, say, speaking, spoken
+from planmethod.options import (
+    Positions,
+    dxf_text_option,
+    format_option,
+    jobs_option,
+    layout_option,
+    out_option,
+    problem_options,
+    reading_options,
+)
+from planmethod.problem.source import read_source
+from planmethod.render.backends.output import write
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+    from planmethod.check.marks import Settings
+
+NEEDS = "batch needs dask: pip install 'planmethod[batch]'"
+
+MANIFEST = "batch.jsonl"
+"""What was made and of what, in the folder of the files: a line for each variant."""
+
+PATIENCE = 30
+"""For a scheduler and the first of its workers, s."""
+
+AHEAD = 4
+"""Variants for each thread of the cluster that are sent ahead."""
+
+
+_ONE = threading.Lock()
+"""Held by the thread of a worker that is at work: what it says is heard by the whole process."""
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What a machine is asked to make of one variant (заказ); nothing in it names a file here.
+
+    Attributes
+    ----------
+    todo : Todo
+        The problem with all that is asked of its sheets.
+    sheets : mapping of str to object, optional
+        Parameters of the command ``sheet``; no sheets when absent.
+    layout : bytes, optional
+        Text of the file that says what is on the sheets.
+    settings : Settings, optional
+        Of the key; no key when absent.
+    lang : str
+        Language of messages.
+    """
+
+    todo: Todo
+    sheets: Mapping[str, Any] | None
+    layout: bytes | None
+    settings: Settings | None
+    lang: str
+
+
+def made(order: Order) -> Part[dict[str, bytes]]:
+    """Make the files of an order: called on the machines of the cluster."""
+    settle_process()
+    with _ONE, speaking(order.lang), TemporaryDirectory(prefix="planmethod-") as name:
+        return heard(partial(_files, order, Path(name)))
+
+
+def _files(order: Order, folder: Path) -> dict[str, bytes]:
+    out = folder / "out"
+    files: dict[str, bytes] = {}
+    if order.sheets is not None:
+        params = {**order.sheets, "out": out}
+        if order.layout is not None:
+            params["layout"] = str(folder / "layout.toml")
+            Path(params["layout"]).write_bytes(order.layout)
+        part = begin("sheet", params)(order.todo)
+        replace(part, said=tuple(told for told in part.said if told[0])).told()
+        files = {path.name: path.read_bytes() for path in sorted(out.iterdir())}
+    if order.settings is not None:
+        from planmethod.commands.check import key_files, key_of_problem
+        from planmethod.note.wording import language
+
+        key = key_of_problem(order.todo.kind, order.todo.problem, order.settings)
+        words = language(order.todo.problem.sheet.lang or LANGUAGES[0])
+        for ending, data in key_files([key], words):
+            files[f"{stem(order.todo.problem)}-key.{ending}"] = data
+    return files
+
+
+def installed() -> str:
+    """Return the version of the package: asked of the machines of the cluster."""
+    return version("planmethod")
+
+
+@click.command(cls=Spoken)
+@problem_options
+@reading_options
+@out_option
+@format_option("pdf")
+@sheet_options
+@layout_option
+@click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
+@click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
+@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
+@dxf_text_option
+@click.option("--sheets/--no-sheets", default=True, help="The sheets; made unless refused.")
+@click.option("--keys", is_flag=True, help="The key of every variant, too: PDF and XLSX.")
+@click.option(
+    "--settings",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="TOML of the department for the keys: tolerances, points, marks.",
+)
+@click.option(
+    "--scheduler", metavar="ADDRESS", help="Of dask, such as tcp://10.0.0.5:8786; its own if none."
+)
+@jobs_option
+@guarded
+def batch(
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    phi: Positions | None,
+    out: Path,
+    asked: Asked,
+    layout: str | None,
+    sheets: bool,
+    keys: bool,
+    settings: Path | None,
+    scheduler: str | None,
+    jobs: int,
+    **_: object,
+) -> None:
+    """Make the sheets and keys of every variant on many machines; go on where it was left.
+
+    What the folder has already, made of the same problem file and options by the same version, is
+    not made again. The machines need planmethod, and no common folder.
+    """
+    try:
+        import distributed  # noqa: F401
+    except ImportError:
+        raise click.UsageError(say(NEEDS)) from None
+    from planmethod.check.marks import DEFAULT, load_settings
+    from planmethod.render.sheets.composition.reader import composition
+    from planmethod.render.sheets.compositions import SHIPPED
+
+    if not sheets and not keys:
+        raise click.UsageError(say("--no-sheets leaves nothing to make: give --keys"))
+    if settings is not None and not keys:
+        raise click.UsageError(say("--settings are of the keys: give --keys"))
+    if scheduler is not None and jobs > 1:
+        raise click.UsageError(say("--jobs is of this machine; --scheduler has workers of its own"))
+    if layout is not None:
+        composition(layout)  # its faults are told once, before any problem is drawn
+    own = ("problems", "variant", "sheets", "keys", "settings", "scheduler", "out")
+    common = {n: v for n, v in click.get_current_context().params.items() if n not in own}
+    common |= {"problems": (), "variant": None, "all_variants": False, "jobs": 1, "one_file": None}
+    common |= {"config": None, "no_config": True, "watch": False}  # it is laid over problems here
+    ordered = partial(
+        Order,
+        sheets=common if sheets else None,
+        layout=None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
+        settings=None if not keys else DEFAULT if settings is None else load_settings(settings),
+        lang=spoken(),
+    )
+    settled = asked.settle()
+    manifest = Manifest(out)
+
+    def steps(todo: list[Todo]) -> Iterator[Callable[[], None]]:
+        twice = [
+            name for name, count in Counter(stem(t.problem) for t in todo).items() if count > 1
+        ]
+        if twice:
+            raise click.UsageError(
+                say(
+                    "two problems are called {}, their files would have the same names; "
+                    "write them into two folders with --out",
+                    twice[0],
+                )
+            )
+        orders = []
+        for one in todo:
+            order = ordered(replace(one, problem=settled(one.problem)))
+            orders.append((order, _hash(order, phi)))
+        if all(manifest.has(order, key) for order, key in orders):
+            yield from (partial(manifest.keep) for _ in orders)
+            return
+        with _cluster(scheduler, jobs) as client:
+            yield from _sent(client, orders, manifest)
+
+    code = through(problems, variant, all_variants or variant is None, steps, kinds=True)
+    manifest.close()
+    finish(code)
+
+
+def _hash(order: Order, phi: Positions | None) -> str:
+    """Return what tells whether files are made of the same."""
+    one, problem = order.todo, order.todo.problem
+    options = {**(order.sheets or {}), "phi": None if phi is None else phi.tolist()}
+    parts = (
+        installed(), read_source(one.path), repr(problem),  # with a table of variants beside it
+        order.sheets is None, sorted(options.items()), order.layout, order.settings,
+    )  # fmt: skip
+    return hashlib.sha256(repr(parts).encode()).hexdigest()
+
+
+# Files there are ---------------------------------------------------------------------------------
+
+
+class Manifest:
+    """What a folder has, and of what it was made (ведомость): one line of JSON for each variant.
+
+    A line is added when its files are written; a line cut short by the end of a run is no line.
+    """
+
+    def __init__(self, out: Path) -> None:
+        self.out, self.path = out, out / MANIFEST
+        self.made, self.kept = 0, 0
+        self._lines: dict[str, dict[str, Any]] = {}
+        with contextlib.suppress(FileNotFoundError):
+            for line in self.path.read_text("utf-8", errors="replace").splitlines():
+                with contextlib.suppress(ValueError, TypeError, KeyError):
+                    told = json.loads(line)
+                    self._lines[str(told["problem"])] = told
+
+    def has(self, order: Order, key: str) -> bool:
+        """Tell whether the files of an order are there as they were made."""
+        told = self._lines.get(stem(order.todo.problem))
+        if told is None or told.get("key") != key:
+            return False
+        files = [(self.out / name, digest) for name, digest in told["files"].items()]
+        return all(path.is_file() and _digest(path.read_bytes()) == d for path, d in files)
+
+    def keep(self) -> None:
+        """Count an order whose files are there."""
+        self.kept += 1
+
+    def add(self, order: Order, key: str, files: Mapping[str, bytes]) -> None:
+        """Write the files of an order, then its line."""
+        for name, data in files.items():
+            write(self.out / name, data)
+            click.echo(str(self.out / name))
+        digests = {name: _digest(data) for name, data in files.items()}
+        name = stem(order.todo.problem)
+        told = {"problem": name, "key": key, "files": digests}
+        self._lines[name] = told
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write("\n" * (not self.made) + _line(told))  # after a line cut short, a new one
+        self.made += 1
+
+    def close(self) -> None:
+        """Write the lines in the order of names, and say what was done."""
+        if self.made:
+            lines = (_line(told) for _, told in sorted(self._lines.items()))
+            write(self.path, "".join(lines).encode())
+        click.echo(say("{} made, {} there already.", self.made, self.kept))
+
+
+def _line(told: Mapping[str, Any]) -> str:
+    return json.dumps(told, ensure_ascii=False) + "\n"
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
+
+
+# The cluster -------------------------------------------------------------------------------------
+
+
+@contextlib.contextmanager
+def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
+    """Give a cluster with workers of this version."""
+    from distributed import Client, LocalCluster
+
+    quiet = logging.CRITICAL  # what matters is said here
+    logging.getLogger("distributed").setLevel(quiet)
+    with contextlib.ExitStack() as open_ones:
+        if scheduler is None:
+            scheduler = open_ones.enter_context(
+                LocalCluster(
+                    n_workers=jobs, threads_per_worker=1, dashboard_address=None, silence_logs=quiet
+                )
+            ).scheduler_address
+        try:
+            client = open_ones.enter_context(Client(scheduler, timeout=PATIENCE))
+            client.wait_for_workers(1, timeout=PATIENCE)
+            versions = client.run(installed)
+        except (OSError, TimeoutError, ValueError) as error:
+            raise click.UsageError(
+                say(
+                    "--scheduler {}: no worker answers within {} s ({}). Start dask scheduler "
+                    "and dask worker there.",
+                    scheduler,
+                    PATIENCE,
+                    type(error).__name__,
+                )
+            ) from None
+        except ImportError as error:
+            raise click.UsageError(
+                say(
+                    "--scheduler {}: a worker cannot begin: {}. Install there: pip install "
+                    "'planmethod[batch]'",
+                    scheduler,
+                    error,
+                )
+            ) from None
+        others = {address: own for address, own in versions.items() if own != installed()}
+        if others:
+            address, own = next(iter(others.items()))
+            raise click.UsageError(
+                say(
+                    "--scheduler {}: the worker {} has planmethod {}, here it is {}. Install the "
+                    "same there.",
+                    scheduler,
+                    address,
+                    own,
+                    installed(),
+                )
+            )
+        yield client
+
+
+def _sent(
+    client: Client, orders: list[tuple[Order, str]], manifest: Manifest
+) -> Iterator[Callable[[], None]]:
+    """Send orders ahead, and yield what takes in each of them, in order."""
+    most = AHEAD * max(1, sum(client.nthreads().values()))
+    ahead: deque[Callable[[], None]] = deque()
+    for order, key in orders:
+        if manifest.has(order, key):
+            ahead.append(manifest.keep)
+        else:
+            future = client.submit(made, order, key=f"planmethod-{key}")
+            ahead.append(partial(_taken, future, order, key, manifest))
+        if len(ahead) > most:
+            yield ahead.popleft()
+    while ahead:
+        yield ahead.popleft()
+
+
+def _taken(future: Future, order: Order, key: str, manifest: Manifest) -> None:
+    """Wait for an order and put its files down."""
+    from concurrent.futures import CancelledError
+
+    from distributed import KilledWorker
+
+    name = stem(order.todo.problem)
+    try:
+        part: Part[dict[str, bytes]] = future.result()
+    except KilledWorker:
+        raise PlanMethodError(
+            "{}: every worker that took it was killed; perhaps it needs more memory than there "
+            "is. Ask for fewer positions at once.",
+            name,
+        ) from None
+    except (CancelledError, OSError) as error:
+        raise click.UsageError(
+            say(
+                "the scheduler is gone ({}) before {}; {} are made, and the same command goes on "
+                "from there",
+                type(error).__name__,
+                name,
+                manifest.made,
+            )
+        ) from None
+    manifest.add(order, key, part.told() or {})

@@ -1,0 +1,232 @@
+"""A tape compiled by the system's C compiler and kept in the user's cache (машинный код).
+
+A library is found by the hash of its source, of the flags and of the machine. It is loaded only
+from a folder that nobody else can write to.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import os
+import platform
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.compiled.csource import Source
+
+Array = npt.NDArray[Any]
+
+SWITCH = "PLANMETHOD_NATIVE"
+"""Environment variable: ``0`` leaves the compiler alone."""
+
+COMPILERS = ("cc", "gcc", "clang")
+
+FLAGS = (
+    "-std=gnu11", "-O3", "-fPIC", "-shared", "-w", "-fno-math-errno", "-fno-trapping-math",
+    "-ffp-contract=off", "-fno-ivopts",
+)  # fmt: skip
+"""No result changes by them: a root is an instruction, several positions are done at a time, a
+product and a sum are rounded each as NumPy rounds them; the last saves a third of the compiling."""
+
+OWN = "-march=native"
+
+PATIENCE = 120
+"""Seconds that a compiler is given."""
+
+KEPT = 32 * 2**20
+"""Bytes of the libraries that are kept; those not used for longest make room."""
+
+
+class NotCompiledError(Exception):
+    """Says in a sentence why there is no library; NumPy does the work."""
+
+
+class Native:
+    """A compiled tape.
+
+    Parameters
+    ----------
+    source : Source
+    make : bool
+        Compile it where it is not kept yet.
+
+    Raises
+    ------
+    NotCompiledError
+    """
+
+    def __init__(self, source: Source, *, make: bool) -> None:
+        self.source = source
+        self._constants = np.array(source.constants)
+        self._run: Callable[[ctypes.c_void_p], Any] = _loaded(_library(source.text, make=make)).run
+        self._run.restype = None
+
+    @staticmethod
+    def takes(out: Array, failed: Array | None) -> bool:
+        """Return whether buffers can be filled in place."""
+        return _in_line(out, np.float64) and (failed is None or _in_line(failed, np.int16))
+
+    def run(self, inputs: Sequence[Array], out: Array, failed: Array | None = None) -> None:
+        """Fill ``out`` of shape (k, n) or (k, v, n); see `Blocks.run`.
+
+        Parameters
+        ----------
+        inputs : sequence of ndarray of float64
+            What goes together with positions of shape (n,) or (v, n).
+        """
+        self.bound(inputs, out, failed)()
+
+    def bound(
+        self, inputs: Sequence[Array], out: Array, failed: Array | None = None
+    ) -> Callable[[], None]:
+        """Return a call that does `run` again and again in the same arrays."""
+        shape = out.shape[1:] if out.ndim == 3 else (1, out.shape[1])
+        frame = [*shape, out.ctypes.data, out.strides[0] // 8, out.strides[-2] // 8]
+        frame += [0, 0] if failed is None else [failed.ctypes.data, failed.strides[0] // 2]
+        frame.append(self._constants.ctypes.data)
+        kept = []
+        for number in self.source.inputs:
+            column = np.asarray(inputs[number], dtype=np.float64)
+            if column.ndim and column.shape[-1] > 1 and column.strides[-1] not in (0, 8):
+                column = np.ascontiguousarray(column)
+            kept.append(column)
+            steps = [0, 0]  # of an axis that there is not, or that is not moved along
+            for axis in range(1, column.ndim + 1):
+                steps[-axis] = column.strides[-axis] // 8 if column.shape[-axis] > 1 else 0
+            frame += [column.ctypes.data, *steps]
+        numbers = np.array(frame, np.int64)
+        run, address = self._run, ctypes.c_void_p(numbers.ctypes.data)
+
+        def call(_kept: object = (kept, numbers, out, failed)) -> None:
+            run(address)
+
+        return call
+
+
+def _in_line(array: Array, dtype: npt.DTypeLike) -> bool:
+    size = array.dtype.itemsize
+    return (
+        array.dtype == dtype
+        and array.dtype.isnative
+        and (array.shape[-1] <= 1 or array.strides[-1] == size)
+        and all(step % size == 0 for step in array.strides)
+        and array.flags.aligned
+        and array.flags.writeable
+    )
+
+
+def _machine() -> str:
+    """Return what a library made with `OWN` depends on: the instructions that the machine has."""
+    try:
+        with Path("/proc/cpuinfo").open(encoding="utf-8") as info:
+            said = [line for line in info.read(16384).splitlines() if line[:4] in ("flag", "Feat")]
+    except OSError:
+        said = [platform.processor()]
+    return f"{sys.platform} {platform.machine()} {said[:1]}"
+
+
+def _folder() -> Path:
+    """Return the folder of the libraries; made if it is not there.
+
+    Raises
+    ------
+    NotCompiledError
+        If it cannot be made, or others can write to it.
+    """
+    if not hasattr(os, "getuid"):
+        raise NotCompiledError("on this system nothing is compiled")
+    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    try:
+        if not base.is_absolute():
+            base = Path.home() / ("Library/Caches" if sys.platform == "darwin" else ".cache")
+        folder = base / "planmethod" / "native"
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        found = folder.lstat()
+    except (OSError, RuntimeError) as error:
+        raise NotCompiledError(f"there is no folder for it: {error}") from error
+    if not _mine(found, stat.S_ISDIR) or found.st_mode & 0o077:
+        raise NotCompiledError(f"{folder} is open to others: make it yours alone (chmod 700)")
+    return folder
+
+
+def _mine(found: os.stat_result, kind: Callable[[int], bool]) -> bool:
+    return kind(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
+
+
+def _library(text: str, *, make: bool) -> Path:
+    """Return the file of a library."""
+    if os.environ.get(SWITCH) == "0":
+        raise NotCompiledError(f"{SWITCH}=0 leaves the compiler alone")
+    folder = _folder()
+    said = "\0".join((text, *FLAGS, OWN, _machine()))
+    path = folder / f"{hashlib.sha256(said.encode()).hexdigest()[:40]}.so"
+    if not path.exists():
+        if not make:
+            raise NotCompiledError("it has not been compiled yet")
+        _compile(text, path)
+    try:
+        if not _mine(path.lstat(), stat.S_ISREG):
+            raise NotCompiledError(f"{path} is not a file of yours alone: remove it")
+        os.utime(path)
+    except OSError as error:
+        raise NotCompiledError(f"{path}: {error.strerror}") from error
+    return path
+
+
+def _loaded(path: Path) -> ctypes.CDLL:
+    try:
+        return ctypes.CDLL(str(path))
+    except OSError as error:
+        raise NotCompiledError(f"{path} was not loaded: {error}") from error
+
+
+def _compile(text: str, path: Path) -> None:
+    """Compile a source to a file that is there whole or not at all."""
+    compiler = next(filter(None, map(shutil.which, COMPILERS)), None)
+    if compiler is None:
+        raise NotCompiledError(f"there is no C compiler ({', '.join(COMPILERS)})")
+    try:
+        with tempfile.TemporaryDirectory(dir=path.parent, ignore_cleanup_errors=True) as place:
+            made, said = Path(place) / "tape.so", ""
+            for flags in ((*FLAGS, OWN), FLAGS):  # not every compiler knows the machine
+                done = subprocess.run(
+                    [compiler, *flags, "-o", str(made), "-x", "c", "-", "-lm"],
+                    input=text, capture_output=True, encoding="utf-8", errors="replace",
+                    timeout=PATIENCE, check=False,
+                )  # fmt: skip
+                if done.returncode == 0:
+                    made.chmod(0o700)
+                    made.replace(path)
+                    break
+                said = (done.stderr.strip() or "no message").splitlines()[0]
+            else:
+                raise NotCompiledError(f"{compiler} did not compile: {said}")
+        _make_room(path)
+    except (OSError, subprocess.SubprocessError) as error:
+        raise NotCompiledError(f"{compiler} did not compile: {error}") from error
+
+
+def _make_room(newest: Path) -> None:
+    """Remove the libraries that were not used for longest, down to `KEPT` bytes."""
+    found = []
+    for path in newest.parent.glob("*.so"):
+        try:
+            about = path.stat()
+        except OSError:
+            continue
+        found.append((path == newest, about.st_mtime, about.st_size, path))
+    size = 0
+    for _, _, own, path in sorted(found, reverse=True):
+        size += own
+        if size > KEPT and path != newest:
+            path.unlink(missing_ok=True)

@@ -1,0 +1,124 @@
+"""Problems shared among processes: the same outcome, and what is told when one is killed."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from worked import PROBLEMS, path_of
+
+from planmethod.cli import cli
+from planmethod.commands.problems import Todo, through
+from planmethod.commands.processes import shared
+
+EX3 = path_of("linkages/ex3").read_text("utf-8")
+VARIANTS = """
+[variants.near]
+driver.phi = 25
+[variants.far]
+links.4.DE = 0.01
+"""
+"""The far one cannot be assembled."""
+
+
+@pytest.fixture
+def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """A linkage whose second variant fails, a file that is not there, a moving point."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ex3.toml").write_text(EX3 + VARIANTS, "utf-8")
+    return ["ex3.toml", "none.toml", str(PROBLEMS / "point/k11-01.toml")]
+
+
+def run(*args: str) -> Result:
+    return CliRunner().invoke(cli, args)
+
+
+def outcome(folder: Path, *args: str) -> tuple[int, str, str, dict[str, bytes]]:
+    done = run(*args)
+    made = {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
+    return done.exit_code, done.stdout, done.stderr, made
+
+
+@pytest.mark.parametrize(
+    "words", ["sheet --format pdf -o .", "solve --json", "lint --json", "check --key -o ."]
+)
+def test_two_processes_do_the_same_to_the_byte(
+    words: str, files: list[str], tmp_path: Path
+) -> None:
+    command, *rest = words.split()
+    args = [command, *files, "--all-variants", *rest]
+    one = outcome(tmp_path, *args)
+    code, said, told, made = outcome(tmp_path, *args, "--jobs", "2")
+    assert (code, said, told, made) == one
+    assert code == 3
+    assert "none.toml" in told
+    assert "far" in told or "ex3" in told
+    assert said
+
+
+def test_rows_of_two_processes_are_the_same(files: list[str]) -> None:
+    args = ("solve", files[0], "--all-variants", "--csv")
+    one, two = run(*args), run(*args, "--jobs", "2")
+    assert two.stdout == one.stdout
+    assert one.stdout.count("\n") == 2
+
+
+# Killed and interrupted --------------------------------------------------------------------------
+
+
+def killed_by(folder: str) -> Callable[[int], int]:
+    """Return what is killed by 2 always, and by 5 once."""
+
+    def work(number: int) -> int:
+        flag = Path(folder) / str(number)
+        if number == 2 or (number == 5 and not flag.exists()):
+            flag.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+        return number**2
+
+    return work
+
+
+def slow() -> Callable[[int], int]:
+    def work(number: int) -> int:
+        time.sleep(60.0 * number)
+        return number
+
+    return work
+
+
+def test_what_kills_its_process_loses_none_of_the_others(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = list(shared(range(8), 2, killed_by, str(tmp_path)))
+    assert found == [None if number == 2 else number**2 for number in range(8)]
+    assert (tmp_path / "5").exists()
+    assert "a process at work was killed" in capsys.readouterr().err
+
+
+def test_who_stops_early_leaves_no_process() -> None:
+    before = multiprocessing.active_children()
+    parts = shared(range(4), 2, slow)
+    assert next(parts) == 0
+    start = time.monotonic()
+    parts.close()  # type: ignore[attr-defined]
+    assert time.monotonic() - start < 30
+    assert multiprocessing.active_children() == before
+
+
+def test_an_interrupt_is_told_with_what_is_done(
+    files: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    def steps(todo: list[Todo]) -> Iterator[Callable[[], None]]:
+        yield lambda: None
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        through((Path(files[0]),), None, True, steps, kinds=True)
+    assert "Stopped: 1 of 2 problems are done" in capsys.readouterr().err
