@@ -110,8 +110,7 @@ def contact_sheet(tasks: list[Task], title: str) -> Drawing:
 def _first(task: Task) -> Solution:
     """Return a task solved in its first position, small enough for a cell."""
     problem = replace(load(home() / task.file), scales=Scales())
-    views = Views("", ROOM, ROOM, ROOM)
-    return Solution(problem, positions=problem.drive.positions[:1], views=views)
+    return Solution(problem, positions=problem.drive.positions[:1], views=Views.alone(ROOM))
 
 
 def document(tasks: list[Task]) -> dict[Path, bytes]:

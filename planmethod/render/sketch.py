@@ -35,7 +35,7 @@ from planmethod.solved.turn.turn import Turn, turn_of
 BOX = (180.0, 130.0)
 """Room that the scheme shall fill, mm."""
 
-VIEWS = Views("A4", BOX, BOX, BOX)
+VIEWS = Views.alone(BOX)
 """The same for whoever chooses the scale."""
 
 HEIGHT, SMALL, WIDTH, EDGE = 5.0, 3.5, 190.0, 6.0

@@ -63,6 +63,11 @@ class Views:
         return width / min(count, per_row(count)) - BESIDE, height / rows - UNDER
 
     @classmethod
+    def alone(cls, box: Box) -> Views:
+        """Return the room of a scheme that is drawn without a sheet around it."""
+        return cls("", box, box, box, kept=frozenset(MOTION))
+
+    @classmethod
     def for_paper(cls, paper: str, positions: int) -> Views:
         """Return the room on a format for one position, for a few or for many.
 
