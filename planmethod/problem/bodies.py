@@ -6,6 +6,7 @@ import cmath
 import math
 
 from planmethod.languages import say
+from planmethod.problem import keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.model import Body, PointForm
@@ -281,6 +282,10 @@ class _Placement:
                 more = next((b for b in bases if b not in {other for other, _ in known}), None)
                 second = f"{more}{point} = ..." if more else "a second distance"
                 side = say(' and {}.side = "left of {}"', point, line) if line else ""
+                if more:  # measured along the link, the length that is given is the whole answer
+                    (start, length), unit = known[0], keys.UNITS[self.faults.unit]
+                    at = f"{length.value * unit:.10g}"
+                    example = f'{point} = {{ on = "{start}{more}", at = {at} }}'
                 tail = say(", or use {}", example) if example else ""
                 self.faults.add(
                     f"{link.path}.points",

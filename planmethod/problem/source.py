@@ -12,13 +12,15 @@ from typing import Any
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
-from planmethod.problem.names import describe_lookalikes, fold, looks_latin, near
+from planmethod.problem.names import describe_lookalikes, fold, listed, looks_latin, near
 
 SIZE_LIMIT = 256 * 1024
 LINE_LIMIT = 8192
 DOT_LIMIT = 64
 DEPTH_LIMIT = 12
 
+_COMMA = re.compile(r"[^#\"\[{=]*=\s*([-+]?\d+),(\d+)")
+"""A number with a decimal comma (десятичная запятая) after its key."""
 _WHERE_RE = re.compile(
     r"^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$", re.S
 )
@@ -182,7 +184,11 @@ def _syntax_fault(message: str, lines: list[str]) -> Fault:
     number, column = map(int, re.findall(r"\d+", where))
     line = lines[number - 1] if number <= len(lines) else ""
     where = say("line {}, column {}", number, column)
-    return Fault(where, say("this is not TOML: {}", _lower(what)), _syntax_hint(what, line, column))
+    hint = _syntax_hint(what, line, column)
+    others = [str(n) for n, other in enumerate(lines, 1) if n != number and _COMMA.match(other)]
+    if _COMMA.match(line) and others:
+        hint = say("{} The same in lines: {}.", hint, listed(others))
+    return Fault(where, say("this is not TOML: {}", _lower(what)), hint)
 
 
 def _lower(what: str) -> str:
@@ -207,9 +213,11 @@ def _syntax_hint(what: str, line: str, column: int) -> str:
         return "The closing quote is missing."
     if code.count("[") > code.count("]"):
         return "The closing bracket is missing."
-    comma = re.search(r"=\s*([-+]?\d+),(\d+)", code)
+    comma = _COMMA.match(code)
     if comma:
         return say("Write {0}.{1} with a decimal point, not {0},{1}.", comma[1], comma[2])
+    if re.match(r"[^=]*=\s*[-+]?[\d.]+\s*(?:[^\W\d_]|°)", code):
+        return 'Write the number without its unit: units = "mm" says it once for all lengths.'
     if "=" not in code and not code.startswith("["):
         return "A line must be 'key = value' or '[table]'."
     if "overwrite" in what or "twice" in what:

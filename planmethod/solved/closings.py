@@ -120,10 +120,15 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
                 for rule, closing in zip(mine, judged, strict=True)
                 if closing.side != judged[0].side
             ]
-        elif group.signature != "RPR":
-            faults.append(_missing(group, both))
-        elif (untold := _untold(problem, group)) is not None:
-            faults.append(_missing(group, both, untold))
+        else:
+            untold = _untold(problem, group) if group.signature == "RPR" else None
+            if untold is None and group.signature == "RPR":
+                continue
+            try:
+                faults.append(_missing(group, both, positions, untold))
+            except PositionError:
+                if not faults:  # else an earlier group may stand on the side that is not meant
+                    raise
     for rule in problem.assembly:
         if rule.point not in used:
             faults.append(
@@ -315,34 +320,15 @@ def _judge(
 
 def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
     """Return the fault of a rule that both closings satisfy, with one that tells them apart."""
-
-    def at(reading: Reading, name: str) -> complex:
-        return complex(reading.point(PointName(name))[index])
-
-    (draft, _, one), (_, _, two) = both
-    c, d = at(one, rule.point), at(two, rule.point)
-    still = [p for p in sorted(draft.points()) if at(one, p) == at(two, p)]
-    ways = (("right of", "left of", 1), ("above", "below", -1j))
-    told = [
-        (min(sides), f"{more} {p}", f"{less} {p}")
-        for p in still
-        for first, second, turn in ways
-        for more, less, sign in ((first, second, turn), (second, first, -turn))
-        if min(sides := (((c - at(one, p)) * sign).real, ((at(one, p) - d) * sign).real)) > 0
+    draft = both[0][0]
+    c, d = (
+        complex(reading.point(PointName(rule.point))[index]) + draft.origin
+        for _, _, reading in both
+    )
+    places = [f"({z.real:.4g}, {z.imag:.4g})" for z in (c, d)]
+    words = _telling(rule.point, both, slice(index, index + 1)) or [
+        f"{{ near = [{z.real:.4g}, {z.imag:.4g}] }}" for z in (c, d)
     ]
-    # No point is between them: a line through two points may be.
-    told = told or [
-        (min(sides), f"left of {p}{q}", f"right of {p}{q}")
-        for p in still
-        for q in still
-        if (along := at(one, q) - at(one, p))
-        and min(sides := (((c - at(one, p)) / along).imag, -((d - at(one, p)) / along).imag)) > 0
-    ]
-    places = [f"({z.real:.4g}, {z.imag:.4g})" for z in (c + draft.origin, d + draft.origin)]
-    near = [
-        f"{{ near = [{z.real:.4g}, {z.imag:.4g}] }}" for z in (c + draft.origin, d + draft.origin)
-    ]
-    _, *words = max(told, key=lambda pair: pair[0], default=(0.0, *near))
     return Fault(
         f"assembly.{rule.point}",
         say(
@@ -355,6 +341,46 @@ def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
         ),
         say("Say '{}' for the first or '{}' for the second", words[0], words[1]),
     )
+
+
+def _telling(point: str, both: list[_Tried], asked: slice) -> list[str]:
+    """Return the rules, one for each closing, that tell them apart widest in all asked positions.
+
+    Empty where none does: neither beside a point that does not depend on the closing, nor beside a
+    line through two of them.
+    """
+
+    def at(reading: Reading, name: str) -> Complexes:
+        return reading.point(PointName(name))[asked]
+
+    def least(first: Complexes, second: Complexes) -> float:
+        sides = np.minimum(first.real, second.real)
+        return float(np.nanmin(sides)) if np.isfinite(sides).any() else 0.0
+
+    (draft, _, one), (_, _, two) = both
+    c, d = at(one, point), at(two, point)
+    still = [
+        p
+        for p in sorted(draft.points())
+        if p != point and np.array_equal(at(one, p), at(two, p), equal_nan=True)
+    ]
+    ways = (("right of", "left of", 1), ("above", "below", -1j))
+    told = [
+        (width, f"{more} {p}", f"{less} {p}")
+        for p in still
+        for first, second, turn in ways
+        for more, less, sign in ((first, second, turn), (second, first, -turn))
+        if (width := least((c - at(one, p)) * sign, (at(one, p) - d) * sign)) > 0
+    ]
+    # No point is between them: a line through two points may be.
+    told = told or [
+        (width, f"left of {p}{q}", f"right of {p}{q}")
+        for p in still
+        for q in still
+        if (along := at(one, q) - at(one, p)).all()
+        and (width := least((c - at(one, p)) / along / 1j, (at(one, p) - d) / along / 1j)) > 0
+    ]
+    return list(max(told, key=lambda pair: pair[0])[1:]) if told else []
 
 
 def _places(problem: Problem, both: list[_Tried], at: int) -> Iterator[complex]:
@@ -409,25 +435,35 @@ def _untold(problem: Problem, group: AssurGroup) -> Rule | None:
     return None
 
 
-def _missing(group: AssurGroup, both: list[_Tried], untold: Rule | None = None) -> Fault:
-    """Return the fault of a group whose closing nobody chose, with both ways to say it."""
+def _missing(group: AssurGroup, both: list[_Tried], positions: Reals, untold: Rule | None) -> Fault:
+    """Return the fault of a group whose closing nobody chose, with both ways to say it.
+
+    Raises
+    ------
+    PositionError
+        The group closes in no position: a rule would not help.
+    """
     c = inner_point(group) if untold is None else untold.point
     places = []
     for draft, _, reading in both:
         values = reading.point(PointName(c)) + draft.origin
         able = values[np.isfinite(values)]
-        places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})" if able.size else "nowhere")
+        if not able.size:
+            raise PositionError(explain(*both[0], positions, partial(_read, *both[0][:2])))
+        places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})")
     hint = say(
         'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) to [assembly]',
         c,
     )
+    words = [] if untold else _telling(c, both, slice(None))
     if untold is not None:
         ahead = [_score(untold, draft, reading) for draft, _, reading in both]
-        words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]
         sides = [float(np.nansum(score)) for score in ahead]
-        one, two = words if sides[0] > 0 else words[::-1]
-    if untold is not None and sides[0] * sides[1] < 0:  # both lie to one side if far off the line
-        hint = say('Add {} = "{}" for the first or "{}" for the second to [assembly]', c, one, two)
+        if sides[0] * sides[1] < 0:  # both lie to one side if far off the line
+            words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]
+            words = words if sides[0] > 0 else words[::-1]
+    if words:
+        hint = say('Add {} = "{}" for the first or "{}" for the second to [assembly]', c, *words)
     return Fault(
         f"assembly.{c}",
         say(

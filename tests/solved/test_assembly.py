@@ -149,8 +149,8 @@ def test_a_closing_without_a_rule_is_asked_for_with_both_places() -> None:
     (fault,) = faulty(four_bar(""))
     assert fault == (
         "assembly.C: links 2, 3 close in two ways, with C at (0.2826, 0.2761) or at "
-        '(0.1674, -0.1895) m, and no rule says which. Add C = "right of ..." (or left of, above, '
-        "below, or { near = [x, y] }) to [assembly]"
+        '(0.1674, -0.1895) m, and no rule says which. Add C = "above A" for the first or "below A" '
+        "for the second to [assembly]"
     )
     (fault,) = faulty(slider_crank(""))
     assert fault.startswith(
