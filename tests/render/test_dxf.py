@@ -460,7 +460,7 @@ def test_a_dxf_is_laid_off_as_cad_does_unless_another_hand_is_asked(tmp_path: Pa
 
     def lengths(*more: str) -> list[float]:
         assert CliRunner().invoke(cli, [*command, *more]).exit_code == 0
-        lines = ezdxf.readfile(tmp_path / "ex3.dxf").modelspace()
+        lines = read((tmp_path / "ex3.dxf").read_bytes()).modelspace()
         found = lines.query('LINE[layer=="PLAN_VECTORS"]')
         return sorted(abs(point(line.dxf.end) - point(line.dxf.start)) for line in found)
 
