@@ -25,6 +25,7 @@ LATE_OF = {
     "planmethod.note.tables.causes": "drafting errors",
     "planmethod.note.tables.forces": "forces",
     "planmethod.gears.audit": "printed values of gear trains",
+    "planmethod.gears.angles": "wheels with shifts",
     "planmethod.gears.drawn": "pens, for the sheets of gear trains alone",
     "planmethod.gears.figures": "answers of students",
     "planmethod.moving.figures": "answers of students",

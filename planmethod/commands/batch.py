@@ -35,8 +35,6 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-from planmethod.problem.source import read_source
-from planmethod.render.backends.output import write
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -126,7 +124,11 @@ def installed() -> str:
 @sheet_options
 @layout_option
 @click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
-@click.option("--sigma", is_flag=True, help="Show the drafting errors in the table of results.")
+@click.option(
+    "--sigma/--no-sigma",
+    default=None,
+    help="Show the drafting errors in the table of results.",
+)
 @click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
 @dxf_text_option
 @click.option("--sheets/--no-sheets", default=True, help="The sheets; made unless refused.")
@@ -221,6 +223,8 @@ def batch(
 
 def _hash(order: Order, phi: Positions | None) -> str:
     """Return what tells whether files are made of the same."""
+    from planmethod.problem.source import read_source
+
     one, problem = order.todo, order.todo.problem
     options = {**(order.sheets or {}), "phi": None if phi is None else phi.tolist()}
     parts = (
@@ -263,6 +267,8 @@ class Manifest:
 
     def add(self, order: Order, key: str, files: Mapping[str, bytes]) -> None:
         """Write the files of an order, then its line."""
+        from planmethod.render.backends.output import write
+
         for name, data in files.items():
             write(self.out / name, data)
             click.echo(str(self.out / name))
@@ -277,6 +283,8 @@ class Manifest:
     def close(self) -> None:
         """Write the lines in the order of names, and say what was done."""
         if self.made:
+            from planmethod.render.backends.output import write
+
             lines = (_line(told) for _, told in sorted(self._lines.items()))
             write(self.path, "".join(lines).encode())
         click.echo(say("{} made, {} there already.", self.made, self.kept))

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
 
 import click
+from click.core import ParameterSource
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
@@ -29,6 +30,7 @@ from planmethod.options import (
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from planmethod.construct.drafting import Profile
     from planmethod.kinds import Kind, KindProblem
     from planmethod.problem.model import Problem
     from planmethod.render.ink.drawing import Drawing
@@ -37,7 +39,9 @@ if TYPE_CHECKING:
 class _Draw(Protocol):
     """Draws the sheets of a problem as a part of a set."""
 
-    def __call__(self, *, before: int = 0, total: int | None = None) -> list[Drawing]: ...
+    def __call__(
+        self, *, before: int = ..., total: int | None = ..., hand: Profile = ...
+    ) -> list[Drawing]: ...
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -100,11 +104,18 @@ def sheet(
     positions = None if phi is None else phi.tolist()
     settled = asked.settle()
 
-    def drawn(problem: Problem, *, before: int = 0, total: int | None = None) -> list[Drawing]:
+    hand = drawn_by(profile, ruler)
+    asked_hand = click.get_current_context().get_parameter_source("profile")
+    # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
+    is_cad = asked_hand is ParameterSource.DEFAULT and ruler is None
+
+    def drawn(
+        problem: Problem, *, before: int = 0, total: int | None = None, hand: Profile = hand
+    ) -> list[Drawing]:
         return kinematics_sheets(
             problem,
             positions=positions,
-            profile=drawn_by(profile, ruler),
+            profile=hand,
             fields=asked.fields,
             furniture=Furniture.of(problem.sheet, before=before, total=total),
             errors=errors,
@@ -113,30 +124,41 @@ def sheet(
         )
 
     def drawn_other(
-        kind: Kind, problem: KindProblem, *, before: int = 0, total: int | None = None
+        kind: Kind,
+        problem: KindProblem,
+        *,
+        before: int = 0,
+        total: int | None = None,
+        hand: Profile = hand,
     ) -> list[Drawing]:
         refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma))
-        hand = drawn_by(profile, ruler)
         return kind.drawings(problem, fields=asked.fields, profile=hand, before=before, total=total)
 
     def written(
-        problem: Problem | KindProblem, drawings: list[Drawing], formats: Iterable[str]
+        problem: Problem | KindProblem,
+        draw: _Draw,
+        formats: Iterable[str],
+        drawings: list[Drawing] | None = None,
     ) -> None:
         author = asked.author(problem)
-        write_drawings(
-            drawings, out, stem(problem), formats, dpi=dpi, author=author, dxf_text=dxf_text
-        )
+        apart = {"dxf"} & {*formats} if is_cad else set()
+        for some in ([fmt for fmt in formats if fmt not in apart], sorted(apart)):
+            if some:
+                made = draw(hand=drawn_by("cad", None)) if some[0] in apart else drawings or draw()
+                write_drawings(
+                    made, out, stem(problem), some, dpi=dpi, author=author, dxf_text=dxf_text
+                )
 
     if one_file is None:
 
         def draw(problem: Problem) -> None:
             problem = settled(problem)
             tell_changes(problem, phi)
-            written(problem, drawn(problem), formats)
+            written(problem, partial(drawn, problem), formats)
 
         def draw_other(kind: Kind, problem: KindProblem) -> None:
             problem = settled(problem)
-            written(problem, drawn_other(kind, problem), formats)
+            written(problem, partial(drawn_other, kind, problem), formats)
 
         finish(each(problems, variant, all_variants, draw, draw_other, jobs=jobs))
         return
@@ -144,7 +166,8 @@ def sheet(
     whole: list[tuple[Problem | KindProblem, _Draw, list[Drawing]]] = []
 
     def gather(problem: Problem | KindProblem, draw: _Draw) -> None:
-        whole.append((problem, draw, draw(before=sum(len(some) for *_, some in whole))))
+        draw = partial(draw, before=sum(len(some) for *_, some in whole))
+        whole.append((problem, draw, draw()))
 
     def gather_one(problem: Problem) -> None:
         problem = settled(problem)
@@ -159,9 +182,10 @@ def sheet(
     if whole:
         # The first sheet says how many there are, which is known only now.
         first, draw_first, _ = whole[0]
-        whole[0] = (first, draw_first, draw_first(total=sum(len(some) for *_, some in whole)))
-        for one, _, drawings in whole:
-            written(one, drawings, [fmt for fmt in formats if fmt != "pdf"])
+        draw_first = partial(draw_first, total=sum(len(some) for *_, some in whole))
+        whole[0] = (first, draw_first, draw_first())
+        for one, draw_one, drawings in whole:
+            written(one, draw_one, [fmt for fmt in formats if fmt != "pdf"], drawings)
         pages = [drawing for *_, drawings in whole for drawing in drawings]
         write_set(pages, out / one_file, author=asked.author(first))
     finish(code)

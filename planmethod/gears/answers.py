@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from planmethod.gears.angles import spread
 from planmethod.gears.asked import Asked, parse
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.efficiency import efficiency
@@ -146,5 +145,7 @@ def _spread(motion: Motion, one: str, other: str) -> float | None:
             )
         )
         if train.toothed and x[1] + way * x[0]:
+            from planmethod.gears.angles import spread
+
             return spread(z[1] + way * z[0], x[1] + way * x[0], ALPHA)
     return None

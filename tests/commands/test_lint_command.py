@@ -37,7 +37,7 @@ def test_a_clean_sheet_is_done(tmp_path: Path) -> None:
     done = run(EX2, EX3)
     assert done.exit_code == ExitCode.DONE
     assert done.stdout.splitlines() == [
-        "ex2: лист 1 из 1, А2: замечаний нет",
+        "ex2: лист 1 из 1, А3: замечаний нет",
         "ex3: лист 1 из 1, А2: замечаний нет",
     ]
     assert list(tmp_path.iterdir()) == []
@@ -46,7 +46,7 @@ def test_a_clean_sheet_is_done(tmp_path: Path) -> None:
 def test_warnings_are_findings_only_when_strict() -> None:
     done = run(EX1)
     assert done.exit_code == ExitCode.DONE
-    assert "PM-D08 предупреждение: план ускорений; 4,83 мм, предел 5 мм" in done.stdout
+    assert "PM-D08 предупреждение: план ускорений; 4,80 мм, предел 5 мм" in done.stdout
     assert "Что делать: Впишите в [scales] mu_a = 4" in done.stdout
     assert run(EX1, "--strict").exit_code == ExitCode.FINDINGS
     assert run(EX2, "--strict").exit_code == ExitCode.DONE
@@ -66,7 +66,7 @@ def test_english() -> None:
     done = run(EX1, "--lang", "en", "--stamp", LONG)
     assert done.exit_code == ExitCode.FINDINGS
     assert "ex1: sheet 1 of 1, A3: errors 2, warnings 1" in done.stdout
-    assert "PM-D08 warning: acceleration plan; 4.83 mm, limit 5 mm" in done.stdout
+    assert "PM-D08 warning: acceleration plan; 4.80 mm, limit 5 mm" in done.stdout
     assert "Next: Write mu_a = 4 into [scales]" in done.stdout
 
 
@@ -101,7 +101,7 @@ def test_the_record() -> None:
     assert 20 < finding["where"]["x"] < 415
     assert 5 < finding["where"]["y"] < 292
     assert finding["value"] < finding["limit"] == 5.0
-    assert finding["facts"]["segments"] == [["bn_CB", pytest.approx(4.83, abs=0.01)]]
+    assert finding["facts"]["segments"] == [["bn_CB", pytest.approx(4.805, abs=0.01)]]
 
 
 def test_records_of_several_and_their_exit_code() -> None:

@@ -26,6 +26,7 @@ from reading import Run, read_dxf
 from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of
 
 from planmethod.cli import cli
+from planmethod.construct.drafting import PROFILES
 from planmethod.mechanism.structure import analyse
 from planmethod.plans.model import PlanKind, VectorKind
 from planmethod.render.backends import Options, render
@@ -189,21 +190,23 @@ def solved_while(draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch) -
 def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sheets, solution = solved_while(lambda: kinematics_sheets(problem_of(name)), monkeypatch)
+    # As the command draws for DXF: by a hand that lays off to 0.01 mm.
+    cad = PROFILES["cad"]
+    sheets, solution = solved_while(
+        lambda: kinematics_sheets(problem_of(name), profile=cad), monkeypatch
+    )
     lines = [
         (point(line.dxf.start), point(line.dxf.end))
         for drawing in sheets
         for line in read(render(drawing, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
     ]
-    told = [
-        (float(segment.read[0]), float(segment.exact[0]))
+    exact = [
+        segment.exact[0] * solution.scales[kind].per_mm / solution.own_scale(kind, 0).per_mm
         for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
         for segment in solution.segments(kind)
     ]
-    found = [abs(b - a) for a, b in lines]
-    assert len(found) == sum(exact >= 0.3 for _, exact in told)
-    for length in found:  # half a division of the ruler
-        assert min(abs(length - read) for read, _ in told) <= 0.25 + 1e-6
+    drawn = sorted(length for length in exact if length >= 0.3)
+    assert sorted(abs(b - a) for a, b in lines) == pytest.approx(drawn, abs=0.05)
 
 
 @pytest.mark.parametrize("name", ["levers/six-link", "levers/task12", "press/press"])
@@ -450,3 +453,22 @@ def test_the_document_lists_the_layers_as_they_are() -> None:
     text = (ROOT / "docs" / "dxf.md").read_text(encoding="utf-8")
     rows = re.findall(r"(?m)^\| `(\w+)` \|.*\| ([\d.]+) \|$", text)
     assert rows == [(name, f"{PENS[pen].width:g}") for name, pen in LAYERS.items()]
+
+
+def test_a_dxf_is_laid_off_as_cad_does_unless_another_hand_is_asked(tmp_path: Path) -> None:
+    command = ["sheet", str(path_of("linkages/ex3")), "--format", "svg,dxf", "-o", str(tmp_path)]
+
+    def lengths(*more: str) -> list[float]:
+        assert CliRunner().invoke(cli, [*command, *more]).exit_code == 0
+        lines = read((tmp_path / "ex3.dxf").read_bytes()).modelspace()
+        found = lines.query('LINE[layer=="PLAN_VECTORS"]')
+        return sorted(abs(point(line.dxf.end) - point(line.dxf.start)) for line in found)
+
+    solution = Solution(problem_of("linkages/ex3"))
+    exact = sorted(
+        float(segment.exact[0])
+        for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
+        for segment in solution.segments(kind)
+    )
+    assert lengths() == pytest.approx(exact, abs=0.02)
+    assert lengths("--profile", "board") != pytest.approx(exact, abs=0.1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from functools import cache
 from inspect import signature
 from pathlib import Path
@@ -19,6 +20,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Builder, Program
 from planmethod.plans.model import PlanKind
 from planmethod.problem import load, loads
+from planmethod.problem.model import Scales
 from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.errors.motion import Drafting, drafting_of
@@ -311,7 +313,9 @@ def test_the_documented_strokes_err_by_what_they_do() -> None:
 
 def test_sigma_exists_wherever_the_exact_value_does() -> None:
     """S3 stands at its own pivot: a line through both has no direction, and nothing needs it."""
-    solution = Solution(load(CASES / "point-at-pivot.toml"))
+    # At a scale where no other segment is nearly nothing.
+    scales = Scales(mu_l=0.002, mu_v=0.01, mu_a=0.4)
+    solution = Solution(replace(load(CASES / "point-at-pivot.toml"), scales=scales))
     for errors in (drafting_of(solution), drawn_forces(statics_of(solution))):
         for label, spread in errors.spreads.items():
             assert np.isfinite(spread.sigma).all(), label
@@ -319,7 +323,8 @@ def test_sigma_exists_wherever_the_exact_value_does() -> None:
                 assert not spread.drawn.any(), label
     text = (CASES / "point-at-pivot.toml").read_text("utf-8")
     text = text.replace('S3 = { from = "C", at = 0 }\n', "").replace('["C", "S3"]', '["C"]')
-    pivot = Solution(loads(text.replace('centre = "S3"', 'centre = "C"'), name="pivot"))
+    other = loads(text.replace('centre = "S3"', 'centre = "C"'), name="pivot")
+    pivot = Solution(replace(other, scales=scales))
     whole = drawn_forces(statics_of(solution)).spreads
     for label, spread in drawn_forces(statics_of(pivot)).spreads.items():
         assert spread.sigma == pytest.approx(whole[label].sigma), label
