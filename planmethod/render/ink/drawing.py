@@ -113,13 +113,15 @@ class Span:
     """One segment of a plan as it lies on the sheet (отрезок плана).
 
     ``name`` is its letters, ``position`` the number of the position as the sheet has it (None when
-    there is one), ``start`` and ``end`` are mm.
+    there is one), ``start`` and ``end`` are mm; ``share`` tells how many times larger than by the
+    scale of its view it is drawn: a plan may have a scale of its own.
     """
 
     name: str
     position: int | None
     start: complex
     end: complex
+    share: float = 1.0
 
     @property
     def length(self) -> float:

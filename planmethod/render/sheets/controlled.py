@@ -141,15 +141,16 @@ class _Trial:
         views = _views(self.drawings, finding.view)
         number = next(k for k, view in enumerate(views) if _has(view, finding))
         own = views[number : number + 1]
-        per_mm, written = self._mending(own[0].per_mm, finding.value)
+        now = own[0].per_mm / _spans(own, finding)[0].share
+        per_mm, written = self._mending(now, finding.value)
         advice = "nothing"
-        if own[0].per_mm / per_mm <= LARGEST:
+        if now / per_mm <= LARGEST:
             advice = "own"
             for group, chosen in ((views, slice(None)), (own, slice(number, number + 1))):
                 found = _spans(group, finding)
                 spans = [span for span in found if span.length * LARGEST >= SHORTEST]
                 least = min(span.length for span in spans)
-                wanted, text = self._mending(own[0].per_mm, least)
+                wanted, text = self._mending(now, least)
                 names = frozenset(span.name for span in spans)
                 if self._fits(finding, key, wanted, chosen, names):
                     advice, written = "scale", text

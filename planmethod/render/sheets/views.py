@@ -100,6 +100,7 @@ def plan_spans(
             position,
             pole + at[vector.tail],
             pole + at[vector.head],
+            solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm,
         )
         for vector in named.values()
     ]
