@@ -27,8 +27,8 @@ def pytest_configure(config: pytest.Config) -> None:
     gc.set_threshold(100_000)
 
 
-DRAWN = ("render/", "test_sheets.py", "note/", "gears/", "moving/", "check/test_drawn", "commands/")
-"""Where a case takes long, and many cases of a test show the same."""
+WHOLE = ("contracts/", "construct/", "note/test_messages.py")
+"""Where every case is its own claim; elsewhere many cases of a test show the same."""
 
 MANY = 4
 
@@ -40,7 +40,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     found: dict[str, list[pytest.Item]] = {}
     for item in items:
         name, bracket, _ = item.nodeid.partition("[")
-        if bracket and name.removeprefix("tests/").startswith(DRAWN):
+        if bracket and not name.removeprefix("tests/").startswith(WHOLE):
             found.setdefault(name, []).append(item)
     left: set[int] = set()
     for own in found.values():
