@@ -145,8 +145,7 @@ def hand_options(command: F) -> F:
     command = click.option(
         "--profile",
         type=click.Choice(["cad", "board", "coarse"]),
-        default="board",
-        show_default=True,
+        show_default="board",
         help="How well the plans are drawn: with CAD, on a board, in haste.",
     )(command)
     return _ruler_option(
@@ -155,11 +154,11 @@ def hand_options(command: F) -> F:
     )(command)
 
 
-def drawn_by(profile: str, ruler: float | None) -> Profile:
-    """Return the hand of a profile, with another ruler if one is given."""
+def drawn_by(profile: str | None, ruler: float | None, *, usual: str = "board") -> Profile:
+    """Return the hand of a profile, of the usual one if none is asked, with a ruler if one is."""
     from planmethod.construct.drafting import PROFILES
 
-    hand = PROFILES[profile]
+    hand = PROFILES[profile or usual]
     return hand if ruler is None else replace(hand, ruler=ruler)
 
 
@@ -225,6 +224,26 @@ def format_option(default: str) -> Callable[[F], F]:
         )(command)
 
     return add
+
+
+def drawing_options(command: F) -> F:
+    """Add what is shown of the drafting errors, and how formats are written."""
+    for option in (
+        dxf_text_option,
+        click.option(
+            "--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG."
+        ),
+        click.option(
+            "--sigma/--no-sigma",
+            default=None,
+            help="Show the drafting errors in the table of results.",
+        ),
+        click.option(
+            "--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma."
+        ),
+    ):
+        command = option(command)
+    return command
 
 
 def dxf_text_option(command: F) -> F:

@@ -27,7 +27,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.languages import LANGUAGES, say, speaking, spoken
 from planmethod.options import (
     Positions,
-    dxf_text_option,
+    drawing_options,
     format_option,
     jobs_option,
     layout_option,
@@ -123,14 +123,7 @@ def installed() -> str:
 @format_option("pdf")
 @sheet_options
 @layout_option
-@click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
-@click.option(
-    "--sigma/--no-sigma",
-    default=None,
-    help="Show the drafting errors in the table of results.",
-)
-@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
-@dxf_text_option
+@drawing_options
 @click.option("--sheets/--no-sheets", default=True, help="The sheets; made unless refused.")
 @click.option("--keys", is_flag=True, help="The key of every variant, too: PDF and XLSX.")
 @click.option(

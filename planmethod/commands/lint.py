@@ -50,7 +50,7 @@ def lint(
     all_variants: bool,
     phi: Positions | None,
     ruler: float | None,
-    profile: str,
+    profile: str | None,
     asked: Asked,
     layout: str | None,
     errors: bool,

@@ -42,7 +42,7 @@ def protocol(
     all_variants: bool,
     phi: Positions | None,
     ruler: float | None,
-    profile: str,
+    profile: str | None,
     out: Path | None,
     position: int,
     lang: str,

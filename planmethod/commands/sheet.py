@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
 
 import click
-from click.core import ParameterSource
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
@@ -17,8 +16,8 @@ from planmethod.commands.watch import watch_option
 from planmethod.languages import say
 from planmethod.options import (
     Positions,
+    drawing_options,
     drawn_by,
-    dxf_text_option,
     format_option,
     jobs_option,
     layout_option,
@@ -65,14 +64,7 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     help="All sheets in one PDF, numbered consecutively, not one PDF for each problem; "
     "by one process.",
 )
-@click.option("--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma.")
-@click.option(
-    "--sigma/--no-sigma",
-    default=None,
-    help="Show the drafting errors in the table of results.",
-)
-@click.option("--dpi", type=click.IntRange(30, 600), default=100, show_default=True, help="Of PNG.")
-@dxf_text_option
+@drawing_options
 @jobs_option
 @watch_option(draws=True)
 @guarded
@@ -82,7 +74,7 @@ def sheet(
     all_variants: bool,
     phi: Positions | None,
     ruler: float | None,
-    profile: str,
+    profile: str | None,
     out: Path,
     formats: tuple[str, ...],
     asked: Asked,
@@ -105,9 +97,8 @@ def sheet(
     settled = asked.settle()
 
     hand = drawn_by(profile, ruler)
-    asked_hand = click.get_current_context().get_parameter_source("profile")
     # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
-    is_cad = asked_hand is ParameterSource.DEFAULT and ruler is None
+    cad = drawn_by(None, None, usual="cad") if profile is None and ruler is None else None
 
     def drawn(
         problem: Problem, *, before: int = 0, total: int | None = None, hand: Profile = hand
@@ -141,10 +132,10 @@ def sheet(
         drawings: list[Drawing] | None = None,
     ) -> None:
         author = asked.author(problem)
-        apart = {"dxf"} & {*formats} if is_cad else set()
-        for some in ([fmt for fmt in formats if fmt not in apart], sorted(apart)):
+        apart = [fmt for fmt in formats if fmt == "dxf" and cad is not None]
+        for some in ([fmt for fmt in formats if fmt not in apart], apart):
             if some:
-                made = draw(hand=drawn_by("cad", None)) if some[0] in apart else drawings or draw()
+                made = draw(hand=cad) if some is apart and cad else drawings or draw()
                 write_drawings(
                     made, out, stem(problem), some, dpi=dpi, author=author, dxf_text=dxf_text
                 )

@@ -122,7 +122,7 @@ def solve(
     all_variants: bool,
     phi: Positions | None,
     ruler: float | None,
-    profile: str,
+    profile: str | None,
     as_json: bool,
     csv_file: str | None,
     npz_file: str | None,

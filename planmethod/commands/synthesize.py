@@ -134,7 +134,7 @@ def synthesize(
     drawn: bool,
     formats: tuple[str, ...],
     ruler: float | None,
-    profile: str,
+    profile: str | None,
     dxf_text: Literal["text", "strokes"],
     dpi: int,
     asked: Asked,
