@@ -458,6 +458,8 @@ class SheetSettings:
         Type of the lettering: ``A``, ``A-upright``, ``B`` or ``B-upright``.
     lang : str, optional
         Language of the sheets: ``ru`` or ``en``.
+    traces : bool, optional
+        Whether the traces of the construction are drawn.
     """
 
     paper: str | None = None
@@ -467,6 +469,7 @@ class SheetSettings:
     side_columns: bool | None = None
     lettering: str | None = None
     lang: str | None = None
+    traces: bool | None = None
 
     def over(self, lower: SheetSettings) -> SheetSettings:
         """Return these settings, and those of ``lower`` where these say nothing."""
