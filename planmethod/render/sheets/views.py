@@ -18,6 +18,7 @@ from planmethod.render.pictures.ellipses import ellipse_inscription
 from planmethod.render.pictures.planview import POLE, plan_picture, plan_places
 from planmethod.render.pictures.positions import bold_position
 from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.pictures.traces import shown_traces
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.solved.scaling import per_row
@@ -117,6 +118,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
         overlay=() if alone else tuple(indices),
         errors=manner.extras.errors,
         turn=manner.extras.turn,
+        traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
     )
     kind = PlanKind.POSITION
     block = _with_scale(solution, kind, picture, manner, (bold,))
@@ -145,6 +147,7 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
             letter_height=manner.letter,
             errors=errors,
             by_hand=not errors,
+            traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
         )
     block = _with_scale(solution, kind, picture, manner, indices)
     return PlanViewed(
