@@ -228,7 +228,7 @@ def _write_rows(
                 f'-ABS({worth}))<={_AGREE}*ABS({worth}),"{words.agrees}","{words.differs}"),""))',
             )
         if positions:
-            sheet.cell(row, 10, entry.position + 1)
+            sheet.cell(row, 10, entry.position)
 
 
 _TURNING = ("1/s", "1/s²", "N·m")

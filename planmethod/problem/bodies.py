@@ -10,7 +10,7 @@ from planmethod.problem import keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.model import Body, PointForm
-from planmethod.problem.names import listed
+from planmethod.problem.names import listed, told_length
 
 COLLINEAR = 1e-9
 """Relative slack within which two distances are taken to put a point on the line."""
@@ -217,7 +217,8 @@ class _Placement:
         a, b = r1.value, r2.value
         size = max(a, b, d)
         slack = COLLINEAR * size
-        given = say("{} = {:g} m, {} = {:g} m, |{}{}| = {:g} m", r1.key, a, r2.key, b, one, two, d)
+        said = [told_length(length, self.faults.unit, 6) for length in (a, b, d)]
+        given = f"{r1.key} = {said[0]}, {r2.key} = {said[1]}, |{one}{two}| = {said[2]}"
         if d <= slack or d > a + b + slack or d < abs(a - b) - slack:
             raise _ContradictionError(
                 f"{self.link.path}.{r2.key}",
@@ -343,12 +344,12 @@ class _Placement:
                 self.faults.add(
                     f"{self.link.path}.{length.key}",
                     say(
-                        "{} = {:g} m, but the other data of the link put {} and {} {:g} m apart",
+                        "{} = {}, but the other data of the link put {} and {} {} apart",
                         length.key,
-                        length.value,
+                        told_length(length.value, self.faults.unit, 6),
                         length.a,
                         length.b,
-                        got,
+                        told_length(got, self.faults.unit, 6),
                     ),
                     "Remove or correct one of them.",
                 )

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.problem.names import told_length
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -156,9 +157,11 @@ class Coordinate:
     rates: tuple[str, str]
     turn: float
 
-    def told(self, value: str) -> str:
-        """Return a value for a message: ``phi = 20 deg``."""
-        return f"{self.name} = {value} {say(self.unit)}"
+    def told(self, value: float, unit: str, digits: int = 12) -> str:
+        """Return a value for a message, lengths in the unit of the file: ``phi = 20 deg``."""
+        if self.unit == "m":
+            return f"{self.name} = {told_length(value, unit, digits)}"
+        return f"{self.name} = {value:.{digits}g} {say(self.unit)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -455,6 +458,8 @@ class SheetSettings:
         Type of the lettering: ``A``, ``A-upright``, ``B`` or ``B-upright``.
     lang : str, optional
         Language of the sheets: ``ru`` or ``en``.
+    traces : bool, optional
+        Whether the traces of the construction are drawn.
     """
 
     paper: str | None = None
@@ -464,6 +469,7 @@ class SheetSettings:
     side_columns: bool | None = None
     lettering: str | None = None
     lang: str | None = None
+    traces: bool | None = None
 
     def over(self, lower: SheetSettings) -> SheetSettings:
         """Return these settings, and those of ``lower`` where these say nothing."""

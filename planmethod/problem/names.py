@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from planmethod.languages import say
+from planmethod.languages import say, typed
+from planmethod.problem.keys import UNITS
 
 POINT_NAME_LIMIT = 8
 NAME_LIMIT = 24
@@ -32,6 +33,20 @@ _POINT_RE = re.compile(rf"{_POINT}\Z")
 _POINT_FIND, _POINTS_RE = re.compile(_POINT), re.compile(rf"(?:{_POINT})+\Z")
 _PAIR_RE = re.compile(rf"({_POINT})({_POINT})\Z")
 _LABEL_RE = re.compile(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
+
+
+_LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm"}
+
+
+def told_length(metres: float, unit: str, digits: int = 4) -> str:
+    """Return a length for a message, in the unit of its file: ``190 mm``."""
+    return say(_LENGTHS[unit], f"{metres * UNITS[unit]:.{digits}g}")
+
+
+def told_place(place: complex, unit: str) -> str:
+    """Return a place in the unit of its file, as the file has it: ``310, 120``."""
+    z = place * UNITS[unit]
+    return f"{z.real:.4g}, {z.imag:.4g}"
 
 
 def fold(text: str) -> str:
@@ -108,6 +123,10 @@ def near(name: str, known: Iterable[str]) -> str | None:
     from difflib import get_close_matches
 
     choices = list(dict.fromkeys(known))
+    words = (name.casefold(), name.casefold().rstrip("_0123456789₀₁₂₃₄₅₆"))
+    for choice in (key for word in words for key in typed().get(word, ())):
+        if choice in choices:
+            return choice
     folded = fold(name).casefold()
     for choice in choices:
         if choice.casefold() == folded:

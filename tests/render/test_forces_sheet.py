@@ -28,6 +28,7 @@ from planmethod.plans.model import Known
 from planmethod.problem.model import FORCE, MOMENT, Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
+from planmethod.render.forces.arms import ARM
 from planmethod.render.forces.arrows import Acting, distance, lay_forces
 from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
@@ -353,6 +354,29 @@ def test_the_lever_is_in_balance(name: str) -> None:
             assert abs((link.conjugate() * (end - start)).imag) < 1e-6 * abs(link) * abs(
                 end - start
             )
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_each_arm_is_a_perpendicular_of_the_length_that_is_read(name: str) -> None:
+    """On cut links and on the lever, each arm of the equations, none of other lengths."""
+    reading, lever = reading_of(name), LeverReading(reading_of(name))
+    read = [abs(force.arm) for force in lever.forces]
+    for plan in reading.plans:
+        for equation in plan.moments:
+            read += [abs(reading.arm(edge, equation.about)) for edge in equation.edges]
+    lines = [
+        i for i in sheet_of(name).items if isinstance(i, Stroke) and i.tag.startswith(f"{ARM} ")
+    ]
+    lengths = [abs(line.points[1] - line.points[0]) for line in lines]
+    for arm in filter(lambda one: one > 4.0, read):
+        assert min(abs(length - arm) for length in lengths) < 0.3
+    for length in lengths:
+        assert min(abs(length - arm) for arm in read) < 0.3
+    corners = [
+        i.points for i in sheet_of(name).items if isinstance(i, Stroke) and "right angle" in i.tag
+    ]
+    assert len(corners) >= len(lines)
+    assert all(abs(((a - b) / (c - b)).real) < 1e-9 for a, b, c in corners)
 
 
 @pytest.mark.parametrize("name", LOADED)

@@ -77,11 +77,17 @@ def test_blocks_keep_clear_of_each_other_and_of_the_frame() -> None:
     check(found)
 
 
-def test_the_last_block_stands_on_the_title_block() -> None:
-    found = boxes(ONE_POSITION)
-    assert found is not None
-    assert found[-1][1] == pytest.approx(STAMP[3] + GAP / 2)
-    assert found[-1][2] == pytest.approx(INNER[2] - EDGE)
+def test_the_last_block_stands_on_the_title_block_a_wide_and_low_one_beside_it() -> None:
+    high = Group((*ONE_POSITION.members[:-1], part(260, 130)))
+    for whole, right, low in (
+        (ONE_POSITION, STAMP[0] - GAP / 2, INNER[1] + EDGE),
+        (high, INNER[2] - EDGE, STAMP[3] + GAP / 2),
+    ):
+        found = boxes(whole)
+        assert found is not None
+        check(found)
+        assert found[-1][1] == pytest.approx(low)
+        assert found[-1][2] == pytest.approx(right)
 
 
 def test_no_block_stands_among_those_of_a_group() -> None:

@@ -113,7 +113,7 @@ def key_xlsx(keys: Sequence[Key], words: Language) -> bytes:
             rows.append(
                 [
                     row.key.variant,
-                    row.position + 1,
+                    row.position,
                     entry.label,
                     told(entry.exact, entry),
                     entry.tolerance,

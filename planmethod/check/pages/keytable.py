@@ -159,7 +159,7 @@ class KeyPage:
         """Return what a row begins with: variant, and position where there are several."""
         several = len({r.position for r in self.rows()}) > 1
         lead = [row.key.variant] if row.key.variant else []
-        lead += [self.say.position.format(position=row.position + 1)] if several else []
+        lead += [self.say.position.format(position=row.position)] if several else []
         return ", ".join(lead) or "—"
 
     def _value(self, entry: KeyEntry) -> str:

@@ -177,7 +177,7 @@ def _caption(plan: Overlay, positions: int, words: Language) -> str:
     name = say.plan_names[plan.kind.value]
     caption = say.plan_title.format(plan=name[:1].upper() + name[1:], scale=plan.scale)
     if positions > 1:
-        caption += f", {say.position.format(position=plan.index + 1)}"
+        caption += f", {say.position.format(position=plan.index)}"
     return caption
 
 

@@ -33,6 +33,7 @@ class Wording:
     title_protocol: str
     title_results: str
     source: str
+    one_position: str
     position: str
     formula: str
     given: str

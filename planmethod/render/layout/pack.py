@@ -12,13 +12,14 @@ fit, that of the least cost is taken, of equals the first. The cost is the sum o
 
 Views stand in the middle of their boxes. Neighbouring texts stand together: set to one left edge
 under one another, to one upper edge side by side. The last block stands on the title block in the
-lower right corner.
+lower right corner, or to the left of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.ink.extent import overlap
@@ -59,7 +60,7 @@ def pack(
     Parameters
     ----------
     whole : Group
-        The blocks in reading order; the last one stands directly above the title block.
+        The blocks in reading order; the last one stands above the title block or left of it.
     inner, stamp : Bounds, mm
         Inside of the frame, and the title block in its lower right corner.
     taken : sequence of Bounds, mm
@@ -78,45 +79,68 @@ def _packed(
     whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
 ) -> list[complex] | None:
     """Return the corners of the cheapest cutting of a group, if one fits."""
+    found = [
+        option
+        for corner in _last_corners(whole, inner, stamp)
+        for option in _options(whole, inner, stamp, taken, corner)
+    ]
+    if not found:
+        return None
+    found.sort(key=lambda option: option.cost)
+
+    def cost(option: _Option) -> float:
+        boxes = [box_of(unit) for unit in option.units[:-1]]
+        return option.cost + VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
+
+    best = min(found[:_LOOKED_AT], key=cost)
+    corners = dict(corner for unit in best.units for corner in corners_of(unit))
+    corners[len(corners) - 1] = complex(best.last[0], best.last[3])
+    return [corners[number] for number in range(len(corners))]
+
+
+def _last_corners(whole: Group, inner: Bounds, stamp: Bounds) -> list[complex]:
+    """Return where the last block may go: above the title block, a wide one to the left of it."""
+    *_, last = whole.parts()
+    wide, high = last.block.width, last.block.height
+    above = complex(inner[2] - EDGE - wide, stamp[3] + GAP / 2 + high)
+    beside = complex(stamp[0] - GAP / 2 - wide, inner[1] + EDGE + high)
+    # Beside the title block a high one would leave white above that.
+    low = high - (stamp[3] - stamp[1]) < (more := wide - (stamp[2] - stamp[0]))
+    return [above, beside] if low and more > 0.0 and beside.real >= inner[0] + EDGE else [above]
+
+
+class _Option(NamedTuple):
+    """A cutting that fits: its cost without empty rectangles, its units, the last block's box."""
+
+    cost: float
+    units: list[Unit]
+    last: Bounds
+
+
+def _options(
+    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds], corner: complex
+) -> Iterator[_Option]:
+    """Yield the cuttings that fit with the last block in a certain place."""
     parts = tuple(whole.parts())
     room = (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
     leaves = [Leaf(k, p.block.width, p.block.height, p.text) for k, p in enumerate(parts)]
-    # The last block and the title block under it are one leaf.
-    leaves[-1] = Leaf(
-        len(leaves) - 1,
-        max(leaves[-1].width, min(stamp[2] - stamp[0] - EDGE, room[0])),
-        leaves[-1].height + (stamp[3] - stamp[1]) - EDGE + GAP / 2,
-        text=False,
-    )
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
-    last = complex(box[2] - parts[-1].block.width, stamp[3] + GAP / 2 + parts[-1].block.height)
-    place = (last.real, stamp[3], box[2], last.imag)
+    opposite = corner + complex(leaves[-1].width, -leaves[-1].height)
+    last = (corner.real, opposite.imag, opposite.real, corner.imag)
+    # The last block and the title block are one leaf.
+    wide = max(box[2] - corner.real, min(stamp[2] - stamp[0] - EDGE, room[0]))
+    leaves[-1] = Leaf(len(parts) - 1, wide, max(corner.imag, stamp[3]) - box[1], text=False)
     turns = _turns(whole)
-    found: list[tuple[float, list[Unit]]] = []
-    for node in (
-        node
-        for asked in (whole, *_with_the_last(whole))
-        for node in cuttings(asked, iter(leaves), room, whole=True)
-    ):
-        units = list(units_of(node, box, anchored=True))
-        if taken:
-            moved = [_clear(unit, taken) for unit in units[:-1]]
-            if None in moved or any(overlap(place, other, CLEAR) for other in taken):
-                continue
-            units = [*(unit for unit in moved if unit is not None), units[-1]]
-        found.append((_unevenness(units, room) + BACK * _way_back(units, turns, room), units))
-    found.sort(key=lambda pair: pair[0])
-
-    def cost(pair: tuple[float, list[Unit]]) -> float:
-        boxes = [box_of(unit) for unit in pair[1][:-1]]
-        return pair[0] + VOID * emptiest_share([*boxes, place, stamp, *taken], inner)
-
-    if not found:
-        return None
-    _, units = min(found[:_LOOKED_AT], key=cost)
-    corners = dict(corner for unit in units for corner in corners_of(unit))
-    corners[len(parts) - 1] = last
-    return [corners[number] for number in range(len(parts))]
+    for asked in (whole, *_with_the_last(whole)):
+        for node in cuttings(asked, iter(leaves), room, whole=True):
+            units = list(units_of(node, box, anchored=True))
+            if taken:
+                moved = [_clear(unit, taken) for unit in units[:-1]]
+                if None in moved or any(overlap(last, other, CLEAR) for other in taken):
+                    continue
+                units = [*(unit for unit in moved if unit is not None), units[-1]]
+            cost = _unevenness(units, room) + BACK * _way_back(units, turns, room)
+            yield _Option(cost, units, last)
 
 
 def _with_the_last(whole: Group) -> Iterator[Group]:

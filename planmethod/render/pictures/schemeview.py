@@ -26,6 +26,7 @@ from planmethod.render.pictures.extremes import construction_items
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.positions import Positions
 from planmethod.render.pictures.scheme import Scheme
+from planmethod.render.pictures.traces import Shown, scheme_traces
 from planmethod.render.symbols import SIZES, angle_of, before_links, turn_arrow
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
@@ -275,6 +276,7 @@ def scheme_picture(
     errors: bool = False,
     turn: bool = False,
     bare: bool = False,
+    traces: Shown = False,
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
@@ -282,11 +284,13 @@ def scheme_picture(
     arrows of the links but the driver's, and its angle, are left to the single position.
     ``errors`` draws the ellipses of the drafting error around the moving points, ``turn`` the
     construction of the extreme positions. ``bare`` leaves out what tells of the motion: arrows, the
-    angle of the driver, letters of the axes.
+    angle of the driver, letters of the axes. ``traces`` is told by
+    `planmethod.render.pictures.traces`.
     """
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
     scheme.draw_joints()
+    scheme.guides += scheme_traces(solution, index, scheme.factor, traces)
     view = _View(scheme)
     many = len(overlay) > 1
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()

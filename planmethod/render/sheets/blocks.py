@@ -57,9 +57,9 @@ _FORCE_TEXT = ("height", "width", "position")
 
 BLOCKS: Mapping[str, Kind] = MappingProxyType(
     {
-        "scheme": Kind(scheme_view, _VIEW),
+        "scheme": Kind(scheme_view, (*_VIEW, "traces")),
         "statement": Kind(statement_block, _TEXT),
-        "plan": Kind(plan_view, ("of", *_VIEW, "per_row")),
+        "plan": Kind(plan_view, ("of", *_VIEW, "per_row", "traces")),
         "equations": Kind(equations_block, ("of", *_TEXT)),
         "calculation": Kind(calculation_block, ("of", "title", "height", "position")),
         "results": Kind(results_block, (*_TEXT, "columns")),

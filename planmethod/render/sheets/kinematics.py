@@ -75,6 +75,12 @@ class _Task:
         asked = self.problem.scales
         solution = self.solved(views, asked)
         pages = self.pages(solution, paper, per_sheet)
+        if pages is not None and self.extras.traces and any(page.tried[0] for page in pages):
+            # The traces of the construction are not to push out what explains it.
+            without = replace(self, extras=replace(self.extras, traces=False))
+            bare = without.pages(solution, paper, per_sheet)
+            if bare is not None and not any(page.tried[0] for page in bare):
+                return without.on(paper, per_sheet)
         if pages is not None and self.layout.grow:
 
             def draw(scales: Scales) -> list[Page] | None:

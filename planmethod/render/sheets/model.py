@@ -63,6 +63,8 @@ class Entry:
         The only position that is shown.
     columns : tuple of str
         Kinds of columns of a table: v, ω, a, ε; empty for all.
+    traces : bool or tuple of str, optional
+        Traces of the construction: all, none, or those of the points with these letters.
     number : int
         Which of the force plans, from 0: the blocks of one are made for each of them.
     """
@@ -81,6 +83,7 @@ class Entry:
     per_row: int | None = None
     position: int | None = None
     columns: tuple[str, ...] = ()
+    traces: bool | tuple[str, ...] | None = None
     number: int = 0
 
 
@@ -154,13 +157,15 @@ class Extras:
 
     ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
     results of one position alone. ``turn``: it is that of a turn, and the scheme has the
-    construction of the extreme positions.
+    construction of the extreme positions. ``traces``: there is room for those of the construction
+    where nobody asks for them.
     """
 
     words: Language
     errors: bool = False
     sigma: bool | None = None
     turn: bool = False
+    traces: bool = True
 
 
 @dataclass(frozen=True, slots=True)

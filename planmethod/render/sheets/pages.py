@@ -20,7 +20,7 @@ from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
 from planmethod.solved.solution import Solution
 
-Tried: TypeAlias = tuple[bool, int, tuple[int, ...]]
+Tried: TypeAlias = tuple[bool, int, int]
 
 MOST_EXTRA = 4
 """Sheets that one sheet of a composition may take on a format that was asked for."""
@@ -47,7 +47,7 @@ class Page:
     items: list[Item]
     views: list[View]
     title: str = ""
-    tried: Tried = (False, 0, ())
+    tried: Tried = (False, 0, 0)
     paper: str = ""
 
 
@@ -139,9 +139,11 @@ def _sheet(
             if not (dropped and entry.droppable)
         ]
         made = stock.made(manners, sum(map(_free, rooms)))
-        parts = made and _divided(made, rooms, composition.arranged, taken_apart)
+        if made is None:
+            continue
+        parts, apart = _divided(made, rooms, composition.arranged, taken_apart)
         if parts:
-            title, tried = composition.titles.get(number, ""), (dropped, level, taken_apart)
+            title, tried = composition.titles.get(number, ""), (dropped, level, apart)
             pages = [_page(part, corners, title, tried) for part, corners in parts]
             left_out = [entry for entry in entries if dropped and entry.kind in GOES_ON]
             return pages + _going_on(left_out, composition, stock, paper, extras, title)
@@ -169,7 +171,7 @@ def _going_on(
         tries.append((level + composition.levels, blocks))
     for level, texts in sorted(tries, key=lambda one: one[0]):
         if all(one.width <= room[0] and one.height <= room[1] for one in texts):
-            tried = (False, level, ())
+            tried = (False, level, 0)
             corner = complex(left + EDGE, high - EDGE)
             return [Page(one.place(corner), [], title, tried, name) for one in texts]
     return []
@@ -252,10 +254,11 @@ def _divided(
     rooms: Sequence[Room],
     arranged: Mapping[tuple[str, ...], Arrange],
     taken_apart: tuple[int, ...],
-) -> list[tuple[Sequence[Made], list[complex]]] | None:
-    """Return blocks put on pages in reading order, and their corners.
+) -> tuple[list[tuple[Sequence[Made], list[complex]]], int]:
+    """Return blocks put on pages in reading order with their corners, and how far taken apart.
 
-    Pages are turned between groups rather than within one, and are as evenly full as can be.
+    There are no pages where the blocks do not fit. Pages are turned between groups rather than
+    within one, and are as evenly full as can be.
     """
     areas = [one.block.width * one.block.height for one in made]
 
@@ -276,8 +279,8 @@ def _divided(
                     break
                 pages.append((made[i:j], corners))
             else:
-                return pages
-    return None
+                return pages, apart
+    return [], 0
 
 
 def grouped(

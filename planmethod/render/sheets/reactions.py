@@ -49,7 +49,8 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         TableColumn(f"F_{{ij}}, {say.units['N']}", tuple(map(say.number, shown))),
         *(size_columns(reading, words) if sigma else []),
         TableColumn(
-            "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
+            f"φ_{{ij}}, {say.in_head('deg')}",
+            tuple("—" if nil else a for a, nil in zip(angles, none, strict=True)),
         ),
         *([angle_column(reading, none, say)] if sigma else []),
     ]

@@ -106,7 +106,7 @@ def position_columns(
     asked = tuple(position_text(solution, i, words.say) for i in indices)
     return [
         TableColumn(words.note.number, tuple(str(i) for i in indices), least=8.0),
-        TableColumn(coordinate.symbol, asked, unit=words.say.units[coordinate.unit]),
+        TableColumn(coordinate.symbol, asked, unit=words.say.in_head(coordinate.unit)),
     ]
 
 

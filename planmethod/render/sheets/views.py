@@ -18,6 +18,7 @@ from planmethod.render.pictures.ellipses import ellipse_inscription
 from planmethod.render.pictures.planview import POLE, plan_picture, plan_places
 from planmethod.render.pictures.positions import bold_position
 from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.pictures.traces import shown_traces
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.solved.scaling import per_row
@@ -117,6 +118,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
         overlay=() if alone else tuple(indices),
         errors=manner.extras.errors,
         turn=manner.extras.turn,
+        traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
     )
     kind = PlanKind.POSITION
     block = _with_scale(solution, kind, picture, manner, (bold,))
@@ -145,6 +147,7 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
             letter_height=manner.letter,
             errors=errors,
             by_hand=not errors,
+            traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
         )
     block = _with_scale(solution, kind, picture, manner, indices)
     return PlanViewed(
@@ -181,11 +184,11 @@ def _with_scale(
 
 
 def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:
-    """Return a picture with its name and what is said under it, lines of text mostly."""
+    """Return a picture under its name and what is said of it, lines of text mostly (GOST 2.316)."""
     height = manner.text(manner.sizes.text)
     lines: list[Block] = [Line(typeset(title, manner.title), underline=True)]
     lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in said]
-    return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
+    return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
 
 
 def plan_grid(
