@@ -203,9 +203,7 @@ class Statics(Remembering):
     @cached_property
     def contacts(self) -> Mapping[int, Contact]:
         """The reactions of the guides, by their numbers: where they act."""
-        positions = range(len(self.solution.positions))
-        largest = np.asarray([self.largest(index) for index in positions])
-        return contacts(self.solution, self.reactions, largest)
+        return contacts(self.solution, self.reactions, self.largest_forces)
 
     @cached_property
     def balance(self) -> Reals:
@@ -217,11 +215,17 @@ class Statics(Remembering):
         """The same by the Zhukovsky lever; None where the driver stands."""
         return None if self.lever_plan is None else self._number(self.lever_plan.balance)
 
+    @cached_property
+    def largest_forces(self) -> Reals:
+        """Size of the largest force of each position, load or reaction, N."""
+        forces = [joint.force for joint in self.reactions]
+        forces += [given.applied.force for given in self.board.given]
+        none = np.zeros(self.solution.positions.shape)
+        return np.asarray(np.max([none, *(np.abs(f) + none for f in forces)], axis=0), dtype=float)
+
     def largest(self, index: int) -> float:
         """Return the size of the largest force of a position, load or reaction, N."""
-        forces = [abs(joint.force[index]) for joint in self.reactions]
-        forces += [abs(given.applied.force[index]) for given in self.board.given]
-        return float(max(forces, default=0.0))
+        return float(self.largest_forces[index])
 
     # Drawn -----------------------------------------------------------------------------------
 
