@@ -51,9 +51,9 @@ class Senses:
     An arrow is about the pivot of its link, that of ε well outside that of ω; on a link without
     a pivot the two have one centre on the link and cross it on both sides. Of the places there it
     takes the one that is most clear of lines, joints, sliders and other arrows; that of a crank
-    may stand all round the pivot. Its letter goes on behind its tail. Where there is no room at all it is left out. ``others`` are the lines of
-    other positions, among which the letters are small and ε, which the statement tells, is left
-    out.
+    may stand all round the pivot. Its letter goes on behind its tail. Where there is no room at
+    all it is left out. ``others`` are the lines of other positions, among which the letters are
+    small and ε, which the statement tells, is left out.
     """
 
     scheme: Scheme
