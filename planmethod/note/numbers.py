@@ -90,11 +90,18 @@ class Notation:
         Letters of the units, by those of SI: ``N``, ``N·m``, ``mm``.
     symbols : mapping
         Letters of what the plans name by its role: the balancing moment.
+    degrees : str
+        Degrees in the head of a table, where the sign alone is none.
     """
 
     decimal: str
     units: Mapping[str, str]
     symbols: Mapping[str, str]
+    degrees: str
+
+    def in_head(self, unit: str) -> str:
+        """Return a unit as the head of a table has it."""
+        return self.degrees if unit == "deg" else self.units[unit]
 
     def number(self, text: str) -> str:
         """Return a plain number."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from planmethod.languages import say
+from planmethod.languages import say, typed
 from planmethod.problem.keys import UNITS
 
 POINT_NAME_LIMIT = 8
@@ -123,6 +123,10 @@ def near(name: str, known: Iterable[str]) -> str | None:
     from difflib import get_close_matches
 
     choices = list(dict.fromkeys(known))
+    words = (name.casefold(), name.casefold().rstrip("_0123456789₀₁₂₃₄₅₆"))
+    for choice in (key for word in words for key in typed().get(word, ())):
+        if choice in choices:
+            return choice
     folded = fold(name).casefold()
     for choice in choices:
         if choice.casefold() == folded:

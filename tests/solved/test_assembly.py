@@ -239,8 +239,9 @@ def test_a_rule_that_both_closings_satisfy_is_refused_with_one_that_tells(
     rule: str, first: str, second: str
 ) -> None:
     assert faulty(four_bar(f'C = "{rule}"')) == [
-        f"assembly.C: 'C {rule}' holds for both closings at phi = 60 deg: with C at (0.2826, 0.2761) "
-        f"and at (0.1674, -0.1895) m. Say '{first}' for the first or '{second}' for the second"
+        f"assembly.C: 'C {rule}' holds for both closings at phi = 60 deg: with C at "
+        f"(0.2826, 0.2761) and at (0.1674, -0.1895) m. "
+        f"Say '{first}' for the first or '{second}' for the second"
     ]
     assert place(four_bar(f'C = "{first}"'), "C") == pytest.approx(UPPER, abs=1e-4)
     assert place(four_bar(f'C = "{second}"'), "C") == pytest.approx(LOWER, abs=1e-4)

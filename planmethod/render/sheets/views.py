@@ -184,11 +184,11 @@ def _with_scale(
 
 
 def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:
-    """Return a picture with its name and what is said under it, lines of text mostly."""
+    """Return a picture under its name and what is said of it, lines of text mostly (GOST 2.316)."""
     height = manner.text(manner.sizes.text)
     lines: list[Block] = [Line(typeset(title, manner.title), underline=True)]
     lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in said]
-    return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
+    return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
 
 
 def plan_grid(
