@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.problem.source import parse, read_source
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import NoReturn, TypeAlias
 
 from planmethod.errors import LayoutError
+from planmethod.record import dataclass
 
 Box: TypeAlias = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax in mm."""

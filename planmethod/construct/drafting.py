@@ -19,7 +19,6 @@ How each step errs, sigma by sigma:
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +26,7 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.dual import Dual, Duals, as_dual
 from planmethod.construct.hand import Hand
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

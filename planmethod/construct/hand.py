@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from planmethod.construct.arithmetic import Float64, Number
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import SupportsFloat
+
+from planmethod.record import dataclass
 
 MINUS = "−"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
@@ -25,6 +25,7 @@ from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near
 from planmethod.problem.sizes import TURN, read_phase, read_size
+from planmethod.record import dataclass
 
 NAME_LIMIT = 40
 _NAME_RE = re.compile(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")

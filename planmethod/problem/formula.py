@@ -17,13 +17,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 from types import MappingProxyType
 
 from planmethod.languages import say
 from planmethod.problem.names import listed, near, short
+from planmethod.record import dataclass
 
 LENGTH_LIMIT = 500
 DEPTH_LIMIT = 40

@@ -7,7 +7,6 @@ import re
 import tomllib
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from unicodedata import combining, normalize
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
 from planmethod.problem.variants import apply_variant, read_variants
+from planmethod.record import dataclass
 
 LINKAGE = "linkage"
 """Kind of the problems that are linkages; the others are called as their table is."""

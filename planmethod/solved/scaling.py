@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +14,7 @@ from planmethod.paper import FORMATS
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Problem, Scales
+from planmethod.record import dataclass
 from planmethod.solved.reading import Reading, Reals
 
 Box = tuple[float, float]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import re
-from dataclasses import dataclass
 
 from planmethod.check.model import Judged, KeyEntry, Sense, Written
 from planmethod.note.numbers import trimmed
@@ -12,6 +11,7 @@ from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.language import Language
+from planmethod.record import dataclass
 
 LONGEST = 60
 """Letters of what somebody else wrote that are repeated; the rest is cut."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 
 from planmethod.check.model import Unread, Work, Written
 from planmethod.check.works.answer import NotReadError, read_scaled
@@ -14,6 +14,7 @@ from planmethod.check.works.numbers import read_number
 from planmethod.check.works.units import Dimension, read_unit
 from planmethod.check.works.vocabulary import key
 from planmethod.problem.names import fold
+from planmethod.record import dataclass
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from planmethod.record import dataclass
 
 TEXT_LIMIT = 80
 LARGEST = 1e30

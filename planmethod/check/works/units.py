@@ -6,10 +6,10 @@ import math
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 from planmethod.check.model import Written
+from planmethod.record import dataclass
 
 TEXT_LIMIT = 32
 

@@ -8,7 +8,7 @@ import re
 import warnings
 import zipfile
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
 from planmethod.check.works.table import HEAD_ROWS, Row, read_table
+from planmethod.record import dataclass
 
 ROW_LIMIT = 20_000
 COLUMN_LIMIT = 400

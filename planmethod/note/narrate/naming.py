@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from planmethod.construct.steps import (
     AtAngle,
@@ -39,6 +38,7 @@ from planmethod.plans.model import (
 )
 from planmethod.plans.motion.board import pole_letter
 from planmethod.problem.model import Convention
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 _DIGITS = re.compile(r"\d+")

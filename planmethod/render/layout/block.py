@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, Protocol, TypeAlias
 
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,

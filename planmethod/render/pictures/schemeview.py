@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import pairwise
 from math import ceil, inf
 
@@ -15,6 +15,7 @@ from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points, ink_bounds
 from planmethod.render.ink.typeset import typeset

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from planmethod.construct.scale import Scale
 from planmethod.note.narrate.letters import shown_letters
@@ -11,6 +10,7 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation, is_nothing, with_unit
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row

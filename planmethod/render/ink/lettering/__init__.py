@@ -11,7 +11,6 @@ import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import accumulate
 from pathlib import Path
@@ -19,6 +18,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from planmethod.errors import LayoutError
+from planmethod.record import dataclass
 from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
 
 FONTS = Path(__file__).parent.parent / "fonts"
