@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 from unicodedata import combining, normalize
 
+from planmethod.pattern import pattern
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
 from planmethod.problem.variants import apply_variant, read_variants
@@ -133,7 +134,7 @@ class _Table:
     lines: list[str]
 
 
-_HEADER = re.compile(r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$")
+_HEADER = pattern(r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$")
 
 
 def _tables(text: str) -> list[_Table]:

@@ -232,17 +232,17 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
     for solution in every():
         reading = ForceReading(solution, 0)
         parts = re.split(r"\n\d+\.\d+\. ", text_of(solution).partition("Силовой расчёт")[2])[1:]
-        for plan, part in zip(reading.plans, parts, strict=True):
+        for k, (plan, part) in enumerate(zip(reading.plans, parts, strict=True)):
             laid = list(LAID.finditer(flat(part)))
             unknown = {edge.symbol for edge in plan.reactions}
             asked = [
                 edge
                 for edge in plan.polygon
-                if edge.symbol not in unknown and reading.length(edge) > 0.0
+                if edge.symbol not in unknown and reading.length(edge, k) > 0.0
             ]
             order = [m["symbol"] for m in laid]
             assert sorted(order) == sorted(plain_text(e.symbol) for e in asked)
-            lengths = {plain_text(edge.symbol): reading.length(edge) for edge in asked}
+            lengths = {plain_text(edge.symbol): reading.length(edge, k) for edge in asked}
             for match in laid:
                 length = lengths[match["symbol"]]
                 assert number(match["length"]) == pytest.approx(length, rel=6e-4)

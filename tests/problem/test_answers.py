@@ -209,8 +209,8 @@ FAULTS = {
     "unknown quantity": (
         A + "what = 'w C'\n",
         [
-            'answers[0].what: unknown quantity \'w\'. For example: "v C", "an C B", "omega '
-            '2", "F 2 1".',
+            "answers[0].what: unknown quantity 'w' (the nearest is 'omega'). For example: "
+            '"v C", "an C B", "omega 2", "F 2 1".',
         ],
     ),
     "unknown point": (

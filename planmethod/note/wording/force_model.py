@@ -40,6 +40,7 @@ class ForceWording:
     # Force plans
     title_plans: str
     order: str
+    own_scale: str
     indices: str
     freed: str
     freed_driver: str

@@ -23,7 +23,6 @@ from planmethod.render.sheets.reactionerrors import (
 )
 from planmethod.render.sheets.results import table_width, with_note
 from planmethod.render.sheets.views import shown_position
-from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
@@ -70,8 +69,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     tables = Column([table, *further, below], gap=4.0)
     if not sigma:
         return tables
-    draws, profile = drawn_forces(reading.statics).draws, solution.profile.name
-    return with_note(tables, [*columns, *balances], height, profile, draws, words)
+    return with_note(tables, [*columns, *balances], height, solution.profile.name, words)
 
 
 def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
