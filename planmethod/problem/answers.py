@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.extras import check_what, read_position
 from planmethod.problem.fields import (
@@ -23,7 +23,7 @@ from planmethod.problem.fields import (
 )
 from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense, Drive, Slide
 from planmethod.problem.names import short, split_pair
-from planmethod.problem.selector import MACHINE, Selector
+from planmethod.problem.selector import ANALOGUES, MACHINE, Selector
 from planmethod.record import dataclass
 
 if TYPE_CHECKING:
@@ -39,8 +39,8 @@ DIGIT_LIMIT = 8
 POINTS_LIMIT = 1000.0
 
 # No sign that would begin a formula in a spreadsheet, no space that a form could lose.
-_ID_RE = pattern(r"[^\W\d_][\w./@'{}^-]*\Z")
-_REACTION_RE = pattern(r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z")
+_ID_RE = re.compile(r"[^\W\d_][\w./@'{}^-]*\Z")
+_REACTION_RE = re.compile(r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z")
 _BALANCING = {"dr": "balance", "lever": "lever"}
 _TAKEN = (*keys.SCALES[1:], "ruler_mm")
 """What a row of a group's table is called that is no answer."""
@@ -265,6 +265,8 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
     selector = check_what(faults, path, words, scene.points, scene.links, scene.dynamics)
     if selector is not None and selector.kind in MACHINE:
         faults.add(path, say("'{}' is of the flywheel", words), "Ask for the motion or the forces.")
+    elif selector is not None and selector.kind in ANALOGUES:
+        faults.add(path, say("'{}' is on no plan", words), "Ask for the motion or the forces.")
     reaction = _REACTION_RE.match(name)
     if reaction and scene.points and len(faults) == before:
         joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}
