@@ -21,6 +21,7 @@ class SheetWording:
     equations: Mapping[str, str]
     calculation: Mapping[str, str]
     but_for: str
+    extremes: str
     of_position: str
     wanted: str
 

@@ -29,10 +29,10 @@ from planmethod.render.forces.arrows import (
 from planmethod.render.forces.guides import (
     FAR,
     Pressed,
-    dimension,
     drawn_length,
     point_items,
     pressed,
+    span_dimension,
 )
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.ink.drawing import Disc, Ink, Item
@@ -170,7 +170,7 @@ def _loaded_picture(
     items += turns
     labels += sizes
     for span in (one.span for one in guided if one.span is not None):
-        drawn, letter = dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
+        drawn, letter = span_dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
         items += drawn
         labels.append(letter)
     return lettered(items, [*labels, *more, *letters, *_letters(scheme, prefix, links)])
