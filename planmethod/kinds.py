@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -12,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
+from planmethod.pattern import pattern
 from planmethod.problem.source import parse, read_source
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -224,7 +225,7 @@ KINDS = (
 )
 """All of them; a file that has links is a linkage whatever else it has."""
 
-_HEAD = re.compile(r"^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b", re.M)
+_HEAD = pattern(r"^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b", re.M)
 
 
 def kind_of(path: Path) -> Kind | None:

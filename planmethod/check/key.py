@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
@@ -15,6 +14,7 @@ from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.head import KindProblem
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.moving.formula import Formula
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Scales
+from planmethod.record import dataclass
 
 
 class Law(Enum):

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from enum import Enum
+
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

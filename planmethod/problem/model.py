@@ -7,7 +7,7 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,7 @@ from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from fractions import Fraction

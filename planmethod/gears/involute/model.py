@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, pi, sin, tan
 from typing import TypeAlias
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planmethod.problem.head import KindProblem
+from planmethod.record import dataclass
 
 Reals: TypeAlias = NDArray[np.float64]
 
