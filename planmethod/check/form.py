@@ -81,7 +81,8 @@ def form_of(
     book = openpyxl.Workbook()
     sheet = book.active
     sheet.title = words.sheet
-    units = [unit for unit in words.units if read_unit(unit)]
+    asked = (entry.asked for entry in entries)
+    units = [unit for unit in dict.fromkeys((*words.units, *asked)) if unit and read_unit(unit)]
     _write_meta(book, entries, units, problem, variant, fingerprint)
     scales = _write_head(sheet, entries, words, problem, variant, student, title)
     _write_rows(sheet, entries, words, units, scales)
@@ -196,7 +197,8 @@ def _write_rows(
     for number, entry in enumerate(entries, 1):
         row = head + number
         fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
-        own = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
+        usual = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
+        own = entry.asked or usual
         for column, text in ((1, number), (2, entry.id), (3, entry.label), (7, own)):
             _write(sheet.cell(row, column), text)
         for column in (4, 6):

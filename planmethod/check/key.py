@@ -142,6 +142,8 @@ def entry_of(task: Task, item: Item, limit: Limit, *, hidden: tuple[str, ...] = 
         points=item.points,
         position=item.position,
         hidden=hidden,
+        asked=item.unit,
+        per=item.per,
     )
 
 

@@ -169,6 +169,10 @@ class KeyEntry:
         The same as rich text: ``v_{B3}``.
     unit : str
         SI; ``deg`` of angles, ``mm`` of lengths on a plan.
+    asked : str
+        Unit in which the task asks it, as the file has it; empty for ``unit``.
+    per : float
+        What one of ``asked`` is of ``unit``: pages tell values in the unit that is asked.
     exact : float
         With its sign if it has one.
     sigma : float
@@ -216,6 +220,8 @@ class KeyEntry:
     position: int = 0
     hidden: tuple[str, ...] = ()
     signed: bool = True
+    asked: str = ""
+    per: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -208,7 +208,7 @@ class Remarks:
             answer=self.speech.symbol(judged),
             mm=self.speech.number(written.mm),
             scale=self.speech.number(per_mm),
-            product=self.speech.with_unit(self.speech.number(written.mm * per_mm), key),
+            product=self.speech.si(written.mm * per_mm, key),
             own=self.speech.own(judged),
         )
 

@@ -39,6 +39,7 @@ class ForceWording:
     # Force plans
     title_plans: str
     order: str
+    own_scale: str
     indices: str
     freed: str
     freed_driver: str

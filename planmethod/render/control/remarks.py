@@ -53,6 +53,8 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
         "PM-D12": Remark(_WARNING, "mm"),
         "PM-D13": Remark(_ERROR, "mm"),
         "PM-D14": Remark(_WARNING, "mm"),
+        "PM-D15": Remark(_WARNING, "mm"),
+        "PM-D16": Remark(_WARNING, "mm"),
     }
 )
 """Every code."""

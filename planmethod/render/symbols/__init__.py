@@ -33,6 +33,7 @@ from planmethod.render.symbols.hatching import (
 )
 from planmethod.render.symbols.links import crank, link, rigid_corner, rocker, stiff_triangle
 from planmethod.render.symbols.pairs import (
+    SLIDER,
     offset_slider,
     revolute,
     revolute_on,
@@ -44,6 +45,7 @@ from planmethod.render.symbols.sizes import SIZES, Sizes, angle_of, unit
 __all__ = [
     "GROUND",
     "SIZES",
+    "SLIDER",
     "Sizes",
     "angle_of",
     "arrowhead",

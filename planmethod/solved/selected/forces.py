@@ -74,7 +74,7 @@ class ForceQuantities:
         drawn = self.statics.by_hand
         if self.mu_f != self.statics.scale.per_mm:
             scales = {**self.statics.per_mm, SCALE: self.mu_f}
-            drawn = self.statics.read(self.solution.hand, scales)
+            drawn = self.statics.read(self.solution.hand, scales)  # all plans at that one
         return _both(self.solution.by_hand, drawn)
 
     def value(self, selector: Selector, *, by_hand: bool) -> float:
