@@ -6,7 +6,6 @@ import datetime
 import hashlib
 import io
 import json
-import re
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
@@ -20,12 +19,13 @@ from planmethod.check.works.xlsx_file import META
 from planmethod.kinds import KindProblem
 from planmethod.note.wording import language
 from planmethod.note.wording.form_model import FormWording
+from planmethod.pattern import pattern
 from planmethod.problem.model import Problem
 
 SCHEMA = 1
 
 _MADE = datetime.datetime(2000, 1, 1)
-_MODIFIED = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
+_MODIFIED = pattern(rb"(<dcterms:modified[^>]*>)[^<]*")
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _SHOWN = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",

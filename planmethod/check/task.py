@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 
 from planmethod.check.explain import Explanation, Explanations
@@ -21,6 +21,7 @@ from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import AskedAnswer, AskedSense, Problem
 from planmethod.problem.selector import is_force, parse_selector
+from planmethod.record import dataclass
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
 

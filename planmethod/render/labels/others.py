@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planmethod.record import dataclass
 from planmethod.render.labels.candidates import Candidates, Floats, crossing, inside
 from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import FORBIDDEN

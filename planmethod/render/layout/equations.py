@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 
 from planmethod.note.narrate.letters import direction_text
 from planmethod.plans.model import Known, VectorEquation
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import (
     Inscription,
