@@ -97,6 +97,19 @@ def _messages(lang: str) -> Mapping[str, str]:
     return found
 
 
+@cache
+def typed() -> Mapping[str, tuple[str, ...]]:
+    """Return the keys and words of files by what is typed in their place, in any language."""
+    import json
+
+    found: dict[str, tuple[str, ...]] = {}
+    for room in sorted(_WORDING.glob("*/typed.json")):
+        for key, words in json.loads(room.read_text(encoding="utf-8")).items():
+            for word in words.split(", "):
+                found[word] = (*found.get(word, ()), key)
+    return found
+
+
 def spoken() -> str:
     """Return the language that messages are in."""
     return _spoken

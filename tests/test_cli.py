@@ -203,7 +203,7 @@ def test_what_cannot_be_assembled_is_code_4(command: str, open_chain: str) -> No
     refused = run(command, open_chain)
     assert refused.exit_code == 4
     assert (
-        "Error: Cannot place C at position 1 (phi = 60 deg): arcs from B (0.2 m) and D (0.05 m) do "
+        "Error: Cannot place C at phi = 60 deg: arcs from B (0.2 m) and D (0.05 m) do "
         "not meet, |BD| = 0.3606 m. Check l_BC, l_DC. The arcs miss by 0.1106 m, "
         "by 0.25 m at the most over a turn (at phi = 180 deg).\n"
     ) in refused.output

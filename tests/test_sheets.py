@@ -170,6 +170,9 @@ def test_a_sheet_has_its_parts(name: str) -> None:
     for part in ("План скоростей", "План ускорений", "Дано:", "Определить:", "Результаты"):
         assert part in shown
     assert shown.count("μ") >= 3
+    (view,) = (view for view in sheet.views if view.kind == "velocity")
+    (above,) = (i for i in sheet.items if isinstance(i, Text) and i.text == "План скоростей")
+    assert above.at.imag > (view.box[1] + view.box[3]) / 2  # above, as GOST 2.316 has it
 
 
 def test_more_than_a_dozen_of_positions_go_on_further_sheets() -> None:

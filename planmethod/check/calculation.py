@@ -26,11 +26,11 @@ from planmethod.check.works.units import ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
-from planmethod.kinds import Kind, KindProblem
+from planmethod.kinds import Kind
 from planmethod.languages import say
 from planmethod.plans.model import Plan
 from planmethod.problem.figures import Figure, Figures
-from planmethod.problem.model import AnswerForm, AskedAnswer
+from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 
@@ -141,6 +141,7 @@ class Calculation(Task):
             asks_sense=asked.sense is not None,
             fixed=asked.tolerance or item.fixed,
             label=asked.letters[0] if asked.letters else "",
+            unit=self.unit_of(asked, question),
         )
         for form in (asked.id, *asked.letters, asked.what):
             self._forms.setdefault(form, item)
@@ -200,6 +201,7 @@ class Calculation(Task):
 
     def written(self, item: Item, written: Written) -> Written:
         """Return an answer in the unit of its key, its sense as the sign of its number."""
+        written = super().written(item, written)
         per = ratio(written, item.question.unit)
         if per is None:
             return refused(Unread.UNIT, written.unit, written.where, base=written)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TypeAlias
@@ -18,12 +17,13 @@ import numpy as np
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.construct.arithmetic import Float64, Number, Single
 from planmethod.construct.drafting import Counted, Profile, Propagated
-from planmethod.construct.dual import Dual, angle, as_dual
+from planmethod.construct.dual import angle, as_dual
 from planmethod.construct.evaluate import Put, Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
 from planmethod.plans.model import Plan
 from planmethod.plans.segments import Ends
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
 
@@ -259,9 +259,7 @@ class Sheet:
             for other in names:
                 if slope[row[other]]:
                     slopes[name, other] = float(slope[row[other]])
-            own = np.zeros((causes + count, 1))
-            own[row[name]] = 1.0
-            return Dual(made.value, own)
+            return made.value + pencil.caused(row[name], 1.0)
 
         evaluate(program, data, pencil, put)
         return Local(sigma, slopes)

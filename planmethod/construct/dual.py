@@ -5,6 +5,8 @@ A cause is a change of one datum (condition numbers) or one stroke of a pencil (
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -15,29 +17,79 @@ from planmethod.construct.arithmetic import Exact, Number, unit_vectors
 Slope = npt.NDArray[Any] | None
 
 
+class Rows:
+    """Which of many causes change a number: most strokes of a drawing do not.
+
+    One for each set of causes of a drawing, so that two are the same object or not the same set.
+
+    Attributes
+    ----------
+    index : ndarray of shape (k,)
+        The causes, in order.
+    count : int
+        How many there are at all.
+    """
+
+    __slots__ = ("_joined", "_known", "_mask", "count", "index")
+
+    def __init__(self, mask: int, count: int, known: dict[int, Rows]) -> None:
+        self._mask, self._known, self.count = mask, known, count
+        self._joined: dict[int, tuple[Rows, Any, Any]] = {}
+        bits = np.frombuffer(mask.to_bytes(count // 8 + 1, "little"), dtype=np.uint8)
+        self.index = np.flatnonzero(np.unpackbits(bits, bitorder="little"))
+        known[mask] = self
+
+    def joined(self, other: Rows) -> tuple[Rows, Any, Any]:
+        """Return the causes of either, and where those of one and of the other are among them."""
+        if other._mask not in self._joined:
+            mask = self._mask | other._mask
+            both = self._known.get(mask) or Rows(mask, self.count, self._known)
+            one, two = (np.searchsorted(both.index, rows.index) for rows in (self, other))
+            self._joined[other._mask] = both, one, two
+        return self._joined[other._mask]
+
+
 class Dual:
     """A value in every position, and its slope by every cause (дуальное число).
 
     Attributes
     ----------
     value : ndarray of shape (n,) or ()
-    slope : ndarray of shape (m, n) or (m, 1), or None when no cause changes it
+    part : ndarray of shape (m, n) or (m, 1), or None when no cause changes it
+        Slopes by the causes of ``rows``, or by all.
+    rows : Rows or None
     """
 
-    __slots__ = ("slope", "value")
+    __slots__ = ("part", "rows", "value")
     __array_ufunc__ = None
 
-    def __init__(self, value: Number, slope: Slope = None) -> None:
-        self.value, self.slope = value, slope
+    def __init__(self, value: Number, slope: Slope = None, rows: Rows | None = None) -> None:
+        self.value, self.part, self.rows = value, slope, rows
+
+    @property
+    def slope(self) -> Slope:
+        """Slopes by all causes, shape (m, n) or (m, 1), or None when no cause changes it."""
+        if self.part is None or self.rows is None:
+            return self.part
+        whole = np.zeros((self.rows.count, *self.part.shape[1:]), dtype=self.part.dtype)
+        whole[self.rows.index] = self.part
+        return whole
+
+    def at(self, chosen: npt.NDArray[np.intp]) -> Dual:
+        """Return a number of shape (n,) in some of its positions."""
+        part = self.part
+        if part is not None and part.shape[1] > 1:
+            part = part[:, chosen]
+        return Dual(self.value[chosen], part, self.rows)
 
     def __add__(self, other: Number) -> Dual:
         other = as_dual(other)
-        return Dual(self.value + other.value, _sum(self.slope, other.slope))
+        return Dual(self.value + other.value, *_sum(self, None, other, None))
 
     __radd__ = __add__
 
     def __neg__(self) -> Dual:
-        return Dual(-self.value, _times(self.slope, -1.0))
+        return self.scaled(-self.value, -1.0)
 
     def __sub__(self, other: Number) -> Dual:
         return self + -as_dual(other)
@@ -47,16 +99,15 @@ class Dual:
 
     def __mul__(self, other: Number) -> Dual:
         other = as_dual(other)
-        slope = _sum(_times(self.slope, other.value), _times(other.slope, self.value))
-        return Dual(self.value * other.value, slope)
+        return Dual(self.value * other.value, *_sum(self, other.value, other, self.value))
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Number) -> Dual:
         other = as_dual(other)
         value = self.value / other.value
-        top = _sum(self.slope, _times(other.slope, -value))
-        return Dual(value, _times(top, 1.0 / other.value))
+        slope, rows = _sum(self, None, other, -value)
+        return Dual(value, _times(slope, 1.0 / other.value), rows)
 
     def __rtruediv__(self, other: Number) -> Dual:
         return as_dual(other) / self
@@ -64,25 +115,32 @@ class Dual:
     def __abs__(self) -> Dual:
         size = np.abs(self.value)
         unit = np.conjugate(self.value) / np.where(size == 0, 1.0, size)
-        if self.slope is None:
+        if self.part is None:
             return Dual(size)
         # |x| has no slope at 0: what it can change by at most is the slope's own size.
-        return Dual(size, np.where(size == 0, np.abs(self.slope), (self.slope * unit).real))
+        part = np.where(size == 0, np.abs(self.part), (self.part * unit).real)
+        return Dual(size, part, self.rows)
 
     def conjugate(self) -> Dual:
         """Return the complex conjugate."""
-        slope = None if self.slope is None else np.conjugate(self.slope)
-        return Dual(np.conjugate(self.value), slope)
+        return self._each(np.conjugate)
 
     @property
     def real(self) -> Dual:
         """Real part."""
-        return Dual(np.real(self.value), None if self.slope is None else np.real(self.slope))
+        return self._each(np.real)
 
     @property
     def imag(self) -> Dual:
         """Imaginary part."""
-        return Dual(np.imag(self.value), None if self.slope is None else np.imag(self.slope))
+        return self._each(np.imag)
+
+    def _each(self, part: Callable[[Any], Any]) -> Dual:
+        return Dual(part(self.value), None if self.part is None else part(self.part), self.rows)
+
+    def scaled(self, value: Number, factor: Number) -> Dual:
+        """Return a value whose slopes are these by a factor; None: as they are."""
+        return Dual(value, _times(self.part, factor), self.rows)
 
 
 def as_dual(value: Number) -> Dual:
@@ -101,17 +159,52 @@ def angle(value: Number, least: float) -> Number:
     if dual is not value:
         return turn
     with np.errstate(invalid="ignore"):
-        return Dual(turn, None if dual.slope is None else (dual.slope / solid).imag)
-
-
-def _sum(one: Slope, two: Slope) -> Slope:
-    if one is None or two is None:
-        return two if one is None else one
-    return one + two
+        return Dual(turn, None if dual.part is None else (dual.part / solid).imag, dual.rows)
 
 
 def _times(slope: Slope, factor: Number) -> Slope:
-    return None if slope is None else slope * factor
+    return slope if slope is None or factor is None else slope * factor
+
+
+def _sum(one: Dual, by: Number, two: Dual, times: Number) -> tuple[Slope, Rows | None]:
+    """Return the slopes of two numbers, each by a factor if it has one, added up; and their rows.
+
+    No row is added to one that is not there: what is left is what all rows would give.
+    """
+    first, second = _times(one.part, by), _times(two.part, times)
+    if first is None or second is None:
+        return (second, two.rows) if first is None else (first, one.rows)
+    if one.rows is two.rows:
+        return first + second, one.rows
+    assert one.rows is not None and two.rows is not None
+    rows, mine, its = one.rows.joined(two.rows)
+    if rows is not one.rows or first.shape[1] < second.shape[1] or first.dtype < second.dtype:
+        first = _among(rows, mine, first, second)
+    elif by is None:
+        first = first.copy()
+    first[its] += second
+    return first, rows
+
+
+def _among(rows: Rows, at: Any, slope: Any, other: Any) -> Any:
+    """Return slopes among more rows, of the shape and type that those of another need."""
+    shape = (len(rows.index), max(slope.shape[1], other.shape[1]))
+    whole = np.zeros(shape, dtype=np.result_type(slope, other))
+    whole[at] = slope
+    return whole
+
+
+def alike(*numbers: Dual) -> tuple[list[Any], Rows | None]:
+    """Return the slopes of numbers by the same causes, 0 of one that has none, and these causes."""
+    own = [number.rows for number in numbers if number.part is not None and number.rows is not None]
+    rows = reduce(lambda one, two: one.joined(two)[0], own) if own else None
+    slopes: list[Any] = []
+    for number in numbers:
+        part = number.part
+        if part is not None and rows is not None and number.rows not in (None, rows):
+            part = _among(rows, rows.joined(number.rows)[2], part, part)
+        slopes.append(0.0 if part is None else part)
+    return slopes, rows
 
 
 class Duals(Exact):
@@ -125,25 +218,25 @@ class Duals(Exact):
         """Return the square root, 0 of what is negative."""
         value = as_dual(value)
         root = np.sqrt(np.maximum(value.value, 0.0))
-        return Dual(root, _times(value.slope, 0.5 / np.where(root == 0, np.nan, root)))
+        return value.scaled(root, 0.5 / np.where(root == 0, np.nan, root))
 
     def _each(self, ok: Number, value: Number, other: Number) -> Dual:
         value, other = as_dual(value), as_dual(other)
-        slope: Slope = None
-        if value.slope is not None or other.slope is not None:
-            one = 0.0 if value.slope is None else value.slope
-            slope = np.where(ok, one, 0.0 if other.slope is None else other.slope)
-        return Dual(np.where(ok, value.value, other.value), slope)
+        chosen = np.where(ok, value.value, other.value)
+        if value.part is None and other.part is None:
+            return Dual(chosen)
+        (one, two), rows = alike(value, other)
+        return Dual(chosen, np.where(ok, one, two), rows)
 
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
         """Return the value where the margin exceeds the limit, NaN elsewhere."""
         value, ok = as_dual(value), as_dual(margin).value > limit
-        return Dual(np.where(ok, value.value, np.nan * value.value), value.slope)
+        return value.scaled(np.where(ok, value.value, np.nan * value.value), None)
 
     def nonzero(self, value: Number) -> Number:
         """Return the value with NaN in place of zero."""
         value = as_dual(value)
-        return Dual(np.where(value.value == 0, np.nan, value.value), value.slope)
+        return value.scaled(np.where(value.value == 0, np.nan, value.value), None)
 
     def solid(self, length: Number) -> Number:
         """Return 1.0 where a length is not zero, else 0.0."""
@@ -162,4 +255,4 @@ class Duals(Exact):
         """Return the unit complex number at an angle."""
         degrees = as_dual(degrees)
         u = unit_vectors(degrees.value)
-        return Dual(u, _times(degrees.slope, 1j * np.pi / 180 * u))
+        return degrees.scaled(u, 1j * np.pi / 180 * u)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import field
 
 import numpy as np
 
 from planmethod.construct.arithmetic import Float64, Number
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True)
@@ -21,9 +23,13 @@ class Hand(Float64):
     ----------
     ruler : float, mm
         Step of the ruler (цена деления).
+    enlarged : mapping of str to Number
+        How many times larger than by its scale a length is drawn, by its name: it is read there, on
+        an enlarged view or a plan of a scale of its own, and the ruler's step is so much finer.
     """
 
     ruler: float = 0.5
+    enlarged: Mapping[str, Number] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.ruler) and self.ruler > 0):
@@ -34,5 +40,6 @@ class Hand(Float64):
         return np.sign(length) * np.floor(np.abs(length) / self.ruler + 0.5) * self.ruler
 
     def read(self, out: str, length: Number) -> Number:
-        """Return the length rounded to the ruler step."""
-        return self.ruled(length)
+        """Return the length rounded to the ruler step, which is finer where it is enlarged."""
+        times = self.enlarged.get(out)
+        return self.ruled(length) if times is None else self.ruled(length * times) / times

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import SupportsFloat
+
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 MINUS = "−"
 
@@ -75,7 +76,7 @@ def raised(unit: str) -> str:
     return _POWER.sub(lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
 
 
-_POWER, _LEVEL = re.compile("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
+_POWER, _LEVEL = pattern("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,11 +91,18 @@ class Notation:
         Letters of the units, by those of SI: ``N``, ``N·m``, ``mm``.
     symbols : mapping
         Letters of what the plans name by its role: the balancing moment.
+    degrees : str
+        Degrees in the head of a table, where the sign alone is none.
     """
 
     decimal: str
     units: Mapping[str, str]
     symbols: Mapping[str, str]
+    degrees: str
+
+    def in_head(self, unit: str) -> str:
+        """Return a unit as the head of a table has it."""
+        return self.degrees if unit == "deg" else self.units[unit]
 
     def number(self, text: str) -> str:
         """Return a plain number."""

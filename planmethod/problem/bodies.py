@@ -10,7 +10,7 @@ from planmethod.problem import keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.model import Body, PointForm
-from planmethod.problem.names import listed
+from planmethod.problem.names import listed, told_length
 
 COLLINEAR = 1e-9
 """Relative slack within which two distances are taken to put a point on the line."""
@@ -217,7 +217,8 @@ class _Placement:
         a, b = r1.value, r2.value
         size = max(a, b, d)
         slack = COLLINEAR * size
-        given = say("{} = {:g} m, {} = {:g} m, |{}{}| = {:g} m", r1.key, a, r2.key, b, one, two, d)
+        said = [told_length(length, self.faults.unit, 6) for length in (a, b, d)]
+        given = f"{r1.key} = {said[0]}, {r2.key} = {said[1]}, |{one}{two}| = {said[2]}"
         if d <= slack or d > a + b + slack or d < abs(a - b) - slack:
             raise _ContradictionError(
                 f"{self.link.path}.{r2.key}",
@@ -279,19 +280,7 @@ class _Placement:
                     "Points must not be measured from one another in a circle.",
                 )
             elif known:
-                more = next((b for b in bases if b not in {other for other, _ in known}), None)
-                second = f"{more}{point} = ..." if more else "a second distance"
-                side = say(' and {}.side = "left of {}"', point, line) if line else ""
-                if more:  # measured along the link, the length that is given is the whole answer
-                    (start, length), unit = known[0], keys.UNITS[self.faults.unit]
-                    at = f"{length.value * unit:.10g}"
-                    example = f'{point} = {{ on = "{start}{more}", at = {at} }}'
-                tail = say(", or use {}", example) if example else ""
-                self.faults.add(
-                    f"{link.path}.points",
-                    say("point {} is not placed: {} alone is given", point, known[0][1].key),
-                    say("Add {}{}{}.", second, side, tail),
-                )
+                self._report_one_length(point, bases, *known[0])
             else:
                 first = bases[0] if bases else link.points[0]
                 tail = say(" or {}", example) if example else ""
@@ -304,6 +293,24 @@ class _Placement:
                     ),
                     say("Add its lengths ({}{} = ...){}.", first, point, tail),
                 )
+
+    def _report_one_length(self, point: str, bases: list[str], start: str, length: Length) -> None:
+        """Note a point with one length, which most often lies on the line of two others."""
+        said = say("point {} is not placed: {} alone is given", point, length.key)
+        more = next((base for base in bases if base != start), None)
+        hint = say("Add a second distance.")
+        if more is not None:
+            stated = self.faults.stated.get(f"{self.link.path}.{length.key}")
+            at = length.value * keys.UNITS[self.faults.unit]
+            hint = say(
+                'If it lies on {0}{1}, write {2} = {{ on = "{0}{1}", at = {3} }}; else add {1}{2} '
+                'and {2}.side = "left of {0}{1}", or angle.{1}{0}{2}.',
+                start,
+                more,
+                point,
+                f"{at:.10g}" if stated is None else f'"{stated}"',
+            )
+        self.faults.add(f"{self.link.path}.points", said, hint)
 
     def _in_own_axes(self) -> dict[str, complex]:
         if self.axis is None or self.axis is self.base:
@@ -343,12 +350,12 @@ class _Placement:
                 self.faults.add(
                     f"{self.link.path}.{length.key}",
                     say(
-                        "{} = {:g} m, but the other data of the link put {} and {} {:g} m apart",
+                        "{} = {}, but the other data of the link put {} and {} {} apart",
                         length.key,
-                        length.value,
+                        told_length(length.value, self.faults.unit, 6),
                         length.a,
                         length.b,
-                        got,
+                        told_length(got, self.faults.unit, 6),
                     ),
                     "Remove or correct one of them.",
                 )

@@ -322,7 +322,10 @@ def _read_rule(
         del words[1]
     if len(words) != 2 or words[0] not in _POINT_WORDS:
         guess = near(words[0], _POINT_WORDS) if words else None
-        hint = say("Did you mean '{}'?", guess) if guess and guess != words[0] else ""
+        meant = {"right": "right of", "left": "left of", "away": "away from"}.get(
+            guess or "", guess
+        )
+        hint = say('Write "{} {}".', meant, words[-1]) if guess and guess != words[0] else ""
         faults.expected(path, want, value, hint)
         return None
     side, name = words

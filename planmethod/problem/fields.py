@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Mapping
 from enum import Enum
 from typing import Any, TypeGuard, TypeVar
@@ -11,6 +12,7 @@ from planmethod.errors import Fault
 from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.formula import FormulaError, work_out
+from planmethod.problem.mistyped import value_hint
 from planmethod.problem.names import (
     describe_lookalikes,
     fold,
@@ -19,6 +21,7 @@ from planmethod.problem.names import (
     listed,
     lookalikes,
     near,
+    near_hint,
     segment,
     short,
     split_pair,
@@ -98,18 +101,6 @@ def is_number(value: object) -> TypeGuard[int | float]:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _unquoted(value: object) -> str:
-    """Hint for a number that stands in quotes, perhaps with a decimal comma."""
-    if not isinstance(value, str):
-        return ""
-    text = value.strip(" °").replace(",", ".")
-    try:
-        number = float(text)
-    except ValueError:
-        return ""
-    return say("Write {} without quotes.", text) if math.isfinite(number) else ""
-
-
 def read_number(
     faults: Faults,
     path: str,
@@ -132,7 +123,8 @@ def read_number(
     hint : str
         What to do about a number that is out of bounds.
     """
-    if isinstance(value, str) and not _unquoted(value) and any(map(str.isdecimal, value)):
+    mistyped = value_hint(value, faults.unit)
+    if isinstance(value, str) and not mistyped and any(map(str.isdecimal, value)):
         try:
             number = work_out(value)
         except FormulaError as error:
@@ -141,7 +133,7 @@ def read_number(
             return None
         faults.stated[path], value = value, number
     if not is_number(value):
-        faults.expected(path, what, value, _unquoted(value))
+        faults.expected(path, what, value, mistyped)
         return None
     try:
         number = float(value)
@@ -225,6 +217,10 @@ def _read_metres(
 
 def read_angle(faults: Faults, path: str, value: object) -> float | None:
     """Read an angle, degrees."""
+    if isinstance(value, str) and (radians := re.sub("π|pi", "180", value)) != value:
+        hint = say('pi is 180 degrees: write "{}".', radians)
+        faults.expected(path, "an angle in degrees", value, hint)
+        return None
     return read_number(faults, path, value, "an angle in degrees", low=-36000, high=36000)
 
 
@@ -266,7 +262,9 @@ def read_table(faults: Faults, path: str, value: object, example: str = "") -> T
 def read_place(faults: Faults, path: str, value: object) -> complex | None:
     """Read ``[x, y]``, m."""
     if not isinstance(value, list) or len(value) != 2:
-        faults.expected(path, _SAID[faults.unit]["place"], value)
+        commas = isinstance(value, list) and len(value) in (3, 4)
+        hint = "The decimal sign is a point: [0.5, 0.3]." if commas else ""
+        faults.expected(path, _SAID[faults.unit]["place"], value, hint or value_hint(value, ""))
         return None
     x = read_coordinate(faults, f"{path}[0]", value[0], "coordinate")
     y = read_coordinate(faults, f"{path}[1]", value[1], "coordinate")
@@ -315,9 +313,7 @@ def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) ->
         return None
     word = unmask(faults, path, value)
     if word not in words:
-        guess = near(word, words)
-        hint = say("Did you mean '{}'?", guess) if guess else ""
-        faults.expected(path, _either(words), value, hint)
+        faults.expected(path, _either(words), value, near_hint(word, words))
         return None
     return word
 
@@ -344,7 +340,8 @@ def read_point_name(faults: Faults, path: str, value: object) -> str | None:
             path,
             "the name of a point",
             value,
-            "A point is a Latin letter, perhaps with digits or primes: B, O3, S2, C'.",
+            value_hint(value, "")
+            or "A point is a Latin letter, perhaps with digits or primes: B, O3, S2, C'.",
         )
         return None
     return name
@@ -359,10 +356,7 @@ def read_known_point(
         return None
     points = tuple(known)
     if name not in points:
-        guess = near(name, points)
-        hint = (
-            say("Did you mean '{}'?", guess) if guess else say("Its points are {}.", listed(points))
-        )
+        hint = near_hint(name, points, say("Its points are {}.", listed(points)))
         faults.add(path, say("{} has no point '{}'", of, name), hint if points else "")
         return None
     return name

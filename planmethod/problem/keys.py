@@ -108,7 +108,7 @@ STAMP: Mapping[str, str] = MappingProxyType(
 )
 """Fields of the title block and what they are; all of them are optional."""
 
-SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering", "lang")
+SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering", "lang", "traces")
 FORMS = ("1", "1+2a", "2", "2a")
 """Forms of the title block: of every sheet, or of the first and of the later ones."""
 LETTERINGS = ("A", "A-upright", "B", "B-upright")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import permutations
 from typing import Any
 
@@ -39,6 +39,7 @@ from planmethod.problem.names import (
     split_names,
     split_pair,
 )
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,10 +274,9 @@ def _pair_names(points: Iterable[str]) -> list[str]:
 def _read_length_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:
     pair = split_pair(key)
     if pair is None:
-        guess = near(key, (*keys.LINK, *_pair_names(link.points)))
         example = "".join(link.points[:2]) if len(link.points) > 1 else "AB"
         hint = say("A length is named by its two points: {}.", example)
-        faults.add(path, "unknown key", say("Did you mean '{}'?", guess) if guess else hint)
+        _report_unknown_key(faults, path, key, link, hint)
         return
     strangers = [point for point in dict.fromkeys(pair) if point not in link.points]
     if strangers:
@@ -287,8 +287,11 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
                 path,
                 say("link {} has no point {}", link.name, names),
                 say(
-                    "Its points are {}; add {} to {}.points or correct the name.",
+                    "Its points are {}. Where links are joined at {}, add {} to {}.points; a "
+                    "distance between points of two links changes as they move: the place of the "
+                    "driver is told by phi, x_B or another key of [driver].",
                     listed(link.points),
+                    listed(strangers),
                     adds,
                     link.path,
                 ),
@@ -337,7 +340,18 @@ def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: Li
         )
         faults.expected(path, "a table that places the point", value, hint)
     else:
-        report_unknown(faults, path, key, (*keys.LINK, *_pair_names(link.points)))
+        known = (*keys.LINK, *_pair_names(link.points))
+        _report_unknown_key(faults, path, key, link, say("Known here: {}.", listed(known)))
+
+
+def _report_unknown_key(faults: Faults, path: str, key: str, link: LinkText, hint: str) -> None:
+    """Note a key that no link has; ``hint`` is for one that is near to none."""
+    guess = near(key, (*keys.LINK, *_pair_names(link.points), *keys.MASS))
+    if guess in keys.MASS:
+        hint = say("It stands in [dynamics.links.{}]: {} = ...", segment(link.name), guess)
+    elif guess:
+        hint = say("Did you mean '{}'?", guess)
+    faults.add(path, "unknown key", hint)
 
 
 def _read_form(faults: Faults, path: str, point: str, value: Table, link: LinkText) -> None:

@@ -6,10 +6,11 @@ written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
-from planmethod.languages import say
+from planmethod.languages import say, typed
+from planmethod.pattern import pattern
+from planmethod.problem.keys import UNITS
 
 POINT_NAME_LIMIT = 8
 NAME_LIMIT = 24
@@ -28,10 +29,24 @@ _PRIMES = "'′’"
 _FOLD = str.maketrans(LOOKALIKES)
 _LETTER = r"[A-Za-zΓΔΘΛΞΠΣΦΨΩα-νξπ-ω]"
 _POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
-_POINT_RE = re.compile(rf"{_POINT}\Z")
-_POINT_FIND, _POINTS_RE = re.compile(_POINT), re.compile(rf"(?:{_POINT})+\Z")
-_PAIR_RE = re.compile(rf"({_POINT})({_POINT})\Z")
-_LABEL_RE = re.compile(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
+_POINT_RE = pattern(rf"{_POINT}\Z")
+_POINT_FIND, _POINTS_RE = pattern(_POINT), pattern(rf"(?:{_POINT})+\Z")
+_PAIR_RE = pattern(rf"({_POINT})({_POINT})\Z")
+_LABEL_RE = pattern(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
+
+
+_LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm"}
+
+
+def told_length(metres: float, unit: str, digits: int = 4) -> str:
+    """Return a length for a message, in the unit of its file: ``190 mm``."""
+    return say(_LENGTHS[unit], f"{metres * UNITS[unit]:.{digits}g}")
+
+
+def told_place(place: complex, unit: str) -> str:
+    """Return a place in the unit of its file, as the file has it: ``310, 120``."""
+    z = place * UNITS[unit]
+    return f"{z.real:.4g}, {z.imag:.4g}"
 
 
 def fold(text: str) -> str:
@@ -108,12 +123,22 @@ def near(name: str, known: Iterable[str]) -> str | None:
     from difflib import get_close_matches
 
     choices = list(dict.fromkeys(known))
+    words = (name.casefold(), name.casefold().rstrip("_0123456789₀₁₂₃₄₅₆"))
+    for choice in (key for word in words for key in typed().get(word, ())):
+        if choice in choices:
+            return choice
     folded = fold(name).casefold()
     for choice in choices:
         if choice.casefold() == folded:
             return choice
     found = get_close_matches(fold(name), choices, 1, 0.6)
     return found[0] if found else None
+
+
+def near_hint(name: str, known: Iterable[str], otherwise: str = "") -> str:
+    """Return the hint that names the nearest of the known names, else another one."""
+    guess = near(name, known)
+    return say("Did you mean '{}'?", guess) if guess else otherwise
 
 
 def listed(names: Iterable[str], *, limit: int = 12) -> str:

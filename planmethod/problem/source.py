@@ -12,20 +12,18 @@ from typing import Any
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
-from planmethod.problem.names import describe_lookalikes, fold, listed, looks_latin, near
+from planmethod.pattern import pattern
+from planmethod.problem.mistyped import line_hint
+from planmethod.problem.names import near
 
 SIZE_LIMIT = 256 * 1024
 LINE_LIMIT = 8192
 DOT_LIMIT = 64
 DEPTH_LIMIT = 12
 
-_COMMA = re.compile(r"[^#\"\[{=]*=\s*([-+]?\d+),(\d+)")
-"""A number with a decimal comma (десятичная запятая) after its key."""
-_WHERE_RE = re.compile(
-    r"^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$", re.S
-)
+_WHERE_RE = pattern(r"^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$", re.S)
 # the parser's time grows with the square of the parts of a key
-_DOTS_RE = re.compile(rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}")
+_DOTS_RE = pattern(rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}")
 _BOMS = (
     (b"\xff\xfe", "UTF-16"),
     (b"\xfe\xff", "UTF-16"),
@@ -121,9 +119,7 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
     return table
 
 
-_VARIANT_HEADER = re.compile(
-    r"^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)", re.MULTILINE
-)
+_VARIANT_HEADER = pattern(r"^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)", re.MULTILINE)
 
 
 def _quoted(header: re.Match[str]) -> str:
@@ -176,58 +172,17 @@ def _syntax_fault(message: str, lines: list[str]) -> Fault:
     match = _WHERE_RE.match(message)
     if match is None:
         return Fault("", say("this is not TOML: {}", message))
-    what, where = match["what"], match["where"]
-    if quoted := re.fullmatch(r"(.*?) ([('\"].*[)'\"])(.*)", what):
+    told, where = match["what"], match["where"]
+    what = told
+    if quoted := re.fullmatch(r"(.*?) ([('\"].*[)'\"])(.*)", told):
         what = say(f"{quoted[1]} {{}}{quoted[3]}", quoted[2])
     if where == "end of document":
         return Fault("", say("{} at the end of the file", what), "Is a bracket or quote left open?")
     number, column = map(int, re.findall(r"\d+", where))
-    line = lines[number - 1] if number <= len(lines) else ""
+    hint = line_hint(told, lines, number, column)
     where = say("line {}, column {}", number, column)
-    hint = _syntax_hint(what, line, column)
-    others = [str(n) for n, other in enumerate(lines, 1) if n != number and _COMMA.match(other)]
-    if _COMMA.match(line) and others:
-        hint = say("{} The same in lines: {}.", hint, listed(others))
     return Fault(where, say("this is not TOML: {}", _lower(what)), hint)
 
 
 def _lower(what: str) -> str:
     return what[:1].lower() + what[1:] if what[1:2].islower() else what
-
-
-def _syntax_hint(what: str, line: str, column: int) -> str:
-    """Guess the likely cause of a syntax error from its line, and say what to do."""
-    code = line.split("#", 1)[0].strip()
-    header = re.match(r"\[+([^\]\"']*)\]*", code)
-    key = header.group(1) if header else code.split("=", 1)[0]
-    for part in re.split(r"[.\s]+", key):
-        if part.isascii() or not part:
-            continue
-        if looks_latin(part):
-            return say("{}. Type '{}' in the Latin layout.", describe_lookalikes(part), fold(part))
-        if not any(c in part for c in "\"'"):
-            quoted = key.strip().replace(part, f'"{part}"')
-            shown = f"[{quoted}]" if header else f"{quoted} = ..."
-            return say("A key with letters other than Latin must be in quotes: {}", shown)
-    if "llegal character" in what and code.count('"') % 2:
-        return "The closing quote is missing."
-    if code.count("[") > code.count("]"):
-        return "The closing bracket is missing."
-    comma = _COMMA.match(code)
-    if comma:
-        return say("Write {0}.{1} with a decimal point, not {0},{1}.", comma[1], comma[2])
-    if re.match(r"[^=]*=\s*[-+]?[\d.]+\s*(?:[^\W\d_]|°)", code):
-        return 'Write the number without its unit: units = "mm" says it once for all lengths.'
-    if "=" not in code and not code.startswith("["):
-        return "A line must be 'key = value' or '[table]'."
-    if "overwrite" in what or "twice" in what:
-        return "The same key or table appears above; keep one of them."
-    if re.search(r"=\s*$", code):
-        return "A value is missing after '='."
-    if re.search(r"=\s*[^\W\d]", code) and "true" not in code and "false" not in code:
-        return "Text must be in quotes."
-    return (
-        say("Look at this line near column {}: {}", column, line.strip()[:60])
-        if line.strip()
-        else ""
-    )

@@ -9,6 +9,7 @@ from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.bodies import rotation
 from planmethod.problem.model import Problem
+from planmethod.problem.names import told_length
 
 LONGEST, SHORTEST = 20.0, 0.0005
 """Lengths of links beyond which metres are hardly meant, m."""
@@ -21,14 +22,13 @@ def unlikely(problem: Problem) -> Iterator[str]:
     """Yield what is probably not meant in a problem, with its numbers and what may be meant."""
     lengths = [(link, key, value) for link, key, value in problem.lengths if value > 0]
     longest = max(lengths, key=lambda one: one[2], default=None)
-    if longest is not None and longest[2] > LONGEST:
+    if longest is not None and not SHORTEST <= longest[2] <= LONGEST:
         link, key, value = longest
-        told = "{0} = {1:g} m. Lengths are in metres: are {1:g} mm meant, {2:g} m?"
-        yield say(told, f"links.{link}.{key}", value, value / 1000)
-    elif longest is not None and longest[2] < SHORTEST:
-        link, key, value = longest
-        told = "{} = {:g} m is the longest link. Lengths are in metres."
-        yield say(told, f"links.{link}.{key}", value)
+        told = (
+            "{} = {} is the longest link, which is hardly meant. The unit of the file's lengths "
+            'stands at its top: units = "m", "cm" or "mm".'
+        )
+        yield say(told, f"links.{link}.{key}", told_length(value, problem.unit))
     drive = problem.drive
     speed = abs(drive.rate) * 30 / pi
     if drive.is_crank and speed > FASTEST:
@@ -56,7 +56,8 @@ def _short_rods(problem: Problem) -> Iterator[str]:
             rod = abs(body.points[slide.pin] - body.points[pin])
             if rod < off:
                 told = (
-                    "the rod {0}{1} ({2:g} m) is shorter than the eccentricity of the guide of {1} "
-                    "({3:g} m): the crank cannot turn fully."
+                    "the rod {0}{1} ({2}) is shorter than the eccentricity of the guide of {1} "
+                    "({3}): the crank cannot turn fully."
                 )
-                yield say(told, pin, slide.pin, rod, off)
+                lengths = (told_length(length, problem.unit) for length in (rod, off))
+                yield say(told, pin, slide.pin, *lengths)

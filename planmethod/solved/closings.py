@@ -35,6 +35,7 @@ from planmethod.plans.motion.position import (
     parallelogram,
 )
 from planmethod.problem.model import Problem, Rule, Where
+from planmethod.problem.names import told_length, told_place
 from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain
@@ -111,8 +112,8 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
                     f"assembly.{rule.point}",
                     say(
                         "'{}' and '{}' ask for different closings of links {}",
-                        _said(rule),
-                        _said(mine[0]),
+                        _said(rule, problem.unit),
+                        _said(mine[0], problem.unit),
                         ", ".join(group.links),
                     ),
                     "Keep the one that is meant",
@@ -183,7 +184,13 @@ def _unkept(problem: Problem, rule: Rule, group: AssurGroup) -> Fault | None:
     if found.is_one:
         return None
     said = "; ".join(
-        f"{one} = {a:.10g} and {two} = {b:.10g} m"
+        say(
+            "{} = {} and {} = {}",
+            one,
+            told_length(a, problem.unit, 10),
+            two,
+            told_length(b, problem.unit, 10),
+        )
         for (one, a), (two, b) in (found.sides[:2], found.sides[2:])
     )
     return Fault(
@@ -253,11 +260,11 @@ def _score(rule: Rule, draft: Draft, reading: Reading) -> Reals:
             assert_never(rule.where)
 
 
-def _said(rule: Rule) -> str:
+def _said(rule: Rule, unit: str) -> str:
     """Return a rule in the words of the file: ``C right of B``, ``C left of AD``."""
     match rule.where:
         case Where.NEAR:
-            return say("{} near [{:g}, {:g}]", rule.point, rule.at.real, rule.at.imag)
+            return say("{} near [{}]", rule.point, told_place(rule.at, unit))
         case Where.PARALLEL:
             return say("{} keep parallel", rule.point)
         case Where.TOWARDS | Where.AWAY:
@@ -293,7 +300,7 @@ def _judge(
     plus, minus = float(scores[0][first]), float(scores[1][first])
     place = Place.of(problem, positions, first)
     where = place.driver
-    said = _said(rule)
+    said = _said(rule, problem.unit)
     if abs(plus - minus) <= TIE * size:
         raise ProblemError(
             problem.name,
@@ -301,10 +308,10 @@ def _judge(
                 Fault(
                     f"assembly.{rule.point}",
                     say(
-                        "'{}' does not tell the two closings apart at {}: both give {:.6g} m",
+                        "'{}' does not tell the two closings apart at {}: both give {}",
                         said,
                         where,
-                        plus,
+                        told_length(plus, problem.unit),
                     ),
                     "Compare with another point or with a directed line",
                 )
@@ -321,23 +328,23 @@ def _judge(
 def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
     """Return the fault of a rule that both closings satisfy, with one that tells them apart."""
     draft = both[0][0]
-    c, d = (
-        complex(reading.point(PointName(rule.point))[index]) + draft.origin
+    unit = draft.problem.unit
+    places = [
+        told_place(complex(reading.point(PointName(rule.point))[index]) + draft.origin, unit)
         for _, _, reading in both
-    )
-    places = [f"({z.real:.4g}, {z.imag:.4g})" for z in (c, d)]
+    ]
     words = _telling(rule.point, both, slice(index, index + 1)) or [
-        f"{{ near = [{z.real:.4g}, {z.imag:.4g}] }}" for z in (c, d)
+        f"{{ near = [{place}] }}" for place in places
     ]
     return Fault(
         f"assembly.{rule.point}",
         say(
-            "'{}' holds for both closings at {}: with {} at {} and at {} m",
-            _said(rule),
+            "'{}' holds for both closings at {}: with {} at ({}) and at ({}) {}",
+            _said(rule, unit),
             where,
             rule.point,
-            places[0],
-            places[1],
+            *places,
+            say(unit),
         ),
         say("Say '{}' for the first or '{}' for the second", words[0], words[1]),
     )
@@ -409,7 +416,8 @@ def _from_joint(problem: Problem, group: AssurGroup, rule: Rule) -> Rule:
     joint = _outer(problem, group, rule.point)
     if joint is None or joint in (rule.point, *rule.refs):
         hint = "Compare with another point: right of, left of, above, below"
-        message = say("'{}': there is no way from the joint {} to tell", _said(rule), joint or "")
+        said = _said(rule, problem.unit)
+        message = say("'{}': there is no way from the joint {} to tell", said, joint or "")
         raise ProblemError(problem.name, [Fault(f"assembly.{rule.point}", message, hint)])
     return replace(rule, refs=(*rule.refs, joint))
 
@@ -450,7 +458,7 @@ def _missing(group: AssurGroup, both: list[_Tried], positions: Reals, untold: Ru
         able = values[np.isfinite(values)]
         if not able.size:
             raise PositionError(explain(*both[0], positions, partial(_read, *both[0][:2])))
-        places.append(f"({able[0].real:.4g}, {able[0].imag:.4g})")
+        places.append(told_place(complex(able[0]), both[0][0].problem.unit))
     hint = say(
         'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) to [assembly]',
         c,
@@ -467,11 +475,11 @@ def _missing(group: AssurGroup, both: list[_Tried], positions: Reals, untold: Ru
     return Fault(
         f"assembly.{c}",
         say(
-            "links {} close in two ways, with {} at {} or at {} m, and no rule says which",
+            "links {} close in two ways, with {} at ({}) or at ({}) {}, and no rule says which",
             ", ".join(group.links),
             c,
-            places[0],
-            places[1],
+            *places,
+            say(both[0][0].problem.unit),
         ),
         hint,
     )

@@ -6,13 +6,15 @@ told of in common without a look at the words.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
 from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Coordinate, Problem
+from planmethod.problem.names import told_length
+from planmethod.record import dataclass
 from planmethod.solved.reading import Reals
 
 
@@ -23,32 +25,48 @@ class Place:
     Attributes
     ----------
     number : int
-        Among those that were asked, from 1.
+        Among those that were asked, from 0.
     value : float
         Of the driver, degrees, or m of a slider.
     coordinate : Coordinate
+    unit : str
+        Of the lengths of the file.
+    alone : bool
+        No other position was asked: its number says nothing.
     """
 
     number: int
     value: float
     coordinate: Coordinate
+    unit: str
+    alone: bool
 
     @classmethod
     def of(cls, problem: Problem, positions: Reals, index: int) -> Place:
         """Return the position of an index, from 0."""
-        return cls(index + 1, float(positions[index]) + 0.0, problem.drive.coordinate)
+        value, alone = float(positions[index]) + 0.0, len(positions) == 1
+        return cls(index, value, problem.drive.coordinate, problem.unit, alone)
+
+    def numbered(self, number: int, count: int) -> Place:
+        """Return the place under its number, from 0, among so many positions."""
+        return replace(self, number=number, alone=count == 1)
 
     @property
     def driver(self) -> str:
-        """Where the driver stands, without the unit: ``phi = 30``."""
-        return f"{self.coordinate.name} = {self.value:.12g}"
+        """Where the driver stands: ``phi = 30 deg``."""
+        return self.coordinate.told(self.value, self.unit)
 
     def __str__(self) -> str:
-        return self.said("position {} ({} {})")
+        if self.alone:
+            return say("the position {}", self.driver)
+        return say("position {} ({})", self.number, self.driver)
 
-    def said(self, sentence: str) -> str:
-        """Return a sentence of the number, the driver and its unit."""
-        return say(sentence, self.number, self.driver, say(self.coordinate.unit))
+    @property
+    def at(self) -> str:
+        """Where something happens, for the end of a clause."""
+        if self.alone:
+            return say(" at {}", self.driver)
+        return say(" at position {} ({})", self.number, self.driver)
 
 
 class Cause(Enum):
@@ -72,26 +90,25 @@ class Cause(Enum):
         "",
     )
     SAME_ARCS = (
-        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]:.4g} m) and {p[1]} ({l[1]:.4g} m) "
+        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]}) and {p[1]} ({l[1]}) "
         "coincide, {p[0]} and {p[1]} being at one place. This dead position is a change point: the "
         "mechanism may go on either way. Ask another one.",
         "",
     )
     ARCS = (
-        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]:.4g} m) and {p[1]} ({l[1]:.4g} m) do not "
-        "meet{own}.",
-        ", |{p[0]}{p[1]}| = {l[2]:.4g} m. Check l_{p[0]}{out}, l_{p[1]}{out}. The arcs miss by "
-        "{l[3]:.4g} m{turn}",
+        "Cannot place {out}{at}: arcs from {p[0]} ({l[0]}) and {p[1]} ({l[1]}) do not meet{own}.",
+        ", |{p[0]}{p[1]}| = {l[2]}. Check l_{p[0]}{out}, l_{p[1]}{out}. The arcs miss by "
+        "{l[3]}{turn}",
     )
     ARC = (
-        "Cannot place {out}{at}: the arc from {p[0]} ({l[0]:.4g} m) does not reach the guide of "
+        "Cannot place {out}{at}: the arc from {p[0]} ({l[0]}) does not reach the guide of "
         "{out}. Check l_{p[0]}{out} and the place of the guide.",
         "",
     )
     TANGENT = (
-        "Cannot turn the slotted link about {p[0]}{at}: its line stands off {p[0]} by {l[0]:.4g} "
-        "m{own}. Check the offset.",
-        ", but {p[1]} is only {l[1]:.4g} m away",
+        "Cannot turn the slotted link about {p[0]}{at}: its line stands off {p[0]} by {l[0]}{own}. "
+        "Check the offset.",
+        ", but {p[1]} is only {l[1]} away",
     )
     GUIDES = (
         "Cannot place {out}{at}: its two guides are parallel. Ask another position, or check their "
@@ -120,8 +137,8 @@ class Cause(Enum):
         "",
     )
     NEITHER = (
-        "'{out}' holds for neither closing at {driver}: they miss it by {l[0]:.6g} m and "
-        "{l[1]:.6g} m. Check the lengths or the rule assembly.{p[0]}.",
+        "'{out}' holds for neither closing at {driver}: they miss it by {l[0]} and "
+        "{l[1]}. Check the lengths or the rule assembly.{p[0]}.",
         "",
     )
     SPOILT_NEAR = (
@@ -170,9 +187,9 @@ class Failure:
     others: int = 0
     count: int = 1
 
-    def numbered(self, number: int) -> Failure:
-        """Return the failure with another number of its position, from 1."""
-        return replace(self, place=replace(self.place, number=number))
+    def numbered(self, number: int, count: int) -> Failure:
+        """Return the failure with its position numbered, from 0, among so many."""
+        return replace(self, place=self.place.numbered(number, count))
 
     @property
     def general(self) -> str:
@@ -181,10 +198,7 @@ class Failure:
 
     def __str__(self) -> str:
         more = "" if self.cause in (Cause.SPOILT, Cause.SPOILT_NEAR) else self._more()
-        return (
-            self._sentence(self.place.said(" at position {} ({} {})"), str(self.place), whole=True)
-            + more
-        )
+        return self._sentence(self.place.at, str(self.place), whole=True) + more
 
     def _more(self) -> str:
         text = same_at(self.alike, self.count)
@@ -199,7 +213,7 @@ class Failure:
             "driver": self.place.driver,
             "out": self.out,
             "p": self.points,
-            "l": self.lengths,
+            "l": [told_length(length, self.place.unit) for length in self.lengths],
             "plan": say(self.plan.value),
             "margin": self.margin,
             "problem": self.problem,
@@ -211,8 +225,9 @@ class Failure:
     def _over_turn(self) -> str:
         if len(self.lengths) < 6:
             return ""
-        at = self.place.coordinate.told(f"{self.lengths[5]:g}")
-        return say(", by {:.4g} m at the most over a turn (at {})", self.lengths[4], at)
+        at = self.place.coordinate.told(self.lengths[5], self.place.unit)
+        most = told_length(self.lengths[4], self.place.unit)
+        return say(", by {} at the most over a turn (at {})", most, at)
 
 
 def others_fail(count: int) -> str:
@@ -280,6 +295,8 @@ class Passed:
     ----------
     places : tuple of float
         Of the driver, degrees, or m of a slider.
+    unit : str
+        Of the lengths of the file.
     point : str
         Inner joint that a rule of ``[assembly]`` may name; empty where none helps.
     parallel : bool
@@ -289,19 +306,22 @@ class Passed:
     links: tuple[str, ...]
     places: tuple[float, ...]
     coordinate: Coordinate
+    unit: str
     point: str = ""
     parallel: bool = False
 
     def __str__(self) -> str:
         places = say(" and ").join(
-            dict.fromkeys(f"{round(at, 4) + 0.0:.10g}" for at in self.places)
+            dict.fromkeys(
+                self.coordinate.told(round(at, 4) + 0.0, self.unit, 10) for at in self.places
+            )
         )
         text = say(
             "links {} pass a change point at {}, from which the mechanism may go on either way: "
             "the side that was chosen in the first position is kept, so that one branch of the "
             "motion passes into another there.",
             ", ".join(self.links),
-            self.coordinate.told(places),
+            places,
         )
         c = self.point
         ways = [say('{} = {{ keep = "parallel" }} for the parallelogram', c)] * self.parallel
@@ -335,14 +355,14 @@ class Contradiction:
     error: float
     size: float
 
-    def numbered(self, number: int) -> Contradiction:
-        """Return the contradiction with another number of its position, from 1."""
-        return replace(self, place=replace(self.place, number=number))
+    def numbered(self, number: int, count: int) -> Contradiction:
+        """Return the contradiction with its position numbered, from 0, among so many."""
+        return replace(self, place=self.place.numbered(number, count))
 
     def __str__(self) -> str:
         told = (
-            "{}: the {} of {} about {} on link {} is off by {:.3g} (largest value {:.3g}) at "
-            "position {}. This is a fault of planmethod: please report it."
+            "{}: the {} of {} about {} on link {} is off by {:.3g} (largest value {:.3g}){}. "
+            "This is a fault of planmethod: please report it."
         )
         facts = (self.problem, say(self.quantity), self.point, self.about, self.link)
-        return say(told, *facts, self.error, self.size, self.place.number)
+        return say(told, *facts, self.error, self.size, self.place.at)

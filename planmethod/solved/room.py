@@ -7,12 +7,12 @@ as the sheet. The sizes of texts are those of the shipped compositions, by what 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH, Format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 
 Box: TypeAlias = tuple[float, float]
 Blocks: TypeAlias = "Box | Sequence[Blocks]"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +15,7 @@ from planmethod.paper import FORMATS, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Scales
+from planmethod.record import dataclass
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.room import FEW, Box, Texts, has_room
 
@@ -196,8 +197,14 @@ def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
     """Return the size of what is drawn, in its own unit: of plans the largest, without outliers."""
     width, height = sizes(construction, si, kind)
     size = np.maximum(width, height)
-    usual = size <= OUTLIER * np.median(size)
+    usual = size <= OUTLIER * _median(size)
     return float(np.max(width[usual])), float(np.max(height[usual]))
+
+
+def _median(sizes: Reals) -> float:
+    """Return the median of (N,) sizes; numpy's own would import its masked arrays."""
+    ordered = np.sort(sizes)
+    return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
 
 
 def choose_views(construction: Construction, si: Reading) -> Views:

@@ -111,12 +111,13 @@ def changed_branches(solution: Solution) -> list[Passed]:
 
 
 def _passed(solution: Solution, group: AssurGroup, places: tuple[float, ...]) -> Passed:
-    coordinate = solution.problem.drive.coordinate
+    problem = solution.problem
+    coordinate = problem.drive.coordinate
     if group.signature == "RPR":
-        return Passed(group.links, places, coordinate)
-    found = parallelogram(solution.problem, group) if group.signature == "RRR" else None
+        return Passed(group.links, places, coordinate, problem.unit)
+    found = parallelogram(problem, group) if group.signature == "RRR" else None
     parallel = found is not None and found.is_one
-    return Passed(group.links, places, coordinate, inner_point(group), parallel)
+    return Passed(group.links, places, coordinate, problem.unit, inner_point(group), parallel)
 
 
 def _refuse_spoilt(solution: Solution) -> None:

@@ -156,7 +156,7 @@ def test_a_rule_that_both_closings_satisfy_is_refused() -> None:
     assert result.exit_code == 3
     assert result.stderr == (
         "Error: ambiguous-rule: 1 fault in the problem file\n"
-        "  assembly.C: 'C right of B' holds for both closings at phi = 60: with C at (0.3251, "
+        "  assembly.C: 'C right of B' holds for both closings at phi = 60 deg: with C at (0.3251, "
         "0.2063) and at (0.1838, -0.1819) m. Say 'above A' for the first or 'below A' for the "
         "second\n"
     )

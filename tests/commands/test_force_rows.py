@@ -272,7 +272,7 @@ def test_a_given_scale_of_forces_is_kept(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_a_dead_position_is_empty_in_every_form() -> None:
     for form in (("--csv",), ("--npz", "a.npz"), ("--ask", "forces")):
         said = refused(4, "solve", "dead.toml", "--phi", "45,180,90", *form)
-        assert "at position 2 (phi = 180 deg)" in said
+        assert "at position 1 (phi = 180 deg)" in said
         assert said.endswith("give --partial with --csv, --npz or --ask.")
     table = rows(run("solve", "dead.toml", "--phi", "45,180,90", "--csv", "--partial").stdout)
     assert [bool(row["driving.moment"]) for row in table] == [True, False, True]
@@ -291,7 +291,7 @@ def test_places_without_forces_say_why() -> None:
     """Without masses the forces of a place need no velocities: it is their plan that fails."""
     args = ("solve", "dead.toml", "--phi", "45,180,90", "--ask", "C,M_dr")
     said = refused(4, *args)
-    assert "Cannot close the force plan at position 2 (phi = 180 deg)" in said
+    assert "Cannot close the force plan at position 1 (phi = 180 deg)" in said
     result = run(*args, "--csv", "--partial")
     assert "1 of 3 positions is impossible and left empty. Cannot close the force" in result.stderr
     table = rows(result.stdout)
@@ -319,7 +319,7 @@ def test_motion_is_told_where_only_forces_do_not_exist(monkeypatch: pytest.Monke
     phi = "0:360:30"  # dead at 180 degrees, with flat force plans at some others
     for form in ((), ("--json",), ("--csv",), ("--npz", "a.npz"), ("--ask", "M_dr")):
         said = refused(4, "solve", "dead.toml", "--phi", "45,160,90", *form)
-        assert said.startswith("Error: Cannot close the force plan at position 2 (phi = 160 deg)")
+        assert said.startswith("Error: Cannot close the force plan at position 1 (phi = 160 deg)")
         assert said.endswith("give --partial with --csv, --npz or --ask.")
     assert run("solve", "dead.toml", "--phi", "45,160,90", "--ask", "a_C").exit_code == 0
     for block in (2048, 5):

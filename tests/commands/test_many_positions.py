@@ -187,9 +187,9 @@ def test_asked_results_as_a_table() -> None:
     text = done("solve", EX3, "--phi", "0:360:90", "--ask", "v_E,omega_3")
     assert "E.vx" in text and "3.omega" in text and "E.ax" not in text
     cells = [line.split() for line in text.splitlines()]
-    assert ["2", "90", "−4,046", "0", "18,39"] in cells
+    assert ["1", "90", "−4,046", "0", "18,39"] in cells
     english = done("solve", EX3, "--phi", "0:360:90", "--ask", "v_E,omega_3", "--lang", "en")
-    assert ["2", "90", "−4.046", "0", "18.39"] in [line.split() for line in english.splitlines()]
+    assert ["1", "90", "−4.046", "0", "18.39"] in [line.split() for line in english.splitlines()]
     assert max(map(len, text.splitlines())) <= 100
 
 
@@ -245,7 +245,7 @@ def test_a_range_shorter_than_its_step_is_one_position() -> None:
 def test_a_refusal_tells_of_partial_where_several_positions_are_asked() -> None:
     for form in ((), ("--csv",), ("--json",), ("--npz", "a.npz"), ("--ask", "omega_3")):
         several = refused(4, "solve", SIX_LINK, "--phi", "0:360:30", *form)
-        assert "Cannot place C at position 1 (phi = 0 deg)" in several
+        assert "Cannot place C at position 0 (phi = 0 deg)" in several
         assert "The same holds at 5 more of 12 positions." in several
         assert several.endswith("give --partial with --csv, --npz or --ask.")
         assert "--partial" not in refused(4, "solve", SIX_LINK, "--phi", "0", *form)
@@ -261,7 +261,7 @@ def warned(*args: str) -> tuple[str, str]:
     assert result.exit_code == 0, result.output
     (line,) = result.stderr.splitlines()
     assert line.startswith("Warning: six-link: 6 of 12 positions are impossible, left empty. ")
-    assert "Cannot place C at position 1 (phi = 0 deg)" in line
+    assert "Cannot place C at position 0 (phi = 0 deg)" in line
     return result.stdout, line
 
 
@@ -270,7 +270,7 @@ def test_impossible_positions_are_empty_cells_with_a_reason() -> None:
     table = rows(text)
     assert list(table[0])[-1] == "reason"
     whole = rows(done("solve", SIX_LINK, "--phi", "150:330:30", "--csv"))
-    assert [row["position"] for row in table] == [str(k) for k in range(1, 13)]
+    assert [row["position"] for row in table] == [str(k) for k in range(12)]
     for row in table[5:11]:
         assert row["reason"] == ""
         (same,) = [other for other in whole if other["phi_deg"] == row["phi_deg"]]
@@ -289,7 +289,7 @@ def test_impossible_positions_are_nan_with_a_reason() -> None:
     with np.load("a.npz") as found:
         assert found["reason"].tolist() == [0] * 5 + [-1] * 6 + [0]
         (sentence,) = found["reasons"].tolist()
-        assert sentence.startswith("Cannot place C at position 1 (phi = 0 deg)")
+        assert sentence.startswith("Cannot place C at position 0 (phi = 0 deg)")
         assert np.array_equal(np.isnan(found["C.x"]), found["reason"] >= 0)
         assert np.isfinite(found["B.x"]).all()  # the crank turns on
 
@@ -301,8 +301,8 @@ def test_asked_cells_that_exist_are_filled() -> None:
     assert table[0]["3.omega"] == "" and table[0]["B.x"] == "0.1"
     assert table[0]["reason"] and not table[6]["reason"]
     shown, _ = warned(*args)
-    assert ["1", "0", "—", "0,1000", "0"] in [line.split() for line in shown.splitlines()]
-    assert "Cannot place C at position 1" in shown
+    assert ["0", "0", "—", "0,1000", "0"] in [line.split() for line in shown.splitlines()]
+    assert "Cannot place C at position 0" in shown
 
 
 def test_nothing_is_said_where_nothing_is_impossible() -> None:
@@ -329,11 +329,11 @@ def test_positions_that_rounding_spoils_are_impossible_too() -> None:
     phi = f"45,{SPOILT},90"
     for form in (("--csv",), ("--npz", "a.npz")):
         said = refused(4, "solve", "dead.toml", "--phi", phi, *form)
-        assert "position 2 (phi = 179.999 deg) stands so near a dead position" in said
+        assert "position 1 (phi = 179.999 deg) stands so near a dead position" in said
         result = run("solve", "dead.toml", "--phi", phi, *form, "--partial")
         assert result.exit_code == 0
         assert "1 of 3 positions is impossible and left empty" in result.stderr
-        assert "position 2 (phi = 179.999 deg) stands so near" in result.stderr
+        assert "position 1 (phi = 179.999 deg) stands so near" in result.stderr
     with np.load("a.npz") as found:
         assert found["reason"].tolist() == [-1, 0, -1]
         assert np.isnan(found["3.omega"]).tolist() == [False, True, False]
@@ -343,7 +343,7 @@ def test_what_is_asked_alone_is_told_with_a_doubt() -> None:
     """The place is good although the velocity is not: a warning, no refusal."""
     result = run("solve", "dead.toml", "--phi", f"45,{SPOILT}", "--ask", "C", "--csv")
     assert result.exit_code == 0
-    assert "position 2 (phi = 179.999 deg) stands so near" in result.stderr
+    assert "position 1 (phi = 179.999 deg) stands so near" in result.stderr
     assert float(rows(result.stdout)[1]["C.x"]) == pytest.approx(0.5, abs=1e-6)
     dead = run("solve", "dead.toml", "--phi", "45,180", "--ask", "C", "--csv")
     assert dead.exit_code == 0 and dead.stderr == ""
@@ -354,7 +354,7 @@ def test_a_mechanism_that_is_no_mechanism_is_refused_all_the_same() -> None:
     Path("apart.toml").write_text(DEAD.replace("DC = 2.5", "DC = 0.1"), "utf-8")
     for form in (("--csv",), ("--npz", "a.npz"), ("--ask", "v_C")):
         said = refused(4, "solve", "apart.toml", "--phi", "0,30", *form, "--partial")
-        assert "Cannot place C at position 1 (phi = 45 deg)" in said
+        assert "Cannot place C at phi = 45 deg" in said
 
 
 # Blocks -------------------------------------------------------------------------------------------
@@ -380,7 +380,7 @@ def test_a_large_table_is_the_small_ones_beside_each_other(
     header, wanted = csv_rows(Solution(load(Path(EX3)), positions=[float(k) for k in range(360)]))
     found = list(csv.reader(io.StringIO(text)))
     assert found[0] == header
-    assert [row[0] for row in found[1:]] == [str(k) for k in range(1, 361)]
+    assert [row[0] for row in found[1:]] == [str(k) for k in range(360)]
     numbers, table = np.array(found[1:], dtype=float), np.array(wanted, dtype=float)
     exact = [k for k, name in enumerate(header) if not name.endswith(".read")]
     size = np.abs(table).max(axis=0)
@@ -412,7 +412,7 @@ def test_a_large_table_is_checked_before_it_is_written() -> None:
     assert result.exit_code == 0 and result.stdout == "t.csv\n"
     with Path("t.csv").open(encoding="utf-8") as file:
         table = list(csv.DictReader(file))
-    assert [bool(row["C.x"]) for row in table] == [k < number for k in range(1, len(table) + 1)]
+    assert [bool(row["C.x"]) for row in table] == [k < number for k in range(len(table))]
     assert [not row["reason"] for row in table] == [bool(row["C.x"]) for row in table]
     told = "Cannot place C: arcs from B (0.3 m) and D (0.15 m) do not meet."
     assert {row["reason"] for row in table} == {"", told}  # true of every row it stands in
@@ -465,7 +465,7 @@ def test_gaps_are_told_in_the_order_of_their_first_positions() -> None:
 
     def tell(index: int) -> Failure:
         asked.append(index)
-        return Failure(Cause.AT_LIMIT, Place(index + 1, 30.0 * index, TURN))
+        return Failure(Cause.AT_LIMIT, Place(index + 1, 30.0 * index, TURN, "m", alone=False))
 
     gaps = Gaps.of(codes, tell)
     assert asked == [1, 2]
@@ -489,15 +489,17 @@ def test_gaps_are_told_in_the_order_of_their_first_positions() -> None:
 @pytest.mark.parametrize("cause", Cause)
 def test_what_is_true_of_every_position_of_a_kind_has_no_number_of_one(cause: Cause) -> None:
     """Radii hold for all; the place, the margin and distances between moving points do not."""
-    facts = Failure(cause, Place(7, 30.5, TURN), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5))
+    facts = Failure(
+        cause, Place(7, 30.5, TURN, "m", alone=False), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5)
+    )
     facts = replace(facts, margin=1e-9, problem="ex")
-    other = replace(facts, place=Place(8, 60.5, TURN), margin=2e-9)
+    other = replace(facts, place=Place(8, 60.5, TURN, "m", alone=False), margin=2e-9)
     moved = (1.0, 2.0, 6.25, 7.5) if cause is not Cause.TANGENT else (1.0, 5.0)
     other = replace(other, lengths=moved)
     own = cause not in (Cause.NOT_FINITE, Cause.TOGETHER, Cause.NEITHER)
     if own:
         assert "position 7 (phi = 30.5 deg)" in str(facts).replace("Position", "position")
-        assert str(facts.numbered(8)) == str(facts).replace("osition 7 (", "osition 8 (")
+        assert str(facts.numbered(8, 9)) == str(facts).replace("osition 7 (", "osition 8 (")
         assert facts.general == other.general
     assert (str(facts) == str(other)) == (cause is Cause.NOT_FINITE)
 
@@ -516,7 +518,7 @@ def test_a_sample_is_even_and_has_both_ends(count: int) -> None:
 def test_names_with_position_in_them_are_left_alone() -> None:
     Path("position 7.toml").write_text(DEAD, "utf-8")
     said = refused(4, "solve", "position 7.toml", "--phi", f"45,{SPOILT}", "--npz", "a.npz")
-    assert "position 7: position 2 (phi = 179.999 deg) stands so near" in said
+    assert "position 7: position 1 (phi = 179.999 deg) stands so near" in said
 
 
 def test_a_bar_is_shown_on_a_terminal_only(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -232,17 +232,17 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
     for solution in every():
         reading = ForceReading(solution, 0)
         parts = re.split(r"\n\d+\.\d+\. ", text_of(solution).partition("Силовой расчёт")[2])[1:]
-        for plan, part in zip(reading.plans, parts, strict=True):
+        for k, (plan, part) in enumerate(zip(reading.plans, parts, strict=True)):
             laid = list(LAID.finditer(flat(part)))
             unknown = {edge.symbol for edge in plan.reactions}
             asked = [
                 edge
                 for edge in plan.polygon
-                if edge.symbol not in unknown and reading.length(edge) > 0.0
+                if edge.symbol not in unknown and reading.length(edge, k) > 0.0
             ]
             order = [m["symbol"] for m in laid]
             assert sorted(order) == sorted(plain_text(e.symbol) for e in asked)
-            lengths = {plain_text(edge.symbol): reading.length(edge) for edge in asked}
+            lengths = {plain_text(edge.symbol): reading.length(edge, k) for edge in asked}
             for match in laid:
                 length = lengths[match["symbol"]]
                 assert number(match["length"]) == pytest.approx(length, rel=6e-4)
@@ -443,3 +443,12 @@ def test_a_shifted_force_of_inertia_is_told_where_it_acts(lang: str) -> None:
     assert laid.format(length.replace(".", ",") if lang == "ru" else length) in text
     assert "h₂ = M_Φ2/Φ₂ = " in text and "T₂" in text and "(s₂t₂) = h₂·(bc)/l_BC = " in text
     assert "M_Φ2/l_BC" not in text  # no pair of forces on the lever
+
+
+def test_masses_and_loads_are_given_as_the_file_has_them() -> None:
+    text = path_of("levers/six-link").read_text("utf-8")
+    text = text.replace("mass = 40\n", 'mass = "80/2"\n')
+    text = text.replace("force = 6000", 'force = "3*2000"')
+    said = flat(protocol(Solution(loads(text, name="x")), lang="ru")).replace("\u00a0", " ")
+    assert "m₂ = 80/2 кг; m₃ = 70 кг; m₅ = 50 кг; J_S1 = 5 кг·м²;" in said
+    assert "g = 9,81 м/с²; F_5C = 3·2000 Н." in said

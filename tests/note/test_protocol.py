@@ -183,7 +183,7 @@ def test_each_of_many_positions_has_its_own_numbers() -> None:
     solution = Solution(worked("linkages/ex1").problem, positions=[10.0, 60.0, 200.0])
     alone = Solution(worked("linkages/ex1").problem, positions=[60.0])
     text = flat(protocol(solution, position=1))
-    assert "Положение 2 из 3: φ₁ = 60°" in text
+    assert "Положение 1 (всего 3): φ₁ = 60°" in text
     assert text.partition("Формула")[2] == flat(protocol(alone)).partition("Формула")[2]
     with pytest.raises(IndexError, match="position 3 of 3"):
         protocol(solution, position=3)

@@ -168,7 +168,7 @@ def test_says_how_far_off_the_readings_of_a_worked_example_are() -> None:
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_what_was_found_by_draws_is_marked_and_told(lang: str) -> None:
     words = wording(lang)
-    note = words.drawn_note.format(count=4000)
+    note = words.drawn_note
     starred = result_tables(near_dead(), lang, sigma=True)
     assert note in flat(starred)
     assert re.search(r"\d\*", starred)

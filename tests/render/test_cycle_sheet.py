@@ -157,8 +157,8 @@ def test_the_marks_are_what_both_methods_give_on_paper(
     ][::2]
     turn = per_mm(sheet, view, "φ")
     for found, values in ((rings, balances.plans), (crosses, balances.lever)):
-        assert len(found) == len(positions) + 1  # the last one is in the legend
-        for place, x, value in zip(found, _across(positions, turn), values, strict=False):
+        assert len(found) == len(positions) + 1  # the first one is in the legend
+        for place, x, value in zip(found[1:], _across(positions, turn), values, strict=True):
             assert place - zero == pytest.approx(complex(x, value / view.per_mm), abs=1e-6)
 
 

@@ -221,7 +221,7 @@ def test_a_force_of_a_plan_is_one_line_as_long_as_the_force_over_its_scale(
     found = sorted(abs(point(line.dxf.end) - point(line.dxf.start)) for line in lines)
     reading = force_reading(solution, 0)
     wanted = sorted(
-        abs(reading.vector(edge))
+        abs(reading.drawn(number, edge))
         for number in range(len(reading.plans))
         for edge in drawn_edges(reading, number)
     )

@@ -217,4 +217,4 @@ def test_what_the_mark_means_is_told_where_it_is() -> None:
     for sheet in kinematics_sheets(problem_of(name), positions=MANY[name], sigma=True):
         shown = re.sub(r"\s+", " ", texts(sheet))
         starred = re.search(r"\d\*(\s|$)", texts(sheet)) is not None
-        assert ("по 4000 случайным чертежам" in shown) == starred
+        assert ("по множеству возможных чертежей" in shown) == starred

@@ -28,6 +28,7 @@ from planmethod.plans.model import Known
 from planmethod.problem.model import FORCE, MOMENT, Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
+from planmethod.render.forces.arms import ARM
 from planmethod.render.forces.arrows import Acting, distance, lay_forces
 from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
@@ -218,20 +219,23 @@ def test_cut_links_have_loads_and_reactions_in_their_directions(name: str) -> No
 @pytest.mark.parametrize("name", LOADED)
 def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
     sheet, reading = sheet_of(name), reading_of(name)
+    fine = ForceReading(Solution(problem_of(name), ruler=1e-7), 0)
     found = reading.statics.reactions
     reactions = {reaction_symbol(r.on, r.by): complex(r.force[0]) for r in found}
     reactions |= {reaction_symbol(r.by, r.on): -complex(r.force[0]) for r in found}
     loads_of = {g.applied.name: complex(g.applied.force[0]) for g in reading.statics.board.given}
     seen = set()
     for number, view in enumerate(views(sheet, "forces")):
+        edges = {edge.symbol: edge for edge in drawn_edges(reading, number)}
         for letter, vector in arrows(sheet, view):
-            if letter in reactions or letter in loads_of:
-                force = {**loads_of, **reactions}[letter]
-                assert vector * view.per_mm == pytest.approx(force, rel=1e-6)
-                seen.add(letter)
-            else:  # a component
-                (edge,) = (e for e in reading.plans[number].polygon if e.symbol == letter)
-                assert vector * view.per_mm == pytest.approx(reading.force(edge), rel=1e-6)
+            edge = edges[letter]
+            assert vector == pytest.approx(reading.drawn(number, edge), rel=1e-6)
+            # What the ruler finds goes into the calculation; a fine one finds the force itself.
+            assert abs(abs(vector) - reading.length(edge, number)) < 0.26
+            exact = {**loads_of, **reactions}.get(letter, fine.force(edge))
+            drawn = fine.drawn(number, edge) * fine.own_scale(number).per_mm
+            assert drawn == pytest.approx(exact, rel=1e-6)
+            seen |= {letter} & ({*reactions} | {*loads_of})
         for span in view.spans:
             assert span.length > 0
     # What is not there by its own letter is there by its components, or is the same line.
@@ -353,6 +357,29 @@ def test_the_lever_is_in_balance(name: str) -> None:
             assert abs((link.conjugate() * (end - start)).imag) < 1e-6 * abs(link) * abs(
                 end - start
             )
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_each_arm_is_a_perpendicular_of_the_length_that_is_read(name: str) -> None:
+    """On cut links and on the lever, each arm of the equations, none of other lengths."""
+    reading, lever = reading_of(name), LeverReading(reading_of(name))
+    read = [abs(force.arm) for force in lever.forces]
+    for plan in reading.plans:
+        for equation in plan.moments:
+            read += [abs(reading.arm(edge, equation.about)) for edge in equation.edges]
+    lines = [
+        i for i in sheet_of(name).items if isinstance(i, Stroke) and i.tag.startswith(f"{ARM} ")
+    ]
+    lengths = [abs(line.points[1] - line.points[0]) for line in lines]
+    for arm in filter(lambda one: one > 4.0, read):
+        assert min(abs(length - arm) for length in lengths) < 0.3
+    for length in lengths:
+        assert min(abs(length - arm) for arm in read) < 0.3
+    corners = [
+        i.points for i in sheet_of(name).items if isinstance(i, Stroke) and "right angle" in i.tag
+    ]
+    assert len(corners) >= len(lines)
+    assert all(abs(((a - b) / (c - b)).real) < 1e-9 for a, b, c in corners)
 
 
 @pytest.mark.parametrize("name", LOADED)

@@ -376,11 +376,17 @@ def test_an_unknown_form() -> None:
 
 
 def test_only_the_first_sheet_says_how_many_there_are() -> None:
-    assert Furniture().numbers(1, 1) == {}
+    assert Furniture().numbers(1, 1) == {"sheets": "1"}
     assert Furniture().numbers(1, 3) == {"sheet": "1", "sheets": "3"}
     assert Furniture().numbers(2, 3) == {"sheet": "2", "sheets": ""}
     assert Furniture(before=4).numbers(1, 1) == {"sheet": "5", "sheets": ""}
     assert Furniture(total=9).numbers(1, 1) == {"sheet": "1", "sheets": "9"}
+
+
+def test_names_of_sheets_have_one_height_wrapped_or_not() -> None:
+    for name in ("Силовой расчёт механизма", "Структурный и кинематический анализ механизма"):
+        runs = shown(title_block({"title": name}), (65, 15, 135, 40))
+        assert {run.height for run in runs} == {5.0}, name
 
 
 # Fields ------------------------------------------------------------------------------------------

@@ -46,9 +46,9 @@ def test_outline_is_thick_and_inner_lines_are_thin() -> None:
     assert len(across) == 2
 
 
-def test_equal_units_share_one_cell_above_the_symbols() -> None:
+def test_equal_units_share_one_cell_after_their_letter_above_the_symbols() -> None:
     items = table_block(COLUMNS, units="above").place(0j)
-    (unit,) = runs_of(items, "м/с")
+    (unit,) = runs_of(items, "v, м/с")
     symbols = [run for run in runs_of(items, "v") if run.box]
     assert unit.box is not None
     assert symbols[0].box is not None

@@ -59,6 +59,11 @@ def test_two_indices_of_one_kind_follow_each_other() -> None:
     assert second.y == first.y
 
 
+def test_a_multiplication_dot_is_clear_of_the_index_before_it() -> None:
+    index, dot = typeset("ω_{1}·l", 5.0).runs[1:]
+    assert dot.x - index.x - in_use().width(index.text, index.height) > 0.5
+
+
 def test_index_of_an_index() -> None:
     assert runs("B_{3_{1}}") == [("B", 5), ("3", 3.5), ("1", 2.5)]
 

@@ -57,13 +57,13 @@ def test_near_the_change_point_the_estimate_covers_the_error(phi: str) -> None:
 
 def test_a_doubtful_position_is_told_with_its_margin() -> None:
     (said,) = map(str, warnings(parallelogram("[50, 0.02]")))
-    assert said.startswith("position 2 (phi = 0.02 deg) is next to a dead position (margin ")
+    assert said.startswith("position 1 (phi = 0.02 deg) is next to a dead position (margin ")
 
 
 @pytest.mark.parametrize("phi", ["0.001", "1e-5"])
 def test_a_spoilt_position_is_refused(phi: str) -> None:
     solution = parallelogram(f"[50, {phi}]")
-    with pytest.raises(AssemblyError, match=r"position 2 .* so near a dead position"):
+    with pytest.raises(AssemblyError, match=r"position 1 .* so near a dead position"):
         verify(solution)
 
 
@@ -74,7 +74,7 @@ def test_the_change_point_itself_cannot_choose_a_closing() -> None:
 
 def test_the_closing_is_told_by_the_first_position_that_can() -> None:
     solution = parallelogram("[0, 50]")
-    with pytest.raises(AssemblyError, match=r"at position 1 .* stands in a dead position"):
+    with pytest.raises(AssemblyError, match=r"at position 0 .* stands in a dead position"):
         _ = solution.si
 
 

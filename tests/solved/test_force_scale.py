@@ -42,6 +42,23 @@ def test_all_positions_have_one_scale() -> None:
     assert statics_of(solution).scale.per_mm >= single.per_mm
 
 
+def test_a_small_plan_has_a_scale_of_its_own_and_is_read_at_that() -> None:
+    problem = problem_of("levers/task-33")
+    reading = ForceReading(Solution(problem), 0)
+    own = [reading.own_scale(number).per_mm for number in range(len(reading.plans))]
+    assert own[0] < reading.scale.per_mm == own[1] == own[2]
+    (slight,) = (edge for edge in reading.plans[0].wholes if edge.symbol == "F_{42}")
+    ruler, exact = reading.solution.hand.ruler, abs(reading.force(slight))
+    assert abs(reading.read(slight) - exact) < 0.05 * exact
+    assert reading.length(slight, 0) / ruler == pytest.approx(
+        round(reading.length(slight, 0) / ruler)
+    )
+    coarse = reading.solution.hand.ruled(exact / reading.scale.per_mm) * reading.scale.per_mm
+    assert abs(coarse - exact) > 0.3 * exact
+    asked = replace(problem, scales=replace(problem.scales, mu_F=20.0))
+    assert ForceReading(Solution(asked), 0).own_scale(0).per_mm == 20.0
+
+
 def test_the_scale_of_the_file() -> None:
     problem = problem_of("press/press")
     asked = replace(problem, scales=replace(problem.scales, mu_F=7.5))

@@ -113,10 +113,10 @@ def key_xlsx(keys: Sequence[Key], words: Language) -> bytes:
             rows.append(
                 [
                     row.key.variant,
-                    row.position + 1,
+                    row.position,
                     entry.label,
-                    told(entry.exact, entry),
-                    entry.tolerance,
+                    told(entry.exact, entry) / entry.per,
+                    entry.tolerance / entry.per,
                     cells[2],
                     cells[3],
                     entry.mm,

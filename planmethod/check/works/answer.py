@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -11,11 +10,12 @@ from planmethod.check.works.cells import Cell, found, read_name, refused
 from planmethod.check.works.numbers import read_number
 from planmethod.check.works.units import read_unit
 from planmethod.check.works.vocabulary import read_sense
+from planmethod.pattern import pattern
 
 POSITION_LIMIT = 100_000
 
 _MM = read_unit("mm")
-_BREAK = re.compile(r"[\s(,;]+")
+_BREAK = pattern(r"[\s(,;]+")
 
 Scaled = tuple[float, float, str, Sense | None]
 """Value and step, SI; unit as written; sense."""
@@ -29,7 +29,7 @@ class NotReadError(Exception):
         self.why, self.text, self.cell = why, text, cell
 
 
-def read_answer(cells: Mapping[str, Cell], *, where: str = "", first: int = 0) -> Written:
+def read_answer(cells: Mapping[str, Cell], *, where: str = "") -> Written:
     """Return an answer; what cannot be read is told by the first cell at fault.
 
     Parameters
@@ -38,8 +38,6 @@ def read_answer(cells: Mapping[str, Cell], *, where: str = "", first: int = 0) -
         By the names of fields: what, id, value, unit, mm, segment, sense, position.
     where : str
         Where it stands, if its cells do not tell.
-    first : int
-        Number of the first position.
     """
     what, name = "", found(cells, "id").text
     if named := found(cells, "what").text:
@@ -57,7 +55,7 @@ def read_answer(cells: Mapping[str, Cell], *, where: str = "", first: int = 0) -
     )
     try:
         # What counts first is read first: a fault leaves what stands before it.
-        answer = replace(answer, position=_position(found(cells, "position"), first))
+        answer = replace(answer, position=_position(found(cells, "position")))
         value, mm = found(cells, "value"), found(cells, "mm")
         said = None
         if not value.is_blank:
@@ -119,13 +117,13 @@ def _sense(cell: Cell) -> Sense | None:
     return sense
 
 
-def _position(cell: Cell, first: int) -> int | None:
+def _position(cell: Cell) -> int | None:
     if cell.is_blank:
         return None
     number = None if cell.why else read_number(cell.text)
     if number is None or number.rest or number.value % 1:
         raise NotReadError(cell.why or Unread.POSITION, cell.text, cell)
-    position = int(number.value) - first
+    position = int(number.value)
     if not 0 <= position < POSITION_LIMIT:
         raise NotReadError(Unread.POSITION, cell.text, cell)
     return position

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 
 from planmethod.check.works.cells import read_name
 from planmethod.check.works.gather import scale_name
 from planmethod.check.works.units import read_unit
-from planmethod.check.works.vocabulary import FROM_ONE, HEADS, MM, key
+from planmethod.check.works.vocabulary import HEADS, MM, key
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 ASPECTS = ("value", "mm", "sense", "unit", "segment")
 """What of an answer may stand in a column of its own."""
 
 _PLAN_LENGTHS = ("length", "segment", "arm", "shift")
-_LAST_WORD = re.compile(r"(.*\S)\s+(\S+)\Z")
-_QUANTITY = re.compile("[A-Za-zΑ-ωϕ]")
+_LAST_WORD = pattern(r"(.*\S)\s+(\S+)\Z")
+_QUANTITY = pattern("[A-Za-zΑ-ωϕ]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,14 +33,11 @@ class Head:
         Quantity, of which ``field`` is an aspect; or scale, where ``field`` is ``scale``.
     unit : str
         Of the numbers below that have none of their own.
-    first : int
-        Number of the first position.
     """
 
     field: str = ""
     name: str = ""
     unit: str = ""
-    first: int = 0
 
 
 @lru_cache(maxsize=4096)
@@ -53,7 +51,7 @@ def read_head(text: str) -> Head:
             return Head("scale", scale, suffix)
         field = "mm" if HEADS.get(name) == "segment" and suffix in MM else HEADS.get(name, "")
         if field:
-            return Head(field, unit="" if field == "mm" else suffix, first=int(name in FROM_ONE))
+            return Head(field, unit="" if field == "mm" else suffix)
     return Head()
 
 

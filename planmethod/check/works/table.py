@@ -171,7 +171,6 @@ def _read_row(draft: Draft, cells: Sequence[tuple[Head, Cell]]) -> None:
     """Take what a row says: of the student, and an answer or those of all columns."""
     own: dict[str, Cell] = {}
     asked: list[dict[str, Cell]] = []
-    first = 0
     for head, cell in cells:
         if cell.merged and head.field in _MERGED:
             cell = replace(cell, text=cell.merged)
@@ -194,15 +193,13 @@ def _read_row(draft: Draft, cells: Sequence[tuple[Head, Cell]]) -> None:
                 own[head.field] = cell
             if head.unit and head.field == "value" and own.get("unit", BLANK).is_blank:
                 own["unit"] = Cell(head.unit, cell.where)
-            if head.field == "position":
-                first = head.first
     for answer in asked:
-        draft.put(read_answer({**own, **answer}, first=first))
+        draft.put(read_answer({**own, **answer}))
     if not asked:
-        _read_long_row(draft, own, first)
+        _read_long_row(draft, own)
 
 
-def _read_long_row(draft: Draft, cells: Mapping[str, Cell], first: int) -> None:
+def _read_long_row(draft: Draft, cells: Mapping[str, Cell]) -> None:
     named, value = found(cells, "what", "id").text, found(cells, "value", "mm")
     word, _, point = named.partition(" ")
     if scale := scale_name(named):
@@ -212,6 +209,6 @@ def _read_long_row(draft: Draft, cells: Mapping[str, Cell], first: int) -> None:
     elif key(word) in POINT and point:
         draft.points[point.strip()] = value.text
     else:
-        draft.put(read_answer(cells, first=first))
+        draft.put(read_answer(cells))
         if not found(cells, "scale").is_blank:
             draft.put_row_scale(named, cells["scale"])

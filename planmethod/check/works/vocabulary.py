@@ -42,9 +42,6 @@ HEADS: Mapping[str, str] = {
 }
 """Which field a head is, by `key`; a ``note`` is not read."""
 
-FROM_ONE = frozenset(map(key, ("положение", "№ положения", "номер положения")))
-"""Heads under which positions are counted from 1, as on a sheet; ``position`` counts from 0."""
-
 MM = frozenset(("мм", "mm"))
 """What a head ends with when millimetres of the plan stand below it."""
 

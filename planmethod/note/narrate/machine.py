@@ -73,7 +73,7 @@ class MachineTeller:
         assert problem.dynamics is not None
         start = self.flywheel.turn.start_deg
         lines = given(problem, self.words, [start])
-        lines += mass_lines(problem.dynamics, self.say)
+        lines += mass_lines(problem, self.words)
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
             lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
@@ -218,11 +218,15 @@ class MachineTeller:
             peak = float(np.max(np.abs(values)))
             clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
             told = [say.number(text) for text in alike(clean.tolist(), digits)]
-            return head, self.unit(unit), told
+            return head, say.in_head(unit), told
 
         return [
             (self.words.note.number, "", [str(k) for k in range(len(angles))]),
-            (f"φ_{{{flywheel.problem.drive.link}}}", "°", [say.number(a) for a in angles]),
+            (
+                f"φ_{{{flywheel.problem.drive.link}}}",
+                say.in_head("deg"),
+                [say.number(a) for a in angles],
+            ),
             column(self.letter("resisting moment"), rows.moment, "N·m"),
             column(self.letter("moment by lever"), flywheel.lever(flywheel.machine.count), "N·m"),
             column(self.work, rows.work, "J"),

@@ -118,6 +118,10 @@ def course_columns(course: Course, tell: MachineTeller) -> list[tuple[str, str, 
     time, turned, omega = course.rows(ROWS)
     columns = (("t", "s", time), ("φ", "deg", turned * 180.0 / pi), ("ω", "1/s", omega))
     return [
-        (head, tell.unit(unit), [tell.say.number(text) for text in alike(values.tolist(), 5)])
+        (
+            head,
+            tell.say.in_head(unit),
+            [tell.say.number(text) for text in alike(values.tolist(), 5)],
+        )
         for head, unit, values in columns
     ]

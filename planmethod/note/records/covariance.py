@@ -22,7 +22,7 @@ def _errors(solution: Solution) -> Errors:
 def covariance_text(solutions: list[Solution]) -> str:
     """Return the covariance of every pair of quantities, as CSV.
 
-    A row for each quantity of each position: problem, variant, position (from 1), quantity, its
+    A row for each quantity of each position: problem, variant, position (from 0), quantity, its
     sigma, and its covariance with every quantity in the order of the header. Quantities are in SI
     units, segments (``velocity.p-b``) in millimetres of the plan, directions of reactions in
     degrees; all to first order. Forces are there for a problem with ``[dynamics]``.
@@ -42,6 +42,6 @@ def covariance_text(solutions: list[Solution]) -> str:
             matrix = errors.covariance(labels, i)
             for k, label in enumerate(labels):
                 sigma = float(matrix[k, k]) ** 0.5
-                told = [problem.name, problem.variant or "", i + 1, label, sigma]
+                told = [problem.name, problem.variant or "", i, label, sigma]
                 writer.writerow([*told, *matrix[k].tolist()])
     return text.getvalue()

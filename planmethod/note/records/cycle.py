@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
-from planmethod.note.numbers import finite_or_none, plain
+from planmethod.note.columns import Column, listed, pairs, rows
+from planmethod.note.numbers import plain
 from planmethod.problem.model import Differentiation
+from planmethod.solved.analogues import analogues
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
-from planmethod.solved.turn.turn import TURN, Extreme, Turn, Why, analogues, turn_of
+from planmethod.solved.turn.turn import TURN, Extreme, Turn, Why, turn_of
 
 
 def analogue_records(solution: Solution) -> list[dict[str, Any]]:
@@ -22,21 +23,19 @@ def analogue_records(solution: Solution) -> list[dict[str, Any]]:
     link ``1`` and ``2`` (of its angle, radians). Of a driving slider per metre of its way.
     """
     points, links = analogues(solution)
-    records: list[dict[str, Any]] = []
-    for i in range(len(solution.positions)):
-        told: dict[str, dict[str, float]] = {
-            name: {
-                "x1": plain(one.velocity[i].real),
-                "y1": plain(one.velocity[i].imag),
-                "x2": plain(one.acceleration[i].real),
-                "y2": plain(one.acceleration[i].imag),
-            }
-            for name, one in points.items()
+    told: dict[str, dict[str, Column]] = {
+        name: {
+            "x1": listed(one.velocity.real),
+            "y1": listed(one.velocity.imag),
+            "x2": listed(one.acceleration.real),
+            "y2": listed(one.acceleration.imag),
         }
-        for name, (first, second) in links.items():  # which may be called as a point is
-            told.setdefault(name, {}).update({"1": plain(first[i]), "2": plain(second[i])})
-        records.append(told)
-    return records
+        for name, one in points.items()
+    }
+    for name, (first, second) in links.items():  # which may be called as a point is
+        told.setdefault(name, {}).update({"1": listed(first), "2": listed(second)})
+    count = len(solution.positions)
+    return rows({name: rows(columns) for name, columns in told.items()}, count)
 
 
 def cycle_record(solution: Solution) -> dict[str, Any]:
@@ -65,7 +64,7 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     return {
         "output": turn.output.name,
         "zero_deg": plain(turn.zero),
-        "positions_deg": _listed(turn.positions),
+        "positions_deg": listed(turn.positions),
         "extremes": [
             {"phi_deg": plain(one.phi), "value": plain(one.value), **_constructed(solution, one)}
             for one in turn.extremes
@@ -74,7 +73,7 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         "K_v": turn.ratio,
         "working_deg": working,
         "idle_deg": idle,
-        "range_deg": None if turn.range is None else _listed(turn.range),
+        "range_deg": None if turn.range is None else listed(turn.range),
         "pressure_angle": None
         if peak is None
         else {
@@ -108,12 +107,12 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
         "mu_s": diagrams.mu_s,
         "mu_v": diagrams.mu_v,
         "mu_a": diagrams.mu_a,
-        "s_mm": _listed(s),
-        "v_chord_mm": _listed(v_chord),
-        "v_curve_mm": _listed(diagrams.curve),
-        "a_chord_mm": _listed(a_chord),
-        "v_exact_mm": _listed(v_exact),
-        "a_exact_mm": _listed(a_exact),
+        "s_mm": listed(s),
+        "v_chord_mm": listed(v_chord),
+        "v_curve_mm": listed(diagrams.curve),
+        "a_chord_mm": listed(a_chord),
+        "v_exact_mm": listed(v_exact),
+        "a_exact_mm": listed(a_exact),
     }
 
 
@@ -126,9 +125,5 @@ def _hodograph(turn: Turn) -> dict[str, list[list[float | None]]]:
     for name, at in plan.named.items():
         velocity = rate * reading.point(plan.point[at])
         if np.any(velocity != 0) or not rate:
-            found[name] = [_listed((v.real, v.imag)) for v in velocity]
+            found[name] = pairs(velocity)
     return found
-
-
-def _listed(values: Iterable[float]) -> list[float | None]:
-    return [finite_or_none(value) for value in values]

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
 
 from planmethod.mechanism.structure import Structure
-from planmethod.note.numbers import finite_or_none, plain
+from planmethod.note.columns import Column, listed, named, rows, sizes, together
 from planmethod.note.records.cycle import analogue_records, cycle_record
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.plans.motion.board import pole_letter
+from planmethod.plans.motion.leads import Relative
 from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.solution import Solution
+from planmethod.solved.reading import Complexes
+from planmethod.solved.solution import RelativeMotion, Solution
 
 SCHEMA = 1
 """Version of the record's shape."""
@@ -46,89 +47,78 @@ def structure_record(structure: Structure) -> dict[str, Any]:
     }
 
 
-def _vector(prefix: str, value: complex) -> dict[str, float]:
+def _vector(prefix: str, values: Complexes) -> dict[str, Column]:
     return {
-        f"{prefix}x": plain(value.real),
-        f"{prefix}y": plain(value.imag),
-        prefix: plain(abs(value)),
+        f"{prefix}x": listed(values.real),
+        f"{prefix}y": listed(values.imag),
+        prefix: sizes(values),
     }
 
 
-Columns = dict[str, list[float | None]]
-"""Numbers of a record, each in all positions: what is asked of a solution is asked once."""
-
-
-def _column(values: Iterable[float]) -> list[float | None]:
-    return [finite_or_none(value) for value in values]
-
-
-def _row(columns: Columns, index: int) -> dict[str, float | None]:
-    return {name: values[index] for name, values in columns.items()}
-
-
-def _segments(solution: Solution, kind: PlanKind) -> dict[str, Columns]:
+def _segments(solution: Solution, kind: PlanKind) -> list[dict[str, Any]]:
     """Return what is told of the segments of a plan."""
     spreads = drafting_of(solution).spreads
-    return {
-        segment.name: {
-            "exact": [plain(value) for value in segment.exact.tolist()],
-            "read": _column(segment.read.tolist()),
-            "sigma": _column(spreads[f"{kind.value}.{segment.name}"].sigma.tolist()),
-        }
-        for segment in solution.segments(kind)
-    }
+    return rows(
+        {
+            segment.name: rows(
+                {
+                    "exact": listed(segment.exact),
+                    "read": listed(segment.read),
+                    "sigma": listed(spreads[f"{kind.value}.{segment.name}"].sigma),
+                }
+            )
+            for segment in solution.segments(kind)
+        },
+        len(solution.positions),
+    )
 
 
-def _hand(solution: Solution) -> Callable[[int], dict[str, Any]]:
-    """Return what follows from the read segments and the sigmas, for the number of a position."""
-    spreads = drafting_of(solution).spreads
-    nothing = [0.0] * len(solution.positions)
+def _hand(solution: Solution) -> list[dict[str, Any]]:
+    """Return what follows from the read segments and the sigmas."""
+    spreads, count = drafting_of(solution).spreads, len(solution.positions)
 
-    def told(quantities: list[Quantity]) -> Columns:
+    def told(quantities: list[Quantity]) -> dict[str, Column]:
         """Return quantities and their sigmas."""
-        columns: Columns = {}
+        columns: dict[str, Column] = {}
         for quantity in quantities:
             name = LONG.get(quantity.kind, quantity.kind.letter)
             spread = spreads.get(quantity.label)
-            columns[name] = _column(solution.read_off(quantity.label).tolist())
-            sigma = nothing if spread is None else spread.sigma.tolist()
-            columns[f"sigma_{name}"] = _column(sigma)
+            columns[name] = listed(solution.read_off(quantity.label))
+            columns[f"sigma_{name}"] = [0.0] * count if spread is None else listed(spread.sigma)
         return columns
 
-    def place(name: str) -> Columns:
-        return {
-            f"sigma_{axis}": _column(spreads[f"{axis}_{name}"].sigma.tolist())
-            for axis in ("x", "y")
-        }
+    def place(name: str) -> dict[str, Column]:
+        return {f"sigma_{axis}": listed(spreads[f"{axis}_{name}"].sigma) for axis in ("x", "y")}
 
     points = {
-        name: {**told(quantities), **place(name)}
+        name: rows({**told(quantities), **place(name)})
         for name, quantities in solution.quantities(
             QuantityKind.VELOCITY, QuantityKind.ACCELERATION
         ).items()
     }
     turning = solution.quantities(QuantityKind.OMEGA, QuantityKind.EPSILON)
-    links = {name: told(quantities) for name, quantities in turning.items()}
+    links = {name: rows(told(quantities), count) for name, quantities in turning.items()}
     sliding = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
     )
-    relatives = [
-        ({"point": r.point, "of": r.of, "to": r.to}, told(sliding[r.name]))
-        for r in solution.construction.kinematics.relatives.values()
-    ]
-    drawn = {label: spread.drawn.tolist() for label, spread in spreads.items()}
-
-    def at(index: int) -> dict[str, Any]:
-        return {
-            "ruler": solution.hand.ruler,
-            "profile": solution.profile.name,
-            "points": {name: _row(columns, index) for name, columns in points.items()},
-            "links": {name: _row(columns, index) for name, columns in links.items()},
-            "relative": [{**names, **_row(columns, index)} for names, columns in relatives],
-            "monte_carlo": [label for label, flags in drawn.items() if flags[index]],
+    relatives = solution.construction.kinematics.relatives.values()
+    return rows(
+        {
+            "ruler": [solution.hand.ruler] * count,
+            "profile": [solution.profile.name] * count,
+            "points": rows(points, count),
+            "links": rows(links, count),
+            "relative": together(
+                [rows({**_names(r, count), **told(sliding[r.name])}) for r in relatives], count
+            ),
+            "monte_carlo": named({k: s.drawn for k, s in spreads.items()}, count),
         }
+    )
 
-    return at
+
+def _names(relative: Relative | RelativeMotion, count: int) -> dict[str, Column]:
+    names = {"point": relative.point, "of": relative.of, "to": relative.to}
+    return {key: [name] * count for key, name in names.items()}
 
 
 def record(solution: Solution) -> dict[str, Any]:
@@ -140,63 +130,64 @@ def record(solution: Solution) -> dict[str, Any]:
     was found by random draws because first order does not hold. ``cycle`` is there for a problem
     with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see `planmethod.note.tables.forces`.
     """
-    segments = {kind: _segments(solution, kind) for kind in MOTION}
-    hand = _hand(solution)
+    count = len(solution.positions)
     poles = {kind: pole_letter(solution.problem, kind) for kind in MOTION}
-    told = analogue_records(solution)
-    links = {
-        name: {q.kind.columns[0].removeprefix("."): solution.exact(q) for q in quantities}
-        for name, quantities in solution.quantities(*TURNING).items()
-    }
-    positions = []
-    for i, asked in enumerate(solution.positions):
-        entry: dict[str, Any] = {solution.problem.drive.coordinate.column: plain(asked)}
-        entry["margin"] = plain(solution.margin[i])
-        entry["points"] = {
-            name: {
-                "x": plain(point.place[i].real),
-                "y": plain(point.place[i].imag),
-                **_vector("v", complex(point.velocity[i])),
-                **_vector("a", complex(point.acceleration[i])),
-            }
-            for name, point in solution.points.items()
-        }
-        entry["links"] = {
-            name: {key: plain(values[i]) for key, values in columns.items()}
-            for name, columns in links.items()
-        }
-        entry["analogues"] = told[i]
-        entry["relative"] = [
+    points = {
+        name: rows(
             {
-                "point": r.point,
-                "of": r.of,
-                "to": r.to,
-                "v": plain(abs(r.velocity[i])),
-                "a_coriolis": plain(abs(r.coriolis[i])),
-                "a_rel": plain(abs(r.acceleration[i])),
-                "vx": plain(r.velocity[i].real),
-                "vy": plain(r.velocity[i].imag),
-                "a_coriolis_x": plain(r.coriolis[i].real),
-                "a_coriolis_y": plain(r.coriolis[i].imag),
-                "a_rel_x": plain(r.acceleration[i].real),
-                "a_rel_y": plain(r.acceleration[i].imag),
+                "x": listed(point.place.real),
+                "y": listed(point.place.imag),
+                **_vector("v", point.velocity),
+                **_vector("a", point.acceleration),
             }
-            for r in solution.relatives
-        ]
-        entry["plans"] = {
-            kind.value: {
-                "mu": solution.scales[kind].per_mm,
-                **({"pole": poles[kind]} if poles[kind] else {}),
-                "segments": {name: _row(columns, i) for name, columns in segments[kind].items()},
+        )
+        for name, point in solution.points.items()
+    }
+    links = {
+        name: rows({q.kind.columns[0].removeprefix("."): listed(solution.exact(q)) for q in known})
+        for name, known in solution.quantities(*TURNING).items()
+    }
+    relatives = [
+        rows(
+            {
+                **_names(r, count),
+                "v": sizes(r.velocity),
+                "a_coriolis": sizes(r.coriolis),
+                "a_rel": sizes(r.acceleration),
+                "vx": listed(r.velocity.real),
+                "vy": listed(r.velocity.imag),
+                "a_coriolis_x": listed(r.coriolis.real),
+                "a_coriolis_y": listed(r.coriolis.imag),
+                "a_rel_x": listed(r.acceleration.real),
+                "a_rel_y": listed(r.acceleration.imag),
             }
-            for kind in MOTION
-        }
-        entry["hand"] = hand(i)
-        if solution.problem.dynamics is not None:
-            from planmethod.note.tables.forces import forces_record
+        )
+        for r in solution.relatives
+    ]
+    plans = {
+        kind.value: rows(
+            {
+                "mu": [solution.scales[kind].per_mm] * count,
+                **({"pole": [poles[kind]] * count} if poles[kind] else {}),
+                "segments": _segments(solution, kind),
+            }
+        )
+        for kind in MOTION
+    }
+    columns: dict[str, Column] = {
+        solution.problem.drive.coordinate.column: listed(solution.positions),
+        "margin": listed(solution.margin),
+        "points": rows(points, count),
+        "links": rows(links, count),
+        "analogues": analogue_records(solution),
+        "relative": together(relatives, count),
+        "plans": rows(plans),
+        "hand": _hand(solution),
+    }
+    if solution.problem.dynamics is not None:
+        from planmethod.note.tables.forces import forces_records
 
-            entry["forces"] = forces_record(solution, i)
-        positions.append(entry)
+        columns["forces"] = forces_records(solution)
     machine = {}
     if solution.problem.machine is not None:
         from planmethod.note.records.machine import machine_record
@@ -213,7 +204,7 @@ def record(solution: Solution) -> dict[str, Any]:
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
         "structure": structure_record(solution.structure),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
-        "positions": positions,
+        "positions": rows(columns),
         **machine,
     }
 

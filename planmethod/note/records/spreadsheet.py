@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from planmethod.note.wording import wording
 from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, with_force_scale
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
@@ -110,11 +111,11 @@ def driver_of(problem: Problem) -> str:
 
 
 def csv_rows(solution: Solution) -> tuple[list[str], list[list[float | int]]]:
-    """Return header and rows for a spreadsheet: ``position`` from 1, then `csv_columns`."""
+    """Return header and rows for a spreadsheet: ``position`` from 0, then `csv_columns`."""
     columns = csv_columns(solution)
-    numbers = range(1, len(solution.positions) + 1)
     lists = [values.tolist() for values in columns.values()]
-    return ["position", *columns], [list(row) for row in zip(numbers, *lists, strict=True)]
+    rows = enumerate(zip(*lists, strict=True))
+    return ["position", *columns], [[number, *row] for number, row in rows]
 
 
 def solved_table(solution: Solution) -> Table:
@@ -190,7 +191,7 @@ def _spread(values: Reals, able: Any) -> list[Any]:
 
 
 def _rows(part: slice, positions: Reals, cells: list[list[Any]], gaps: Gaps | None) -> Rows:
-    columns: list[Sequence[Any]] = [range(part.start + 1, part.stop + 1)]
+    columns: list[Sequence[Any]] = [range(part.start, part.stop)]
     columns += [(positions + 0.0).tolist(), *cells]
     if gaps is not None:
         with speaking(WRITTEN):  # the bytes of a file do not depend on the system's language
@@ -245,7 +246,7 @@ def asked_text(swept: GappedSweep, lang: str = "ru") -> str:
     symbol = f"{plain_text(coordinate.symbol)}, {words.units[coordinate.unit]}"
     count = len(swept.positions)
     columns = [
-        [words.number, *(str(i + 1) for i in range(count))],
+        [words.number, *(str(i) for i in range(count))],
         [symbol, *(given(float(p), words) for p in swept.positions)],
     ]
     values = swept.fill(np.empty((len(swept.names), count)), slice(0, count))

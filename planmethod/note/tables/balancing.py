@@ -15,7 +15,7 @@ def balancing_tables(solution: Solution, words: Wording) -> list[str]:
     for line in tell.lines():
         lines += wrap(plain_text(line), rest="  ")
     columns = [
-        [plain_text(f"{head}, {tell.unit(unit)}" if unit else head), *map(plain_text, cells)]
+        [plain_text(f"{head}, {tell.say.in_head(unit)}" if unit else head), *map(plain_text, cells)]
         for head, unit, cells in tell.columns()
     ]
     return [*lines, "", plain_text(tell.said.forces_table), "", *columns_text(columns, lead=2)]

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.note.columns import Column, listed, named, pairs, rows, sizes, together
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
-from planmethod.note.numbers import finite_or_none, plain
+from planmethod.note.numbers import plain
 from planmethod.note.plaintext import NO_BREAK, fixed, found, given, plain_text, wrap
 from planmethod.note.tables.sigmas import Sigmas
 from planmethod.note.wording import Wording
@@ -22,6 +23,7 @@ from planmethod.solved.errors.forces import (
 )
 from planmethod.solved.forces.contact import VANISHING, Contact, JointForce
 from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.reading import Flags
 from planmethod.solved.solution import Solution
 
 
@@ -31,62 +33,82 @@ def _angle(force: complex, largest: float) -> float | None:
     return plain(np.degrees(np.angle(force)) % 360.0)
 
 
-def _contact_record(contact: Contact, index: int) -> dict[str, Any]:
+def _contact_records(contact: Contact) -> list[dict[str, Any]]:
     """Return where the reaction of a guide acts, m, and what acts at the edges of the slider, N."""
-    b = finite_or_none(contact.b()[index])
-    place = complex(contact.place(contact.b())[index])
-    record: dict[str, Any] = {
-        "b": None if b is None else plain(b),
-        "point": None if b is None else [plain(place.real), plain(place.imag)],
-    }
-    edges = contact.edges(index)
-    if edges:
-        record["edges"] = [
+    b = contact.b()
+    acts, places = np.isfinite(b).tolist(), pairs(contact.place(b))
+    found = rows(
+        {
+            "b": listed(b),
+            "point": [
+                place if is_there else None for place, is_there in zip(places, acts, strict=True)
+            ],
+        }
+    )
+    for index in np.flatnonzero(contact.at_edges).tolist():
+        found[index]["edges"] = [
             {
                 "at": [plain(edge.at.real), plain(edge.at.imag)],
                 "fx": plain(edge.force.real),
                 "fy": plain(edge.force.imag),
             }
-            for edge in edges
+            for edge in contact.edges(index)
         ]
-    return record
+    return found
 
 
-def _sigma(drawn: DrawnForces, label: str, index: int) -> float | None:
-    return finite_or_none(drawn.spreads[label].sigma[index])
-
-
-def _drawn(
-    drawn: DrawnForces, joint: JointForce, index: int, *, still: bool
-) -> dict[str, float | None]:
+def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Column]:
     """Return what the ruler gives of a reaction, and the drafting errors of what is told of it.
 
     Of one that is ``still``, being nothing, there is no direction.
     """
     size, moment = size_label(joint), moment_label(joint)
-    prismatic = moment in drawn.items
+    prismatic, none = moment in drawn.items, [0.0] * len(still)
+    turned = np.full(len(still), np.nan)
+    if not still.all():
+        turned[~still] = drawn.spreads[angle_label(joint)].sigma[~still]
     return {
-        "read": finite_or_none(drawn.read(size)[index]),
-        "sigma": _sigma(drawn, size, index),
-        "sigma_angle_deg": None if still else _sigma(drawn, angle_label(joint), index),
-        "read_moment": finite_or_none(drawn.read(moment)[index]) if prismatic else 0.0,
-        "sigma_moment": _sigma(drawn, moment, index) if prismatic else 0.0,
+        "read": listed(drawn.read(size)),
+        "sigma": listed(drawn.spreads[size].sigma),
+        "sigma_angle_deg": listed(turned),
+        "read_moment": listed(drawn.read(moment)) if prismatic else none,
+        "sigma_moment": listed(drawn.spreads[moment].sigma) if prismatic else none,
     }
 
 
-def _told_labels(statics: Statics, index: int) -> list[str]:
-    """Return the labels of all drafting errors that are told of a position."""
-    largest = statics.largest(index)
-    nothing = {
-        angle_label(joint)
-        for joint in statics.reactions
-        if _angle(complex(joint.force[index]), largest) is None
-    }
-    return [label for label in drawn_forces(statics).items if label not in nothing]
+def _reaction_records(statics: Statics, number: int) -> list[dict[str, Any]]:
+    """Return a reaction in every position; what is told of its guide comes last."""
+    joint, drawn = statics.reactions[number], drawn_forces(statics)
+    still = _still(statics, joint)
+    angle = np.where(still, np.nan, np.degrees(np.angle(joint.force)) % 360.0)
+    names = {"joint": joint.joint, "on": joint.on, "from": joint.by}
+    found = rows(
+        {
+            **{key: [name] * len(still) for key, name in names.items()},
+            "fx": listed(joint.force.real),
+            "fy": listed(joint.force.imag),
+            "f": sizes(joint.force),
+            "angle_deg": listed(angle),
+            "at": pairs(joint.at),
+            "moment": listed(joint.moment),
+            **_drawn(drawn, joint, still),
+        }
+    )
+    contact = statics.contacts.get(number)
+    if contact is not None:
+        found = [
+            {**one, **more} for one, more in zip(found, _contact_records(contact), strict=True)
+        ]
+    return found
 
 
-def forces_record(solution: Solution, index: int) -> dict[str, Any]:
-    """Return reactions, driving and lever of one position as plain data, N and N·m.
+def _still(statics: Statics, joint: JointForce) -> Flags:
+    """Tell where a reaction is nothing beside the largest force, and has no direction."""
+    return np.asarray(np.abs(joint.force) <= VANISHING * statics.largest_forces)
+
+
+def forces_records(solution: Solution) -> list[dict[str, Any]]:
+    """Return reactions, driving and lever of every position as plain data, N and N·m.
 
     A reaction is what the link ``from`` does to the link ``on``; ``moment`` is about ``at``. A
     guide's acts in ``point``, ``b`` from ``at`` along the guide, or at the ``edges``. The lever's
@@ -94,56 +116,46 @@ def forces_record(solution: Solution, index: int) -> dict[str, Any]:
     the profile lets expect, ``hand`` what the ruler gives.
     """
     statics = statics_of(solution)
-    drawn, largest = drawn_forces(statics), statics.largest(index)
-
-    def told(number: int, joint: JointForce) -> dict[str, Any]:
-        force, at = complex(joint.force[index]), complex(joint.at[index])
-        angle = _angle(force, largest)
-        contact = statics.contacts.get(number)
-        return {
-            "joint": joint.joint,
-            "on": joint.on,
-            "from": joint.by,
-            "fx": plain(force.real),
-            "fy": plain(force.imag),
-            "f": abs(force),
-            "angle_deg": angle,
-            "at": [plain(at.real), plain(at.imag)],
-            "moment": plain(joint.moment[index]),
-            **_drawn(drawn, joint, index, still=angle is None),
-            **(_contact_record(contact, index) if contact is not None else {}),
-        }
-
-    quantity = solution.problem.drive.balancing.quantity
-    balance = float(statics.balance[index])
-    record: dict[str, Any] = {
-        "reactions": [told(k, joint) for k, joint in enumerate(statics.reactions)],
-        "driving": {
-            quantity: plain(balance),
-            "read": finite_or_none(drawn.read(BALANCE)[index]),
-            "sigma": _sigma(drawn, BALANCE, index),
-        },
-        "mu": statics.scale.per_mm,
-        "monte_carlo": [
-            label for label in _told_labels(statics, index) if drawn.spreads[label].drawn[index]
-        ],
+    drawn, balance = drawn_forces(statics), statics.balance
+    quantity, count = solution.problem.drive.balancing.quantity, len(solution.positions)
+    reactions = [_reaction_records(statics, k) for k in range(len(statics.reactions))]
+    still = {angle_label(joint): _still(statics, joint) for joint in statics.reactions}
+    random = {
+        label: drawn.spreads[label].drawn & ~nothing
+        for label in drawn.items
+        if not (nothing := still.get(label, np.zeros(count, dtype=bool))).all()
+    }
+    columns: dict[str, Column] = {
+        "reactions": together(reactions, count),
+        "driving": rows(
+            {
+                quantity: listed(balance),
+                "read": listed(drawn.read(BALANCE)),
+                "sigma": listed(drawn.spreads[BALANCE].sigma),
+            }
+        ),
+        "mu": [statics.scale.per_mm] * count,
+        "monte_carlo": named(random, count),
     }
     if statics.lever is not None:
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
-        lever = float(statics.lever[index])
-        plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
-        record["lever"] = {
-            quantity: plain(lever),
-            "difference": lever - balance,
-            "sigma": finite_or_none(drawn.discrepancy_sigma[index]),
-            "hand": {
-                "plans": finite_or_none(plans),
-                "lever": finite_or_none(hung),
-                "sigma_lever": _sigma(drawn, LEVER, index),
-                "difference": finite_or_none(hung - plans),
-            },
-        }
-    return record
+        plans, hung = drawn.balances.plans, drawn.balances.lever
+        columns["lever"] = rows(
+            {
+                quantity: listed(statics.lever),
+                "difference": listed(statics.lever - balance),
+                "sigma": listed(drawn.discrepancy_sigma),
+                "hand": rows(
+                    {
+                        "plans": listed(plans),
+                        "lever": listed(hung),
+                        "sigma_lever": listed(drawn.spreads[LEVER].sigma),
+                        "difference": listed(hung - plans),
+                    }
+                ),
+            }
+        )
+    return rows(columns)
 
 
 def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:

@@ -106,9 +106,10 @@ def position_line(solution: Solution, words: Wording, index: int) -> str:
     """Return which position is told: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = given(float(solution.positions[index]), words)
-    return words.position.format(
-        number=index + 1,
-        count=len(solution.positions),
+    count = len(solution.positions)
+    return (words.position if count > 1 else words.one_position).format(
+        number=index,
+        count=count,
         symbol=plain_text(coordinate.symbol),
         value=with_unit(value, words.units[coordinate.unit]),
     )
@@ -285,7 +286,7 @@ def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
     coordinate = solution.problem.drive.coordinate
     symbol = f"{plain_text(coordinate.symbol)}, {words.units[coordinate.unit]}"
     lead = [
-        [words.number, *(str(i + 1) for i in range(len(solution.positions)))],
+        [words.number, *(str(i) for i in range(len(solution.positions)))],
         [symbol, *(given(float(p), words) for p in solution.positions)],
     ]
 

@@ -84,7 +84,7 @@ class Sigmas:
         profile = self.words.profiles.get(name, name)
         lines = wrap(self.words.sigma_note.format(profile=profile))
         if self.drawn:
-            lines += wrap(self.words.drawn_note.format(count=drafting_of(self.solution).draws))
+            lines += wrap(self.words.drawn_note)
         return lines
 
 

@@ -124,5 +124,5 @@ def _plain(columns: Columns, words: Language) -> Iterator[Sequence[str]]:
     for head, unit, cells in columns:
         name = plain_text(head)
         if unit:
-            name = f"{name}, {plain_text(words.say.units[unit])}"
+            name = f"{name}, {plain_text(words.say.in_head(unit))}"
         yield [name, *map(plain_text, cells)]

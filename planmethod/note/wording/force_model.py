@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +40,7 @@ class ForceWording:
     # Force plans
     title_plans: str
     order: str
+    own_scale: str
     indices: str
     freed: str
     freed_driver: str

@@ -6,15 +6,17 @@ A group is cut free at its outer joints: there the reactions stand for what was 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import combinations
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import Notation
-from planmethod.plans.forces.polygons import CoupleOn, Edge, Share
+from planmethod.plans.forces.polygons import CoupleOn, Edge, Moments, Share
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
+from planmethod.render.forces.arms import Arm, arm_items, arms_of
 from planmethod.render.forces.arrows import (
     Acting,
     Segment,
@@ -27,10 +29,10 @@ from planmethod.render.forces.arrows import (
 from planmethod.render.forces.guides import (
     FAR,
     Pressed,
-    dimension,
     drawn_length,
     point_items,
     pressed,
+    span_dimension,
 )
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.ink.drawing import Disc, Ink, Item
@@ -151,7 +153,9 @@ def _loaded_picture(
     couples: Sequence[Turning],
     shifts: Sequence[Shifted],
     prefix: str,
+    say: Notation,
     guided: Sequence[Pressed] = (),
+    arms: Sequence[Arm] = (),
 ) -> Picture:
     items = [*_drawn(scheme), *point_items(guided, scheme.factor)]
     bars = [part for parts in scheme.segments.values() for part in parts]
@@ -160,11 +164,13 @@ def _loaded_picture(
     placed = lay_forces(forces, bars, joints, gap=SIZES.joint / 2 * scheme.factor + 0.5)
     arrows, labels = force_items(placed, scheme.letter_height, prefix)
     lines, letters = shift_items(shifts, placed, scheme.letter_height, prefix)
-    items += [*lines, *arrows]
+    measured, sizes = arm_items(arms, placed, scheme.letter_height, prefix, say)
+    items += [*lines, *measured, *arrows]
     turns, more = couple_items(couples, items, scheme.letter_height, prefix)
     items += turns
+    labels += sizes
     for span in (one.span for one in guided if one.span is not None):
-        drawn, letter = dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
+        drawn, letter = span_dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
         items += drawn
         labels.append(letter)
     return lettered(items, [*labels, *more, *letters, *_letters(scheme, prefix, links)])
@@ -188,7 +194,7 @@ def loads_picture(reading: ForceReading, letter_height: float, say: Notation) ->
                 couples.append(_turning(reading, scheme, couple, say))
     links = solution.problem.mechanism.links
     shifts = shifts_on(reading, links, say)
-    return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}")
+    return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}", say)
 
 
 @remembered
@@ -197,7 +203,9 @@ def cut_picture(reading: ForceReading, number: int, letter_height: float, say: N
     plan = reading.plans[number]
     scheme = Cut(reading.solution, reading.index, letter_height, links=plan.links)
     prefix = f"cut {reading.index} {number}"
-    return _cut(reading, scheme, reading.shown(plan), reading.couples(plan), prefix, say)
+    return _cut(
+        reading, scheme, reading.shown(plan), reading.couples(plan), prefix, say, plan.moments
+    )
 
 
 @remembered
@@ -230,6 +238,7 @@ def _cut(
     couples: Sequence[CoupleOn],
     prefix: str,
     say: Notation,
+    equations: Sequence[Moments] = (),
 ) -> Picture:
     guided = pressed(reading, scheme.links, _link_lines(reading, scheme.links), scheme.factor)
     # The axis of a guide reaches the place of its reaction; a link that does so needs no axis.
@@ -248,7 +257,10 @@ def _cut(
         _turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced
     ]
     shifts = shifts_on(reading, scheme.links, say)
-    return _loaded_picture(scheme, scheme.links, forces, turnings, shifts, prefix, guided)
+    arms = [arm for arm in arms_of(reading, equations, say) if arm.symbol not in replaced]
+    return _loaded_picture(
+        scheme, scheme.links, forces, turnings, shifts, prefix, say, guided, arms
+    )
 
 
 def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:

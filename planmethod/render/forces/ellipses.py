@@ -21,7 +21,7 @@ def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     places: dict[PointName, complex] = {}
     for ends in ([edge.head for edge in edges], [edge.tail for edge in edges]):
         for end, shift in zip(ends, shifts, strict=True):
-            places.setdefault(end, reading.end(end) + shift)
+            places.setdefault(end, reading.corner(number, end) + shift)
     across = [place.real for place in places.values()]
     up = [place.imag for place in places.values()]
     size = max(max(across) - min(across), max(up) - min(up)) if places else 0.0

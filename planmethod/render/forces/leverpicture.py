@@ -6,6 +6,7 @@ from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.numbers import Notation
 from planmethod.plans.model import PlanKind
+from planmethod.render.forces.arms import arm_items, arm_of
 from planmethod.render.forces.arrows import (
     Acting,
     Turning,
@@ -52,10 +53,16 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
     placed = lay_forces(forces, [one.line for one in shifts])
     arrows, letters_of_forces = force_items(placed, letter_height, prefix)
     lines, letters_of_shifts = shift_items(shifts, placed, letter_height, prefix)
-    items += [*lines, *arrows]
+    arms = [
+        arm_of(acting, 0j, force.arm)
+        for acting, force in zip(forces, lever.forces, strict=True)
+        if force.arm
+    ]
+    measured, sizes = arm_items(arms, placed, letter_height, prefix, say)
+    items += [*lines, *measured, *arrows]
     turnings = [_turning(one, say) for one in lever.couples if one.lever_moment]
     turns, letters_of_couples = couple_items(turnings, items, letter_height, prefix)
-    named = [*letters_of_forces, *letters_of_couples, *letters_of_shifts, *labels]
+    named = [*sizes, *letters_of_forces, *letters_of_couples, *letters_of_shifts, *labels]
     return lettered([*items, *turns], named)
 
 

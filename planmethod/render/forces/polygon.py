@@ -28,7 +28,7 @@ def start_place(reading: ForceReading, number: int) -> complex:
     """Return where the construction of a plan begins, mm: the first forces are laid off there."""
     starts = reading.statics.board.starts
     ends = (end for edge in reading.plans[number].polygon for end in (edge.tail, edge.head))
-    return reading.end(next(end for end in ends if end in starts))
+    return reading.corner(number, next(end for end in ends if end in starts))
 
 
 def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
@@ -42,8 +42,8 @@ def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
     ends: set[frozenset[complex]] = set()
     others = [*reading.wholes(plan), *([] if inner is None else [inner])]
     for edge, is_side in (*((e, True) for e in reading.shown(plan)), *((e, False) for e in others)):
-        places = frozenset(_rounded(reading.end(end)) for end in (edge.tail, edge.head))
-        if abs(reading.vector(edge)) >= _LEAST and (is_side or places not in ends):
+        places = frozenset(_rounded(reading.corner(number, end)) for end in (edge.tail, edge.head))
+        if abs(reading.drawn(number, edge)) >= _LEAST and (is_side or places not in ends):
             ends.add(places)
             result.append(edge)
     return result
@@ -61,9 +61,9 @@ def _written(reading: ForceReading, number: int, edge: Edge, say: Notation) -> s
     plan = reading.plans[number]
     others = [*plan.wholes, *([] if plan.inner is None else [plan.inner])]
     written = [vector_markup(say.symbol(edge.symbol))]
-    tail, head = reading.end(edge.tail), reading.end(edge.head)
+    tail, head = reading.corner(number, edge.tail), reading.corner(number, edge.head)
     for other in others:
-        ends = reading.end(other.tail), reading.end(other.head)
+        ends = reading.corner(number, other.tail), reading.corner(number, other.head)
         if other.symbol == edge.symbol:
             continue
         if max(abs(ends[0] - tail), abs(ends[1] - head)) < 1e-3:
@@ -81,7 +81,7 @@ def apart(reading: ForceReading, number: int) -> list[complex]:
     placed: list[Segment] = []
     shifts: list[complex] = []
     for edge in drawn_edges(reading, number):
-        tail, head = reading.end(edge.tail), reading.end(edge.head)
+        tail, head = reading.corner(number, edge.tail), reading.corner(number, edge.head)
         along = unit(head - tail)
         across = 1j * (along if (along.imag, along.real) > (0.0, 0.0) else -along)
         for step in (0, 1, -1, 2, -2, 3, -3):
@@ -117,10 +117,13 @@ def polygon_picture(
     edges, shifts = drawn_edges(reading, number), apart(reading, number)
     items: list[Item] = list(ellipses.strokes)
     labels: list[Label] = []
-    ends = [reading.end(end) for edge in edges for end in (edge.tail, edge.head)] or [0j]
+    ends = [reading.corner(number, end) for edge in edges for end in (edge.tail, edge.head)] or [0j]
     centre = sum(ends) / len(ends)
     for k, (edge, shift) in enumerate(zip(edges, shifts, strict=True)):
-        tail, head = reading.end(edge.tail) + shift, reading.end(edge.head) + shift
+        tail, head = (
+            reading.corner(number, edge.tail) + shift,
+            reading.corner(number, edge.head) + shift,
+        )
         thin = edge.share is not Share.WHOLE
         pen = Pen.THIN if thin else Pen.MAIN
         symbol = say.symbol(edge.symbol)

@@ -48,7 +48,8 @@ def title_block(
     """Return the title block, its lower left corner at the origin.
 
     A text that does not fit its cell shrinks to the next letter height, then is wrapped, then
-    shrinks further; it never leaves the cell. Fields that the form has no graph for are not shown.
+    shrinks further, but for graph 1, which is wrapped first to have one height on all sheets;
+    it never leaves the cell. Fields that the form has no graph for are not shown.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def title_block(
         items += filled(captions[caption], Cell(box, 2.5, align))
     for key, cell in form.cells.items():
         if key in values:
-            items += filled(values[key], cell)
+            items += filled(values[key], cell, shrink_first=key != "title")
     whole = "\n".join(values[key] for key in SHARED if key in values)
     if whole and form.organisation is not None:
         items += filled(whole, form.organisation)
@@ -110,13 +111,14 @@ def check_fields(fields: Iterable[str]) -> None:
             raise LayoutError("Unknown field {!r} of the title block. {}", key, hint)
 
 
-def filled(text: str, cell: Cell, tag: str = STAMP) -> list[Item]:
+def filled(text: str, cell: Cell, tag: str = STAMP, *, shrink_first: bool = True) -> list[Item]:
     """Put a text into its cell; in narrow cells less white is left at the sides."""
     wide = cell.box[2] - cell.box[0]
     pad = 0.2 if wide <= 7 else 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5
     # 2.5 mm is the smallest for drawings; 1.8, the smallest of all, is better than a cut surname.
     heights = (*smaller_heights(cell.height), HEIGHTS[0])
-    return fit(text, cell.box, heights, align=cell.align, pad=pad, tag=tag)
+    return fit(text, cell.box, heights, align=cell.align, pad=pad, tag=tag,
+               shrink_first=shrink_first)  # fmt: skip
 
 
 def rectangle(box: Bounds, pen: Pen, tag: str) -> Stroke:

@@ -14,13 +14,14 @@ backslash is written with a backslash before it (``\_``); `escape` does that for
 from __future__ import annotations
 
 import cmath
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
 from planmethod.languages import say
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
@@ -37,6 +38,7 @@ _SPECIAL = "_^{}\\"
 _SUB_DROP = 0.3  # of h: how far an index below sinks under the base line
 _SUP_RISE = 0.5  # of h: how far the base line of an index above rises
 _STACK_GAP = 0.16  # of h: white between two stacked indices
+_AFTER_INDEX = 0.15  # of h: white between an index and a multiplication dot or letter after it
 _BAR_INSET = 0.1  # of h: white between an overbar and an index that follows
 _BAR_GAP = 0.16  # of h: white between the letter and its overbar
 
@@ -354,14 +356,19 @@ class _Setter:
 
     def set(self, nodes: tuple[_Node, ...], x: float, y: float, height: float) -> float:
         """Set the nodes from (x, y) on and return the x where they end."""
+        before: _Node | None = None
         for node in nodes:
             match node:
                 case _Letters(text):
+                    if isinstance(before, _Index) and (text[0] == "·" or text[0].isalpha()):
+                        x += _AFTER_INDEX * height
                     x = self._letters(text, x, y, height)
                 case _Bar(body):
+                    x += _AFTER_INDEX * height if isinstance(before, _Index) else 0.0
                     x = self._bar(body, x, y, height)
                 case _Index(below, above):
                     x = self._index(below, above, x, y, height)
+            before = node
         return x
 
     def _letters(self, text: str, x: float, y: float, height: float) -> float:

@@ -5,11 +5,12 @@ Every block is placed by its **upper left** corner, since a sheet is filled from
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, Protocol, TypeAlias
 
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
@@ -21,7 +22,7 @@ from planmethod.render.ink.typeset import (
 )
 
 # What must not be taken apart when a word is broken: an escaped sign, a letter with its indices.
-_SIGNS = re.compile(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
+_SIGNS = pattern(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
 
 Align: TypeAlias = Literal["left", "centre", "right"]
 
@@ -271,6 +272,7 @@ def fit(
     align: Align = "centre",
     pad: float = 0.8,
     tag: str = "",
+    shrink_first: bool = True,
 ) -> list[Item]:
     r"""Return a text that stays in its cell (вписывание в графу).
 
@@ -289,11 +291,13 @@ def fit(
         Heights to try, largest first.
     pad : float, mm
         White kept between the text and the sides of the cell.
+    shrink_first : bool
+        One line of the second height is better than two of the first.
     """
     sizes = tuple(heights)
     room = (box[2] - box[0] - 2 * pad, box[3] - box[1] - 2 * min(pad, 0.4))
     parts = [escape(part) for part in text.split("\n")]
-    block, cut = _fitting(parts, room, sizes, align)
+    block, cut = _fitting(parts, room, sizes, align, 2 if shrink_first else 1)
     middle = complex((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
     sides = {"left": box[0] + pad, "centre": middle.real, "right": box[2] - pad}
     base = middle.imag + _caps(block) / 2 - block.inscriptions[0].height
@@ -310,13 +314,17 @@ def _fitting(
     room: tuple[float, float],
     sizes: Sequence[float],
     align: Align,
+    alone: int,
 ) -> tuple[Lines, bool]:
-    """Choose lines and height; True when the text had to be cut."""
+    """Choose lines and height; True when the text had to be cut.
+
+    ``alone`` are the heights tried in one line before words are wrapped.
+    """
 
     def made(lines: Sequence[str], size: float, step: float) -> Lines:
         return Lines(tuple(typeset(s, size) for s in lines or [""]), step, align)
 
-    tries = [(list(parts), size, line_step(size)) for size in sizes[:2]]
+    tries = [(list(parts), size, line_step(size)) for size in sizes[:alone]]
     words = [split_words(part) for part in parts]
     for size in sizes:
         lines = [line for part in words for line in _balanced(part, size, room[0])]

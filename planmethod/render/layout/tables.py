@@ -1,8 +1,9 @@
 """Tables of results (таблицы результатов) as blocks.
 
 A table is columns, each with a symbol, a unit and one value per row (one row per position of the
-mechanism). Equal units of neighbouring columns share one cell above the symbols, as in homework
-sheets; or every column has its unit under its symbol. A table wider than the paper allows is cut
+mechanism). Equal units of neighbouring columns share one cell above the symbols, after
+the letter of the quantity where they have one (GOST 2.105: ``v, m/s`` over v_B, v_C); or every
+column has its unit under its symbol. A table wider than the paper allows is cut
 into parts, one under another, each with the leading columns again.
 """
 
@@ -10,11 +11,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
@@ -26,7 +29,7 @@ UnitsAt: TypeAlias = Literal["above", "below", "none"]
 
 _PAD = 1.5  # white on both sides of a cell's text, mm
 _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
-_NUMBER = re.compile(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
+_NUMBER = pattern(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +119,7 @@ class TablePart:
             for first, last in self._unit_spans():
                 if self.columns[first].unit.runs:
                     box = (xs[first], ys[unit_row + 1], xs[last + 1], ys[unit_row])
-                    items += _centred(self.columns[first].unit, box)
+                    items += _centred(self._unit_head(first, last), box)
         for k, column in enumerate(self.columns):
             top, bottom = ys[symbol_row], ys[symbol_row + 1]
             if self._whole_head(k):
@@ -130,6 +133,18 @@ class TablePart:
     def _whole_head(self, k: int) -> bool:
         """Return True when the head of a column, having no unit, takes both head rows."""
         return self.units != "none" and not self.columns[k].source.unit
+
+    def _unit_head(self, first: int, last: int) -> Inscription:
+        """Return what stands in the unit cell of some columns."""
+        unit = self.columns[first].unit
+        if self.units == "below":
+            return unit
+        heads = {column.source.head for column in self.columns[first : last + 1]}
+        letters = {head.partition("_")[0] for head in heads if "_" in head} - {"σ"}
+        if len(letters) != 1:
+            return unit
+        whole = typeset(f"{letters.pop()}, {unit.markup}", unit.height)
+        return whole if whole.width < sum(self.widths[first : last + 1]) - _PAD else unit
 
     def _unit_spans(self) -> list[tuple[int, int]]:
         """First and last column of every unit cell; neighbours with one unit share it."""

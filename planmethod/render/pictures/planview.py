@@ -13,6 +13,7 @@ from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.lettered import lettered
+from planmethod.render.pictures.traces import Shown, plan_traces
 from planmethod.render.symbols import vector_arrow
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
@@ -69,11 +70,12 @@ def plan_picture(
     letter_height: float = 5.0,
     errors: bool = False,
     by_hand: bool = False,
+    traces: Shown = False,
 ) -> Picture:
     """Return a plan in one position as a picture, its own pole at the origin, mm.
 
     ``errors`` draws the ellipses of the drafting error around its points; ``by_hand`` is told by
-    `plan_places`. Kept, since a sheet is
+    `plan_places`, and ``traces`` by `planmethod.render.pictures.traces`. Kept, since a sheet is
     tried with fewer positions when it does not fit with more.
     """
     plan = solution.construction.plan(kind)
@@ -81,7 +83,8 @@ def plan_picture(
     at = plan_places(solution, kind, index, by_hand=by_hand)
     factor = min(1.0, letter_height / 5.0 + 0.2)
     ellipses = error_ellipses(solution, kind, index) if errors else Ellipses()
-    items: list[Item] = list(ellipses.strokes)
+    left, directions = plan_traces(solution, kind, index, at, traces)
+    items: list[Item] = [*ellipses.strokes, *left]
     for tail, head in similar_lines(solution, plan):
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag="similar"))
@@ -104,7 +107,7 @@ def plan_picture(
         for tail, head in ((vector.tail, vector.head),)
         if letter_height > NAMES and abs(at[head] - at[tail]) > LONG
     ]
-    return lettered(items, labels, clear=ellipses.grounds, welcome=names)
+    return lettered(items, labels, clear=ellipses.grounds, welcome=[*names, *directions])
 
 
 def _labels(

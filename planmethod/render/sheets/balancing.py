@@ -49,7 +49,7 @@ def balancing_text(solution: Solution, indices: Sequence[int], manner: Manner) -
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     assert solution.problem.dynamics is not None
     facts = given(solution.problem, manner.words)
-    facts += mass_lines(solution.problem.dynamics, manner.words.say)
+    facts += mass_lines(solution.problem, manner.words)
     blocks: list[Block] = [
         stated(facts, tell.said.balancing_wanted, manner),
         heading(manner.entry.title or tell.said.balancing, height),
@@ -163,7 +163,7 @@ def tables(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     )  # fmt: skip
     for title, lead, columns in wholes:
         cells = [
-            TableColumn(head, tuple(told), unit=tell.unit(unit) if unit else "", least=9.0)
+            TableColumn(head, tuple(told), unit=tell.say.in_head(unit) if unit else "", least=9.0)
             for head, unit, told in columns
         ]
         made.append(table_block(cells, height, leading=lead, title=title, row_height=2.0 * height))

@@ -6,11 +6,11 @@ A new kind is one function and one line here.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from importlib import import_module
 from types import MappingProxyType
 from typing import TypeAlias
 
+from planmethod.record import dataclass
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import results_block
@@ -57,9 +57,9 @@ _FORCE_TEXT = ("height", "width", "position")
 
 BLOCKS: Mapping[str, Kind] = MappingProxyType(
     {
-        "scheme": Kind(scheme_view, _VIEW),
+        "scheme": Kind(scheme_view, (*_VIEW, "traces")),
         "statement": Kind(statement_block, _TEXT),
-        "plan": Kind(plan_view, ("of", *_VIEW, "per_row")),
+        "plan": Kind(plan_view, ("of", *_VIEW, "per_row", "traces")),
         "equations": Kind(equations_block, ("of", *_TEXT)),
         "calculation": Kind(calculation_block, ("of", "title", "height", "position")),
         "results": Kind(results_block, (*_TEXT, "columns")),

@@ -62,7 +62,7 @@ def _reaction_columns(
         TableColumn(
             reaction_symbol(joint.on, joint.by), tuple(map(say.number, sizes)), unit=say.units["N"]
         ),
-        TableColumn(f"φ{index}", tuple(angles), unit="°"),
+        TableColumn(f"φ{index}", tuple(angles), unit=say.in_head("deg")),
     ]
     moments = [float(joint.moment[i]) for i in indices]
     lengths = [length for _, _, length in forces.solution.problem.lengths]

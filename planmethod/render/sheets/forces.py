@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from planmethod.note.narrate.forces.common import ForceContext, lettered
 from planmethod.note.narrate.forces.lever import LeverNarrator
@@ -18,6 +17,7 @@ from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.forces.polygons import Share
 from planmethod.plans.model import Known, PlanKind
+from planmethod.record import dataclass
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.leverpicture import lever_picture
@@ -69,8 +69,8 @@ class ForcePlanViewed(Viewed):
             Span(
                 plain_text(self.say.symbol(edge.symbol)),
                 reading.index if many else None,
-                shift + reading.end(edge.tail),
-                shift + reading.end(edge.head),
+                shift + reading.corner(self.number, edge.tail),
+                shift + reading.corner(self.number, edge.head),
             )
             for edge in edges
             if edge.symbol not in known
@@ -118,14 +118,15 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
     if not drawn_edges(reading, number):
         none = words.sheets.plan_none.format(title=title)
         return heading(none, manner.text(manner.sizes.text))
-    said = [scale_inscription(reading.scale, solution.problem.scales.convention, words.say)]
+    scale = reading.own_scale(number)
+    said = [scale_inscription(scale, solution.problem.scales.convention, words.say)]
     if any(apart(reading, number)):
         said.append(words.sheets.apart)
     ellipses = vertex_ellipses(reading, number) if manner.extras.errors else NO_ELLIPSES
     said += told_ellipses([ellipses], solution.profile, words) if manner.extras.errors else []
     picture = polygon_picture(reading, number, manner.letter, words.say, ellipses)
     block = named(picture, title, said, manner)
-    return ForcePlanViewed(block, "forces", reading.scale, reading, number, words.say)
+    return ForcePlanViewed(block, "forces", scale, reading, number, words.say)
 
 
 def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

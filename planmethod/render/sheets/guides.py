@@ -90,5 +90,8 @@ def _edge_columns(primes: str, forces: Sequence[complex], say: Notation) -> list
     sizes = tuple(map(say.number, alike([abs(force) for force in forces])))
     return [
         TableColumn(f"F^{{{primes}}}_{{ij}}, {say.units['N']}", sizes),
-        TableColumn(f"φ^{{{primes}}}_{{ij}}, °", tuple(angle_text(force, say) for force in forces)),
+        TableColumn(
+            f"φ^{{{primes}}}_{{ij}}, {say.in_head('deg')}",
+            tuple(angle_text(force, say) for force in forces),
+        ),
     ]

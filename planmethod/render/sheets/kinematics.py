@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import chain, product
 from pathlib import Path
@@ -14,6 +14,7 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
 from planmethod.paper import Format
 from planmethod.problem.model import Problem, Scales
+from planmethod.record import dataclass
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing
@@ -77,6 +78,12 @@ class _Task:
         asked = self.problem.scales
         solution = self.solved(views, asked)
         pages = self.pages(solution, paper, per_sheet)
+        if pages is not None and self.extras.traces and any(page.tried[0] for page in pages):
+            # The traces of the construction are not to push out what explains it.
+            without = replace(self, extras=replace(self.extras, traces=False))
+            bare = without.pages(solution, paper, per_sheet)
+            if bare is not None and not any(page.tried[0] for page in bare):
+                return without.on(paper, per_sheet)
         if pages is not None and self.layout.grow:
 
             def draw(scales: Scales) -> list[Page] | None:

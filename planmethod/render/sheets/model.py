@@ -7,11 +7,12 @@ its own. `planmethod.render.sheets.composition.reader` reads them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.solved.room import Box
 from planmethod.solved.scaling import AS_HIGH, Views
@@ -64,6 +65,8 @@ class Entry:
         The only position that is shown.
     columns : tuple of str
         Kinds of columns of a table: v, ω, a, ε; empty for all.
+    traces : bool or tuple of str, optional
+        Traces of the construction: all, none, or those of the points with these letters.
     number : int
         Which of the force plans, from 0: the blocks of one are made for each of them.
     """
@@ -82,6 +85,7 @@ class Entry:
     per_row: int | None = None
     position: int | None = None
     columns: tuple[str, ...] = ()
+    traces: bool | tuple[str, ...] | None = None
     number: int = 0
 
 
@@ -155,13 +159,15 @@ class Extras:
 
     ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
     results of one position alone. ``turn``: it is that of a turn, and the scheme has the
-    construction of the extreme positions.
+    construction of the extreme positions. ``traces``: there is room for those of the construction
+    where nobody asks for them.
     """
 
     words: Language
     errors: bool = False
     sigma: bool | None = None
     turn: bool = False
+    traces: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,7 +68,9 @@ def angle_column(reading: ForceReading, none: Sequence[bool], say: Notation) -> 
     """Return the column of the errors of the directions; ``none`` tells which have no direction."""
     pairs = zip(reading.statics.reactions, none, strict=True)
     labels = [None if nil else angle_label(one) for one, nil in pairs]
-    return TableColumn("±σ, °", tuple(sigma_cell(reading, label, say) for label in labels))
+    return TableColumn(
+        f"±σ, {say.in_head('deg')}", tuple(sigma_cell(reading, label, say) for label in labels)
+    )
 
 
 def moment_column(reading: ForceReading, say: Notation) -> TableColumn:

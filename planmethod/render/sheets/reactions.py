@@ -23,7 +23,6 @@ from planmethod.render.sheets.reactionerrors import (
 )
 from planmethod.render.sheets.results import table_width, with_note
 from planmethod.render.sheets.views import shown_position
-from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
@@ -50,7 +49,8 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
         TableColumn(f"F_{{ij}}, {say.units['N']}", tuple(map(say.number, shown))),
         *(size_columns(reading, words) if sigma else []),
         TableColumn(
-            "φ_{ij}, °", tuple("—" if nil else a for a, nil in zip(angles, none, strict=True))
+            f"φ_{{ij}}, {say.in_head('deg')}",
+            tuple("—" if nil else a for a, nil in zip(angles, none, strict=True)),
         ),
         *([angle_column(reading, none, say)] if sigma else []),
     ]
@@ -69,8 +69,7 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     tables = Column([table, *further, below], gap=4.0)
     if not sigma:
         return tables
-    draws, profile = drawn_forces(reading.statics).draws, solution.profile.name
-    return with_note(tables, [*columns, *balances], height, profile, draws, words)
+    return with_note(tables, [*columns, *balances], height, solution.profile.name, words)
 
 
 def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:

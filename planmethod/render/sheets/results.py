@@ -106,7 +106,7 @@ def position_columns(
     asked = tuple(position_text(solution, i, words.say) for i in indices)
     return [
         TableColumn(words.note.number, tuple(str(i) for i in indices), least=8.0),
-        TableColumn(coordinate.symbol, asked, unit=words.say.units[coordinate.unit]),
+        TableColumn(coordinate.symbol, asked, unit=words.say.in_head(coordinate.unit)),
     ]
 
 
@@ -138,8 +138,7 @@ def results_block(solution: Solution, indices: Sequence[int], manner: Manner) ->
     marks = any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells)
     if not sigma or (manner.extras.sigma is None and not marks):
         return table
-    errors = drafting_of(solution)
-    return with_note(table, columns, height, solution.profile.name, errors.draws, words)
+    return with_note(table, columns, height, solution.profile.name, words)
 
 
 def with_note(
@@ -147,15 +146,11 @@ def with_note(
     columns: Sequence[TableColumn],
     height: float,
     profile: str,
-    draws: int,
     words: Language,
 ) -> Column:
-    """Return tables and what the errors in their columns are.
-
-    Of errors that have the mark it is told of how many random sheets they are, ``draws``.
-    """
+    """Return tables and what the errors in their columns are, those that have the mark too."""
     note = words.note
     told = words.sheets.sigma_note.format(profile=note.profiles.get(profile, profile))
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
-        told = f"{told} {note.drawn_note.format(count=draws)}"
+        told = f"{told} {note.drawn_note}"
     return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)

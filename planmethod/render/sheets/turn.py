@@ -159,7 +159,7 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
 def _table(columns: Columns, lead: int, title: str, manner: Manner) -> Block:
     height, say = manner.text(manner.sizes.text), manner.words.say
     made = [
-        TableColumn(head, cells, unit=say.units[unit] if unit else "")
+        TableColumn(head, cells, unit=say.in_head(unit) if unit else "")
         for head, unit, cells in columns
     ]
     title = manner.entry.title or title

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import pi
 
@@ -13,6 +13,8 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
+from planmethod.problem.names import told_length
+from planmethod.record import dataclass
 from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
@@ -265,11 +267,10 @@ class TurnMotion:
                 self.problem,
                 "loads",
                 say(
-                    "point {} does not move on a straight line: it is {:.3g} m off, the stroke "
-                    "is {:.4g} m",
+                    "point {} does not move on a straight line: it is {} off, the stroke is {}",
                     point,
-                    off / abs(towards),
-                    abs(towards),
+                    told_length(off / abs(towards), self.problem.unit, 3),
+                    told_length(abs(towards), self.problem.unit, 4),
                 ),
                 'Give the load over the path of a slider, or over "phi".',
             )

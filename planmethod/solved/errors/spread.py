@@ -1,14 +1,13 @@
 """How far what a program draws may be off: sigma of every quantity, how they err together.
 
 The strokes are those of a pencil (`planmethod.construct.drafting`). First order where it holds. Of
-what is nearly nothing only the last readings are drawn at random, from points that are off to first
-order; where a step itself is as good as impossible, whole sheets are.
+what is nearly nothing only the last readings are made again, in many drawings with points that are
+off to first order; where a step itself is as good as impossible, whole sheets are drawn at random.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -16,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Number
-from planmethod.construct.drafting import Counted, Dithered, Propagated, Sampled
-from planmethod.construct.dual import as_dual
+from planmethod.construct.drafting import EVEN, Counted, Even, Propagated, Sampled
+from planmethod.construct.dual import Dual, alike, as_dual
 from planmethod.construct.evaluate import Trace, evaluate, go_on
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
@@ -32,6 +31,7 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.errors import PlanMethodError
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.reading import Flags, Reals
 
@@ -49,8 +49,8 @@ BENT = 0.03
 SHORT = 3.0
 """Sigmas that a length must have for first order to be believed."""
 
-BLOCK = 64
-"""Positions propagated in one go: their slopes by every stroke are kept for all steps."""
+BLOCK = 512
+"""Positions propagated in one go: slopes by the strokes before them are kept for all steps."""
 
 CENTRAL = (0.158655253931457, 0.841344746068543)
 """Quantiles of one sigma either side of the mean of a normal error."""
@@ -116,22 +116,19 @@ class Errors:
     def _propagate(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
         pencil = Propagated(self.profile, self.drawing.free, self._causes)
         trace, taken = self._take(pencil, chosen)
-        count = len(chosen)
 
-        def column(value: Number) -> Any:
-            return np.broadcast_to(np.atleast_1d(as_dual(value).value), (count,))
-
-        def slopes(value: Number) -> Any:
-            slope = as_dual(value).slope
-            return np.broadcast_to(0.0 if slope is None else slope, (self._causes, count))
+        def whole(value: Number) -> Dual:
+            """Return a number in every position."""
+            dual = as_dual(value)
+            flat = np.broadcast_to(np.atleast_1d(dual.value), (len(chosen),))
+            return Dual(flat, dual.part, dual.rows)
 
         return _Slopes(
-            {label: column(value) for label, value in taken.items()},
-            {label: slopes(value) for label, value in taken.items()},
-            {name: column(margin) for name, margin in trace.margin.items()},
-            {name: slopes(margin) for name, margin in trace.margin.items()},
-            {name: slopes(trace.value[name]) for name in self.drawing.points},
-            {name: (column(trace.value[name]), slopes(trace.value[name])) for name in self._leaves},
+            len(chosen),
+            {label: whole(value) for label, value in taken.items()},
+            {name: whole(margin) for name, margin in trace.margin.items()},
+            {name: whole(trace.value[name]) for name in self.drawing.points},
+            {name: whole(trace.value[name]) for name in self._leaves},
             pencil.of,
         )
 
@@ -144,7 +141,6 @@ class Errors:
             for start in range(0, count, BLOCK)
         ]
         return _First(
-            _joined([part.values for part in parts]),
             _joined([part.sigmas for part in parts]),
             _joined([part.strain for part in parts]),
             _joined([part.points for part in parts]),
@@ -152,9 +148,10 @@ class Errors:
         )
 
     def _reduced(self, part: _Slopes) -> _First:
-        sigmas = {label: _sigma(slopes) for label, slopes in part.slopes.items()}
+        sigmas = {label: _sigma(dual) for label, dual in part.taken.items()}
         short = {
-            label: (sigmas[label] > 0) & (_size(item, part.values[label]) < SHORT * sigmas[label])
+            label: (sigmas[label] > 0)
+            & (_size(item, part.taken[label].value) < SHORT * sigmas[label])
             for label, item in self.items.items()
             if item.kind is not DrawnKind.NUMBER
         }
@@ -163,14 +160,12 @@ class Errors:
                 short[label] = short[label] | short[item.direction]
         with np.errstate(divide="ignore", invalid="ignore"):
             strain = {
-                name: _sigma(part.margin_slopes[name]) / np.abs(margin)
-                for name, margin in part.margins.items()
+                name: _sigma(margin) / np.abs(margin.value) for name, margin in part.margins.items()
             }
         return _First(
-            part.values,
             sigmas,
             strain,
-            {name: _covariance(slopes) for name, slopes in part.points.items()},
+            {name: _covariance([point]) for name, point in part.points.items()},
             {label: self._read_again(label, part, where) for label, where in short.items()},
         )
 
@@ -208,7 +203,7 @@ class Errors:
         """Return the sigma where a length is nearly nothing, NaN elsewhere; shape (n,).
 
         Infinite where it cannot be told so.
-        What it is read from is drawn at random as first order has it, and is read.
+        What it is read from is as far off as first order has it, spread evenly, and is read.
         """
         found = np.full(len(where), np.nan)
         (chosen,) = np.nonzero(where)
@@ -218,22 +213,22 @@ class Errors:
             found[chosen] = np.inf
             return found
         (steps, leaves), item = self._readings[label], self.items[label]
-        values = [part.leaves[name][0][chosen] for name in leaves]
-        slopes = [part.leaves[name][1][:, chosen] for name in leaves]
-        rows = np.array([side for slope in slopes for side in (slope.real, slope.imag)])
-        size, turned = np.linalg.eigh(np.einsum("amn,bmn->nab", rows, rows))
+        read = {name: part.leaves[name].at(chosen) for name in leaves}
+        env: dict[Name, Any] = {name: dual.value[:, None] for name, dual in read.items()}
+        off = [name for name, dual in read.items() if dual.part is not None]
+        size, turned = np.linalg.eigh(np.moveaxis(_covariance([read[name] for name in off]), -1, 0))
         root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
-        pencil = Dithered(self.profile, self.drawing.free, self.draws, self.seed)
-        off = root @ pencil.normals(len(rows))
-        env: dict[Name, Any] = {}
-        for k, (name, value) in enumerate(zip(leaves, values, strict=True)):
-            place = env[name] = np.empty((len(chosen), self.draws), value.dtype)
-            np.add(value.real[:, None], off[:, 2 * k], out=place.real)
+        pencil = Even(self.profile, self.drawing.free)
+        coordinates = iter(np.moveaxis(root @ pencil.normals(root.shape[-1]), 1, 0))
+        for name in off:
+            value = env[name]
+            place = env[name] = np.empty((len(chosen), EVEN), value.dtype)
+            np.add(value.real, next(coordinates), out=place.real)
             if np.iscomplexobj(value):
-                np.add(value.imag[:, None], off[:, 2 * k + 1], out=place.imag)
+                np.add(value.imag, next(coordinates), out=place.imag)
         with np.errstate(all="ignore"):
             taken = item.take(go_on(Trace(env, {}), steps, {}, pencil))
-        drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), self.draws))
+        drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), EVEN))
         found[chosen] = np.nan_to_num(_half_widths(item, drawn), nan=np.inf)
         return found
 
@@ -242,6 +237,11 @@ class Errors:
         if index not in self._own:
             self._own = {index: self._propagate(np.array([index]))}
         return self._own[index]
+
+    def _slope(self, label: str, index: int) -> Reals:
+        """Return the slopes of a quantity by every cause in one position, shape (m,)."""
+        slope = self._at(index).taken[label].slope
+        return np.zeros(self._causes) if slope is None else slope[:, 0]
 
     # Where first order does not hold ---------------------------------------------------------
 
@@ -322,8 +322,7 @@ class Errors:
         """
         asked = list(labels)
         self._check(asked)
-        slopes = self._at(index).slopes
-        rows = np.array([slopes[label][:, 0] for label in asked])
+        rows = np.array([self._slope(label, index) for label in asked])
         return np.asarray(rows @ rows.T, dtype=float)
 
     def _check(self, labels: list[str]) -> None:
@@ -344,10 +343,9 @@ class Errors:
     def causes(self, label: str, index: int = 0) -> list[tuple[str, float]]:
         """Return the steps by their share of a quantity's variance, the largest first."""
         self._check([label])
-        here = self._at(index)
-        slope = here.slopes[label][:, 0] ** 2
+        slope = self._slope(label, index) ** 2
         shares: dict[str, float] = {}
-        for step, part in zip(here.strokes, slope, strict=True):
+        for step, part in zip(self._at(index).strokes, slope, strict=True):
             shares[step] = shares.get(step, 0.0) + float(part)
         total = sum(shares.values()) or 1.0
         ordered = sorted(shares.items(), key=lambda pair: -pair[1])
@@ -375,26 +373,24 @@ class _Spreads(Mapping[str, Spread]):
 
 @dataclass(frozen=True, slots=True)
 class _Slopes:
-    """Values, their slopes by cause (m, n), and the strokes behind the causes."""
+    """What is taken, margins, points, leaves: with their slopes; the strokes behind the causes."""
 
-    values: dict[str, Reals]
-    slopes: dict[str, Reals]
-    margins: dict[Name, Reals]
-    margin_slopes: dict[Name, Reals]
-    points: dict[PointName, npt.NDArray[np.complex128]]
-    leaves: dict[Name, tuple[Any, Any]]
+    count: int
+    taken: dict[str, Dual]
+    margins: dict[Name, Dual]
+    points: dict[PointName, Dual]
+    leaves: dict[Name, Dual]
     strokes: list[str]
 
 
 @dataclass(frozen=True, slots=True)
 class _First:
-    """First order: values, sigmas, strain of steps, covariances of points (2, 2, n).
+    """First order: sigmas, strain of steps, covariances of points (2, 2, n).
 
     ``strain``: sigma of a step's margin, in parts of it. ``short``: sigmas of what is nearly
     nothing, NaN where it is not.
     """
 
-    values: dict[str, Reals]
     sigmas: dict[str, Reals]
     strain: dict[Name, Reals]
     points: dict[PointName, Reals]
@@ -411,12 +407,22 @@ def _joined(parts: list[dict[Key, Any]]) -> dict[Key, Any]:
     return {key: np.concatenate([part[key] for part in parts], -1) for key in parts[0]}
 
 
-def _sigma(slopes: Reals) -> Reals:
-    return np.asarray(np.sqrt((slopes**2).sum(axis=0)), dtype=float)
+def _sigma(value: Dual) -> Reals:
+    # All causes, those that change nothing too: a position alone is added up as one of many.
+    slope = value.slope
+    sigma = 0.0 if slope is None else np.sqrt((slope**2).sum(axis=0))
+    return np.array(np.broadcast_to(sigma, value.value.shape), dtype=float)
 
 
-def _covariance(slopes: npt.NDArray[np.complex128]) -> Reals:
-    rows = np.array([slopes.real, slopes.imag])
+def _covariance(values: Sequence[Dual]) -> Reals:
+    """Return how numbers err together, x and y of each place: shape (k, k, n)."""
+    slopes, _ = alike(*values)
+    shape = np.broadcast_shapes((1, len(values[0].value)), *map(np.shape, slopes))
+    rows = [
+        np.broadcast_to(side, shape)
+        for slope, value in zip(slopes, values, strict=True)
+        for side in ((np.real(slope), np.imag(slope)) if np.iscomplexobj(value.value) else (slope,))
+    ]
     return np.asarray(np.einsum("amn,bmn->abn", rows, rows), dtype=float)
 
 
@@ -425,7 +431,7 @@ def _half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
     if not np.isfinite(rows).all():
         return np.array([_half_width(item, row) for row in rows])
     if item.kind is DrawnKind.DIRECTION:
-        rows = np.array([_unwound(row) for row in rows])
+        rows = _unwound(rows)
     low, high = np.quantile(rows, CENTRAL, axis=1)
     return np.asarray((high - low) / 2, dtype=float)
 
@@ -444,7 +450,7 @@ def _half_width(item: DrawnQuantity, values: Reals) -> float:
 def _unwound(degrees: Reals) -> Reals:
     """Return directions from their mean one, in (-180, 180]: those about 180 lie together."""
     ways = np.exp(1j * np.radians(degrees))
-    return np.asarray(np.degrees(np.angle(ways / ways.sum())), dtype=float)
+    return np.asarray(np.degrees(np.angle(ways / ways.sum(axis=-1, keepdims=True))), dtype=float)
 
 
 def _ancestors(program: Program) -> dict[Name, frozenset[Name]]:

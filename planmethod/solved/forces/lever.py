@@ -7,13 +7,14 @@ other way where the link goes counter-clockwise, for the segment then lies again
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from math import isfinite
 from typing import TypeAlias
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Given
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.board import letter
+from planmethod.record import dataclass
 from planmethod.solved.forces.reading import ForceReading
 
 _Own: TypeAlias = tuple[
@@ -113,6 +114,7 @@ class LeverReading:
         self.forces: list[LeverForce] = []
         self.couples: list[LeverCouple] = []
         self.shifts: list[LeverShift] = []
+        pole = reading.statics.lever_plan.pole
         for hung in reading.statics.lever_plan.loads:
             given, at, one = hung.given, hung.at, hung.given.applied
             if at is None or hung.arm is None:
@@ -121,7 +123,7 @@ class LeverReading:
                     moment = reading.read_number(given.couple)
                     self.couples.append(self._couple(one.name, one.link, moment))
                 continue
-            force, place = complex(one.force[index]), reading.end(at) * self._share
+            force, place = complex(one.force[index]), self._hung(at, pole)
             if abs(force) > 1e-9 * reading.peak:
                 assert given.force is not None and one.point is not None
                 size, arm = reading.read_load(given), reading.read_number(hung.arm) * self._share
@@ -147,10 +149,15 @@ class LeverReading:
             self.forces.append(LeverForce(reading.balancing_symbol, place, force, arm, size, pin))
 
     def place(self, point: PointName) -> complex:
-        """Return a point of the velocity plan on the lever, mm from the pole."""
-        solution = self.reading.solution
-        at = complex(solution.paper.point(point)[self.reading.index])
-        return 1j * at * self._share
+        """Return a point of the velocity plan on the lever as the hand has it, mm from the pole."""
+        solution, index = self.reading.solution, self.reading.index
+        drawn, exact = (r.point(point)[index] for r in (solution.by_hand, solution.paper))
+        return 1j * complex(drawn if isfinite(abs(drawn)) else exact) * self._share
+
+    def _hung(self, at: PointName, pole: PointName) -> complex:
+        """Return where a force hangs as the hand has it, mm from the pole; else the exact place."""
+        drawn = self.reading.by_hand(pole, at)
+        return (drawn if isfinite(abs(drawn)) else self.reading.end(at)) * self._share
 
     def _couple(self, symbol: str, link: str, moment: float) -> LeverCouple:
         turned = -moment * self._omega(link) / self.per_mm

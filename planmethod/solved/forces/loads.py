@@ -352,11 +352,12 @@ def _numbers(solution: MotionValues, path: str) -> npt.NDArray[np.intp]:
     number = order[np.minimum(np.searchsorted(own[order], asked - SLACK), len(own) - 1)]
     strange = np.flatnonzero(~(np.abs(own[number] - asked) <= SLACK))
     if strange.size:
-        first = solution.problem.drive.coordinate.told(f"{float(asked[strange[0]]):.12g}")
+        problem = solution.problem
+        first = problem.drive.coordinate.told(float(asked[strange[0]]), problem.unit)
         fault = Fault(
             f"{path}.values",
             say("given for the positions of the file, and {} is none of them", first),
             "Give the table over phi, s, x or y, or ask the file's own positions.",
         )
-        raise ProblemError(solution.problem.name, [fault])
+        raise ProblemError(problem.name, [fault])
     return number

@@ -51,8 +51,25 @@ class ForceReading(Remembering):
 
     @property
     def scale(self) -> Scale:
-        """Scale of all force plans, N per mm."""
+        """Scale of the force plans that have none of their own, N per mm."""
         return self.statics.scale
+
+    def share(self, number: int) -> float:
+        """Return how many times larger than by `scale` one of the plans is drawn."""
+        return float(self.statics.shares[number][self.index])
+
+    def own_scale(self, number: int) -> Scale:
+        """Return the scale of one of the plans, N per mm."""
+        return self.statics.own_scale(number, self.index)
+
+    def corner(self, number: int, point: PointName) -> complex:
+        """Return a point of one of the plans as the hand has drawn it, mm; else the exact one."""
+        drawn = self._column(self.statics.by_hand, point)
+        return (drawn if math.isfinite(abs(drawn)) else self.end(point)) * self.share(number)
+
+    def drawn(self, number: int, edge: Edge) -> complex:
+        """Return a force as its segment on one of the plans, mm."""
+        return self.corner(number, edge.head) - self.corner(number, edge.tail)
 
     def _column(self, reading: Reading, name: PointName) -> complex:
         return complex(reading.point(name)[self.index])
@@ -71,10 +88,6 @@ class ForceReading(Remembering):
         """Return an end of a force plan, or a point of the lever, mm."""
         return self._column(self.statics.paper, point)
 
-    def vector(self, edge: Edge) -> complex:
-        """Return a force as its segment on the plan, mm."""
-        return self.end(edge.head) - self.end(edge.tail)
-
     def force(self, edge: Edge) -> complex:
         """Return a force, N."""
         return self.of_force(Force(edge.at, edge.tail, edge.head))
@@ -89,9 +102,10 @@ class ForceReading(Remembering):
         hand = self.statics.by_hand
         return self._column(hand, head) - self._column(hand, tail)
 
-    def length(self, edge: Edge) -> float:
-        """Return the length of a force on its plan, mm: laid off, or read."""
-        return abs(self.read_number(self.statics.board.segments.drawn(edge.ends)))
+    def length(self, edge: Edge, number: int) -> float:
+        """Return the length of a force on one of the plans, mm: laid off, or read."""
+        length = abs(self.read_number(self.statics.board.segments.drawn(edge.ends)))
+        return length * self.share(number)
 
     def read(self, edge: Edge) -> float:
         """Return the size of a force as the hand has it, N."""

@@ -7,7 +7,7 @@ of the drawings, whoever reads them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import evaluate
+from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
@@ -27,6 +28,7 @@ from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
+from planmethod.record import dataclass
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import Contact, JointForce, contacts
 from planmethod.solved.forces.loads import applied
@@ -39,6 +41,16 @@ from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 UNIT = FACTS[PlanKind.FORCE].unit
 PLAN_BOX: Box = (100.0, 100.0)
 """What the largest of the force plans shall fill, mm: a usual size on training drawings."""
+
+SMALL, SMALL_BOX = 0.4, (60.0, 60.0)
+"""A plan that takes less than that part of the room has a scale of its own, to fill a room of its
+own, mm."""
+
+FAINT = 1e-6
+"""A plan of forces that are so small a part of the largest of the position is nothing."""
+
+DRAWN = 12
+"""Most positions whose force plans are drawn; of more all are read at one scale."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,9 +204,7 @@ class Statics(Remembering):
     @cached_property
     def contacts(self) -> Mapping[int, Contact]:
         """The reactions of the guides, by their numbers: where they act."""
-        positions = range(len(self.solution.positions))
-        largest = np.asarray([self.largest(index) for index in positions])
-        return contacts(self.solution, self.reactions, largest)
+        return contacts(self.solution, self.reactions, self.largest_forces)
 
     @cached_property
     def balance(self) -> Reals:
@@ -206,11 +216,17 @@ class Statics(Remembering):
         """The same by the Zhukovsky lever; None where the driver stands."""
         return None if self.lever_plan is None else self._number(self.lever_plan.balance)
 
+    @cached_property
+    def largest_forces(self) -> Reals:
+        """Size of the largest force of each position, load or reaction, N."""
+        forces = [joint.force for joint in self.reactions]
+        forces += [given.applied.force for given in self.board.given]
+        none = np.zeros(self.solution.positions.shape)
+        return np.asarray(np.max([none, *(np.abs(f) + none for f in forces)], axis=0), dtype=float)
+
     def largest(self, index: int) -> float:
         """Return the size of the largest force of a position, load or reaction, N."""
-        forces = [abs(joint.force[index]) for joint in self.reactions]
-        forces += [abs(given.applied.force[index]) for given in self.board.given]
-        return float(max(forces, default=0.0))
+        return float(self.largest_forces[index])
 
     # Drawn -----------------------------------------------------------------------------------
 
@@ -227,9 +243,48 @@ class Statics(Remembering):
 
     def _extent(self, plan: ForcePlan) -> Box:
         """Return width and height of a plan in the position where it is the widest, N."""
+        width, height = self._extents(plan)
+        return float(width.max()), float(height.max())
+
+    def _extents(self, plan: ForcePlan) -> tuple[Reals, Reals]:
+        """Return width and height of a plan in every position, N, shape (n,)."""
         ends = {end for edge in plan.polygon for end in (edge.tail, edge.head)}
         places = np.asarray([self.si.point(end) for end in sorted(ends)])
-        return float(np.ptp(places.real, axis=0).max()), float(np.ptp(places.imag, axis=0).max())
+        return np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0)
+
+    @cached_property
+    def shares(self) -> list[Reals]:
+        """How many times larger than by `scale` each plan is drawn, by positions, shape (n,).
+
+        Such a plan has a scale of its own. One that the file gives is that of all.
+        """
+        scales, count = self.solution.problem.scales, len(self.solution.positions)
+        found = [np.ones(count) for _ in self.board.plans]
+        if scales.mu_F is not None or count > DRAWN:
+            return found
+        inverse = scales.convention is Convention.MM_PER_UNIT
+        for plan, share in zip(self.board.plans, found, strict=True):
+            for index, size in enumerate(zip(*self._extents(plan), strict=True)):
+                over = max(size[0] / PLAN_BOX[0], size[1] / PLAN_BOX[1]) / self.scale.per_mm
+                if 0.0 < over < SMALL and max(size) > FAINT * self.largest(index):
+                    own = choose_scale(size, SMALL_BOX, mm_per_unit=inverse)
+                    share[index] = self.scale.per_mm / own
+        return found
+
+    def own_scale(self, number: int, index: int) -> Scale:
+        """Return the scale at which one of the plans is drawn in a position."""
+        return Scale(SCALE, self.scale.per_mm / float(self.shares[number][index]), UNIT)
+
+    @cached_property
+    def hand(self) -> Hand:
+        """Hand that reads each force on the plan that finds it, at the scale of that."""
+        segments, own = self.board.segments, self.solution.hand
+        enlarged: dict[str, Number] = {
+            segments.drawn(edge.ends): share
+            for plan, share in zip(self.board.plans, self.shares, strict=True)
+            for edge in plan.reactions
+        }
+        return replace(own, enlarged={**own.enlarged, **enlarged})
 
     @property
     def per_mm(self) -> dict[str, float]:
@@ -244,7 +299,7 @@ class Statics(Remembering):
     @cached_property
     def by_hand(self) -> Reading:
         """Reading of a draughtsman who measures with a ruler, along his own chain."""
-        return self.read(self.solution.hand, self.per_mm)
+        return self.read(self.hand, self.per_mm)
 
 
 def statics_of(solution: Solution) -> Statics:

@@ -78,7 +78,7 @@ class GappedSweep:
     def _why(self, index: int) -> Failure:
         position = float(self.positions[index])
         found = self.sweep.failure(position) or why(self.problem, position)
-        return found.numbered(index + 1)
+        return found.numbered(index, len(self.positions))
 
     def fill(self, out: Reals, part: slice) -> Reals:
         """Fill a buffer of shape (k, m) with the results of a part of the positions.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.failures import (
     Cause,
     Doubt,
@@ -206,8 +207,8 @@ def examine(
             verify(solution)
         except SelfCheckError as error:
             found = error.found
-            number = int(numbers[left][found.place.number - 1]) + 1
-            raise SelfCheckError(found.numbered(number)) from error
+            number = int(numbers[left][found.place.number])
+            raise SelfCheckError(found.numbered(number, count)) from error
         if forces:
             from planmethod.solved.forces.statics import statics_of
 
@@ -215,7 +216,7 @@ def examine(
 
     def tell(index: int) -> Failure:
         found = why(problem, float(positions[index]), forces=forces)
-        return found.numbered(int(numbers[index]) + 1)
+        return found.numbered(int(numbers[index]), count)
 
     estimate[codes >= 0] = 0.0
     gaps = Gaps.of(codes, tell)
@@ -273,8 +274,8 @@ def _doubts(
         return
     named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MOST_NAMED:]])
     for doubt in doubts(Solution(problem, positions=_listed(positions[named]))):
-        number = int(numbers[named][doubt.place.number - 1]) + 1
-        yield replace(doubt, place=replace(doubt.place, number=number))
+        number = int(numbers[named][doubt.place.number])
+        yield replace(doubt, place=doubt.place.numbered(number, len(positions)))
     if len(named) < len(doubtful):
         yield MoreDoubts(len(doubtful) - len(named), len(positions))
 

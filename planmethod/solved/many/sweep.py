@@ -420,13 +420,13 @@ class Sweep:
         """Return the step behind a guard's number; empty for -1, which no guard has."""
         return "" if guard < 0 else str(self._written.guards[guard].step)
 
-    def explain(self, position: float, *, number: int = 1) -> str:
+    def explain(self, position: float, *, number: int | None = None) -> str:
         """Return why a position is impossible, in the words and numbers of the drawing.
 
         Parameters
         ----------
-        number : int
-            Number of the position, from 1, for the message.
+        number : int, optional
+            Number of the position, from 0, for the message; without it, it is the only one.
 
         Returns
         -------
@@ -434,7 +434,9 @@ class Sweep:
             Empty if every step that the sweep needs exists there.
         """
         found = self.failure(position)
-        return "" if found is None else str(found.numbered(number))
+        if found is not None and number is not None:
+            found = found.numbered(number, 0)
+        return "" if found is None else str(found)
 
     def failure(self, position: float) -> Failure | None:
         """Return why a position is impossible; None if every step that is needed exists there."""

@@ -7,7 +7,6 @@ those of the position plan, from the line on which a force acts.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 
 from planmethod.construct.arithmetic import Float64
@@ -20,6 +19,7 @@ from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
 from planmethod.plans.segments import Ends
 from planmethod.problem.selector import Selector
+from planmethod.record import dataclass
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Reading
@@ -74,7 +74,7 @@ class ForceQuantities:
         drawn = self.statics.by_hand
         if self.mu_f != self.statics.scale.per_mm:
             scales = {**self.statics.per_mm, SCALE: self.mu_f}
-            drawn = self.statics.read(self.solution.hand, scales)
+            drawn = self.statics.read(self.solution.hand, scales)  # all plans at that one
         return _both(self.solution.by_hand, drawn)
 
     def value(self, selector: Selector, *, by_hand: bool) -> float:

@@ -17,7 +17,7 @@ from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemErro
 from planmethod.languages import say
 from planmethod.problem.keys import EXTREMES, GOING, UNITS
 from planmethod.problem.model import Posed, PosedBy, Problem, Zero
-from planmethod.problem.names import split_pair
+from planmethod.problem.names import split_pair, told_length
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.solution import Solution
@@ -30,7 +30,6 @@ _ASIDE = 0.0931  # degrees off round numbers, where singular places like to be
 _SAME = 1e-7  # degrees, or share of the way of a slider, within which two roots are one
 _OFF = 1e-6  # share of the range of the output that a root may miss it by
 
-_UNITS = {"m": "{:.5g} m", "cm": "{:.5g} cm", "mm": "{:.5g} mm", "deg": "{:.5g} deg"}
 
 Found = list[tuple[float, float]]
 """Positions of the driver, each with the sense in which the output goes there: 1, -1 or 0."""
@@ -248,7 +247,7 @@ def _chosen(
     problem: Problem, posed: Posed, index: int, found: Found, ways: list[Solution]
 ) -> float:
     """Return the one position that is meant."""
-    drive, unit = problem.drive, UNITS[problem.unit]
+    drive = problem.drive
     said = f"{posed.key} = {_told(posed, posed.values[index], problem)}"
     if posed.by is PosedBy.EXTREME:
         said = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}".replace(" +0", "")
@@ -279,7 +278,7 @@ def _chosen(
         said = say("{}, going {},", said, posed.going)
     if len(kept) == 1:
         return kept[0][0]
-    per = 1.0 if drive.is_crank else unit
+    per = 1.0 if drive.is_crank else UNITS[problem.unit]
     places = [f"{p * per:.5g}" for p, _ in kept]
     name = drive.coordinate.name
     told = ", ".join(f"{name} = {place}" for place in places) or say("no position")
@@ -303,5 +302,5 @@ def _apart(way: float, turn: float) -> float:
 def _told(posed: Posed, value: float, problem: Problem) -> str:
     """Return a value of the output as the file has it."""
     if posed.by in (PosedBy.X, PosedBy.Y, PosedBy.LENGTH):
-        return say(_UNITS[problem.unit], value * UNITS[problem.unit])
-    return say(_UNITS["deg"] if posed.by is PosedBy.PHI else "{:.5g}", value)
+        return told_length(value, problem.unit, 5)
+    return say("{:.5g} deg" if posed.by is PosedBy.PHI else "{:.5g}", value)

@@ -57,7 +57,7 @@ def test_positions_have_rows_of_their_own() -> None:
     entries = ex3_work.entries()
     two = replace(key(), entries=(*entries, *(replace(e, position=1) for e in entries)))
     text = key_text([two], RU)
-    assert "положение 1" in text and "положение 2" in text
+    assert "положение 0" in text and "положение 1" in text
 
 
 def test_variants_with_other_scales_are_told_apart() -> None:

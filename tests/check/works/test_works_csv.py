@@ -95,8 +95,8 @@ def test_columns_may_stand_in_any_order_with_russian_heads(tmp_path: Path) -> No
     (work,) = read(tmp_path, text)
     assert work.student == "Иванов И. И."
     omega, v = work.answers
-    assert (omega.what, omega.sense, omega.position) == ("omega 3", Sense.CCW, 0)
-    assert (v.what, v.value, v.mm, v.position) == ("v B3", 2.275, 45.5, 1)
+    assert (omega.what, omega.sense, omega.position) == ("omega 3", Sense.CCW, 1)
+    assert (v.what, v.value, v.mm, v.position) == ("v B3", 2.275, 45.5, 2)
     (remark,) = work.remarks
     assert (remark.why, remark.fault) == (Unread.COLUMN, "Подпись")
 

@@ -16,6 +16,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.common import ForceContext, closed
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Share, reaction_symbol
@@ -34,7 +35,8 @@ class ForcePlanNarrator:
     """
 
     def __init__(self, context: ForceContext, plan: ForcePlan, number: int) -> None:
-        self.context, self.plan = context, plan
+        self.context, self.plan, self.number = context, plan, number
+        self.scale = context.reading.own_scale(number)
         self.reading, self.names = context.reading, context.names
         self.said, self.words = context.said, context.words
         self.statics = context.reading.statics
@@ -42,6 +44,11 @@ class ForcePlanNarrator:
         self._ends: dict[PointName, str] = {start: self.said.of_start}
         self._begun = False
         self._drawn: list[Edge] = []
+
+    def inscription(self) -> str:
+        """Return the scale of the plan as it stands under it."""
+        convention = self.context.solution.problem.scales.convention
+        return scale_inscription(self.scale, convention, self.context.notation)
 
     @property
     def _edges(self) -> tuple[Edge, ...]:
@@ -156,12 +163,12 @@ class ForcePlanNarrator:
 
     def closing(self, edge: Edge) -> str:
         """Return a force read off its plan: ``F_{42} = 70,0/0,01 = 7000 Н``."""
-        symbol, length = self.context.symbol(edge.symbol), self.reading.length(edge)
+        symbol, length = self.context.symbol(edge.symbol), self.reading.length(edge, self.number)
         if self.reading.is_none(edge):
             return f"{symbol} = 0"
         if not length:
             return f"{symbol} ≈ 0"
-        numbers = self.context.scaled(self.context.ruled(length), self.reading.scale.per_mm)
+        numbers = self.context.scaled(self.context.ruled(length), self.scale.per_mm)
         size = self.context.found(self.reading.read(edge))
         return f"{symbol} = {numbers} = {size} {self.context.units['N']}"
 
@@ -226,7 +233,7 @@ class ForcePlanNarrator:
         """Tell a vector laid off; of nothing, nothing."""
         new, old = (edge.tail, edge.head) if back else (edge.head, edge.tail)
         symbol = self.context.symbol(edge.symbol)
-        length = self.reading.length(edge)
+        length = self.reading.length(edge, self.number)
         if self.reading.is_none(edge) or not length:
             self._ends[new] = self._ends[old]
             if self.reading.is_none(edge):
@@ -244,8 +251,9 @@ class ForcePlanNarrator:
     def _length(self, edge: Edge) -> str:
         """Return how the length of a force on the plan is computed."""
         context, newtons = self.context, self.context.found(self.reading.read(edge))
-        formula = context.scaled(newtons, self.reading.scale.per_mm, back=True)
-        return f"{formula} = {context.short(self.reading.length(edge), 4)} {context.units['mm']}"
+        formula = context.scaled(newtons, self.scale.per_mm, back=True)
+        length = context.short(self.reading.length(edge, self.number), 4)
+        return f"{formula} = {length} {context.units['mm']}"
 
     # Closing ---------------------------------------------------------------------------------
 

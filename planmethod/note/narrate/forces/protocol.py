@@ -84,6 +84,8 @@ def _plan(text: Steps, context: ForceContext, plan: ForcePlan, number: int) -> N
         return
     for lines in moments.before():
         text.item(lines)
+    if voice.scale != context.reading.scale:
+        text.item([context.said.own_scale.format(scale=voice.inscription())])
     for lines in voice.steps():
         text.item(lines)
     for lines in moments.guides():

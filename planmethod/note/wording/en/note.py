@@ -18,7 +18,8 @@ NOTE = Wording(
     title_protocol="Construction of the plans, step by step",
     title_results="Results",
     source="Source: {source}",
-    position="Position {number} of {count}: {symbol} = {value}",
+    one_position="Position: {symbol} = {value}",
+    position="Position {number} ({count} in all): {symbol} = {value}",
     formula="Structural formula: {formula}",
     given="Given: {given}.",
     given_count=" ({count} positions)",
@@ -194,8 +195,7 @@ NOTE = Wording(
     profiles={"cad": "CAD", "board": "drawing board", "coarse": "in haste"},
     sigma="±σ",
     sigma_note="±σ is the drafting error: one standard deviation, accuracy “{profile}”.",
-    drawn_note="*: first order does not hold here; σ was found by drawing {count} sheets at "
-    "random.",
+    drawn_note="*: first order does not hold here; σ is that of many possible drawings.",
     many_sigmas="Drafting error ±σ: v, m/s; ω, s⁻¹; a, m/s²; ε, s⁻²",
     table_causes="What contributes most to the error",
     worst_result="Largest relative error: {symbol} = {value} ± {sigma} {unit} ({part} %); shares "

@@ -18,7 +18,8 @@ NOTE = Wording(
     title_protocol="Протокол построения планов",
     title_results="Результаты",
     source="Источник: {source}",
-    position="Положение {number} из {count}: {symbol} = {value}",
+    one_position="Положение: {symbol} = {value}",
+    position="Положение {number} (всего {count}): {symbol} = {value}",
     formula="Формула строения: {formula}",
     given="Дано: {given}.",
     given_count=" ({count} полож.)",
@@ -196,7 +197,7 @@ NOTE = Wording(
     sigma="±σ",
     sigma_note="±σ — погрешность построения: одно среднее квадратическое отклонение, точность "
     "«{profile}».",
-    drawn_note="*: первый порядок здесь неверен, σ найдена по {count} случайным чертежам.",
+    drawn_note="*: первый порядок здесь неверен, σ найдена по множеству возможных чертежей.",
     many_sigmas="Погрешность построения ±σ: v, м/с; ω, с⁻¹; a, м/с²; ε, с⁻²",
     table_causes="Что вносит наибольшую погрешность",
     worst_result="Наибольшая относительная погрешность: {symbol} = {value} ± {sigma} {unit} "

@@ -27,6 +27,7 @@ UNITS = {
 """Units as plain text, by those of SI."""
 
 NOTATION = Notation(
+    degrees="град",
     decimal=",",
     units={name: raised(unit) for name, unit in UNITS.items()},
     symbols={

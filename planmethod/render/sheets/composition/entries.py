@@ -16,6 +16,7 @@ from planmethod.render.sheets.composition.values import (
     read_choice,
     read_height,
     read_heights,
+    read_line,
     read_list,
     read_markup,
     read_paragraph,
@@ -37,6 +38,7 @@ ON_SHEET_LIMIT = 16
 SHEET_LIMIT = 12
 GROUP_DEPTH = 4
 MOST_PER_ROW = 12
+MOST_LETTERS = 40
 
 OF = {kind.value: kind for kind in MOTION if kind is not PlanKind.POSITION}
 COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
@@ -125,6 +127,13 @@ def _read_columns(faults: Faults, path: str, value: object) -> tuple[str, ...]:
     return tuple(found)
 
 
+def _read_traces(faults: Faults, path: str, value: object) -> bool | tuple[str, ...]:
+    if not isinstance(value, list):
+        return read_switch(faults, path, value)
+    letters = read_list(faults, path, value, "letters", MOST_LETTERS)
+    return tuple(read_line(faults, f"{path}[{k}]", item) for k, item in enumerate(letters))
+
+
 _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
     "of": _read_of,
     "group": _read_group,
@@ -139,6 +148,7 @@ _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
     "per_row": partial(read_whole, low=1, high=MOST_PER_ROW),
     "position": partial(read_whole, low=0, high=119),
     "columns": _read_columns,
+    "traces": _read_traces,
 }
 """Readers of the keys of a block, each of which is a field of `Entry`; ``height`` is `heights`."""
 

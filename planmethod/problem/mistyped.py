@@ -1,0 +1,148 @@
+"""What is meant by a line or a value that cannot be read: the hint is to write it so (описки)."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Sequence
+
+from planmethod.languages import say, typed
+from planmethod.problem.formula import FormulaError, work_out
+from planmethod.problem.keys import UNITS
+from planmethod.problem.names import describe_lookalikes, fold, listed, looks_latin
+
+_COMMA = r"[^#\"\[{=]*=\s*([-+]?\d+),(\d+)"
+"""A number with a decimal comma (десятичная запятая) after its key."""
+
+_NUMBER = r"[-+]?\d+(?:\.\d+)?"
+
+_REPAIRS = (
+    (r"[«»“”„‟]", '"'),
+    (r"[−–—](?=\s*[\d.])", "-"),
+    (r"\s//.*|;\s*$", ""),
+    (r"^(\s*[\w.'\"-]+)\s*:\s*(?=[^=]*$)", r"\1 = "),
+    (r"=\s*=", "="),
+    (r"(?<=\d),(?=0\d)", "."),
+    (rf"=\s*\(\s*({_NUMBER})\s*[,;]\s*({_NUMBER})\s*\)", r"= [\1, \2]"),
+    (
+        rf"=\s*({_NUMBER})(?::|\.\.+)({_NUMBER}):({_NUMBER})\s*$",
+        r"= { from = \1, to = \2, step = \3 }",
+    ),
+    (rf"=\s*({_NUMBER}(?:\s*[,;]\s*{_NUMBER})+)\s*$", r"= [\1]"),
+    (rf"=\s*({_NUMBER})\s*°", r"= \1"),
+    (r"(?<=[\[,])(\s*)([^\W\d]\w*'*)(?=\s*[,\]])", r'\1"\2"'),
+)
+"""Ways in which beginners write, and TOML: pattern and replacement, one after the other."""
+
+
+def line_hint(what: str, lines: Sequence[str], number: int, column: int) -> str:
+    """Guess the likely cause of a syntax error, and say what to write.
+
+    Parameters
+    ----------
+    what : str
+        What TOML says of it, in English.
+    number, column : int
+        Where it stands, from 1.
+    """
+    line = lines[number - 1] if number <= len(lines) else ""
+    code = line.split("#", 1)[0].strip()
+    if hint := _key_hint(code):
+        return hint
+    comma = re.match(_COMMA, code)
+    if comma and not re.match(r"\s*,", code[comma.end() :]):
+        told = say("Write {0}.{1} with a decimal point, not {0},{1}.", comma[1], comma[2])
+        others = [str(n) for n, other in enumerate(lines, 1) if re.match(_COMMA, other)]
+        others.remove(str(number))
+        return say("{} The same in lines: {}.", told, listed(others)) if others else told
+    if (meant := _repaired(code)) and meant != code:
+        return say("Write it so: {}", meant)
+    if code.count('"') % 2:
+        return "The closing quote is missing."
+    if code.count("{") > code.count("}"):
+        return "The closing brace is missing: a table in braces stands on one line."
+    opened = [n for n in range(1, number + 1) if lines[n - 1].count("[") > lines[n - 1].count("]")]
+    if opened and "rray" in what:
+        return say("The bracket that is opened in line {} is not closed.", opened[-1])
+    if code.count("[") > code.count("]"):
+        return "The closing bracket is missing."
+    if re.match(r"[^=]*=\s*[-+]?[\d.]+\s*[^\W\d_]", code):
+        return 'Write the number without its unit: units = "mm" says it once for all lengths.'
+    if "=" not in code and not code.startswith("["):
+        return "A line must be 'key = value' or '[table]'."
+    if "overwrite" in what or "twice" in what:
+        return "The same key or table appears above; keep one of them."
+    if re.search(r"=\s*$", code):
+        return "A value is missing after '='."
+    if re.search(r"=\s*[^\W\d]", code) and "true" not in code and "false" not in code:
+        return "Text must be in quotes."
+    return say("Look at this line near column {}: {}", column, code[:60]) if code else ""
+
+
+def _key_hint(code: str) -> str:
+    """Return what to do about a key, or the name of a table, that has other than Latin letters."""
+    header = re.match(r"\[+([^\]\"']*)\]*", code)
+    key = (header[1] if header else re.split("[=:]", code, maxsplit=1)[0]).strip()
+    if re.search(r"\w\s+\w", key) and key.casefold() not in typed():
+        return "A line must be 'key = value' or '[table]'; a comment begins with #."
+    for part in (key, *re.split(r"[.\s]+", key)):
+        if part.isascii() or not part:
+            continue
+        if meant := typed().get(part.casefold()):
+            return say("Keys are Latin: {} for {}.", key.replace(part, meant[0]), part)
+        if "." in part or any(c in part for c in "\"'"):
+            continue
+        if looks_latin(part):
+            return say("{}. Type '{}' in the Latin layout.", describe_lookalikes(part), fold(part))
+        quoted = key.replace(part, f'"{part}"')
+        shown = f"[{quoted}]" if header else f"{quoted} = ..."
+        return say("A key with letters other than Latin must be in quotes: {}", shown)
+    return ""
+
+
+def _repaired(code: str) -> str:
+    """Return a line of TOML that a line was meant to be; empty where none is found."""
+    for pattern, put in _REPAIRS:
+        code = re.sub(pattern, put, code).strip()
+    try:
+        return code if tomllib.loads(code) else ""
+    except tomllib.TOMLDecodeError:
+        pass
+    key, _, value = (part.strip() for part in code.partition("="))
+    value = re.sub(r"(?<=\d)\s*(?=[π√(]|pi|sqrt)", "*", value)
+    try:
+        return f'{key} = "{value}"' if work_out(value) else ""
+    except FormulaError:
+        return ""
+
+
+def value_hint(value: object, unit: str) -> str:
+    """Return what to write in place of a text where numbers are expected; empty if it is unknown.
+
+    Parameters
+    ----------
+    unit : str
+        Of the lengths of the file.
+    """
+    if not isinstance(value, str):
+        return ""
+    text = value.strip(" °[]()").replace("−", "-")
+    if re.fullmatch(r"[-+]?\d+[,.]\d+|[-+]?\d+", text):
+        return say("Write {} without quotes.", text.replace(",", "."))
+    if span := re.fullmatch(rf"({_NUMBER})(?::|\.\.+)({_NUMBER})(?::({_NUMBER}))?", text):
+        told = f"{{ from = {span[1]}, to = {span[2]}, step = {span[3] or 30} }}"
+        return say("Write {} without quotes.", told)
+    if re.fullmatch(rf"{_NUMBER}(\s*[,;]\s+{_NUMBER})+|{_NUMBER}(\s*;\s*{_NUMBER})+", text):
+        numbers = ", ".join(re.findall(_NUMBER, text))
+        return say("Write {} without quotes.", f"[{numbers}]")
+    said = re.fullmatch(r"([-+]?\d+(?:[.,]\d+)?)\s*([^\W\d_][^\d]*)", text)
+    if said is None or said[2].startswith(("π", "pi", "sqrt")):
+        return ""
+    number, named = said[1].replace(",", "."), said[2].strip()
+    meant = next((u for u in (named, *typed().get(named.casefold(), ())) if u in UNITS), unit)
+    if meant == unit:
+        return say("Write {} without quotes and unit.", number)
+    told = (
+        'Write {} without quotes and unit; units = "{}" at the top of the file is for all lengths.'
+    )
+    return say(told, number, meant)

@@ -1,0 +1,120 @@
+"""Arms of forces as they are measured: thin perpendiculars to their lines of action (плечи сил)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from planmethod.note.narrate.forces.common import arm_symbol
+from planmethod.note.numbers import Notation
+from planmethod.plans.forces.polygons import Moments
+from planmethod.record import dataclass
+from planmethod.render.forces.arrows import MANNER, Acting, Segment
+from planmethod.render.ink.drawing import Item, Pen, Stroke
+from planmethod.render.labels import Label, segment_label
+from planmethod.render.symbols import unit
+from planmethod.solved.forces.reading import ForceReading
+
+ARM, ACTION = "arm", "action beyond an arrow"
+"""Tags of the perpendicular, before the force's letter, and of the line that it stands on."""
+
+_LEAST = 3.0  # mm: a shorter arm is no line that an eye would find
+_SAME = 0.3  # mm: arms so near one another are one line
+_CORNER = 2.0  # mm: sides of the sign of a right angle
+_BEYOND = 3.0  # mm that a line of action goes on beyond its foot
+_HEIGHT = 3.5  # of the letters, mm, where others are larger
+
+
+@dataclass(frozen=True, slots=True)
+class Arm:
+    """Arm of a force about a point, mm.
+
+    Attributes
+    ----------
+    symbol : str
+        Letter of the force.
+    about, foot : complex
+        The point and the foot of its perpendicular on the line of action.
+    read : float
+        The arm as the hand has measured it, without a sign.
+    """
+
+    symbol: str
+    about: complex
+    foot: complex
+    read: float
+
+
+def arm_of(force: Acting, about: complex, read: float) -> Arm:
+    """Return the arm of a force that acts along a line."""
+    along = unit(force.direction)
+    foot = force.at + along * ((about - force.at) * along.conjugate()).real
+    return Arm(force.symbol, about, foot, abs(read))
+
+
+def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) -> list[Arm]:
+    """Return the arms that the equations of moments of a force plan need, each once."""
+    found: dict[tuple[str, complex], Arm] = {}
+    for equation in equations:
+        about = reading.place(equation.about)
+        for edge in equation.edges:
+            read = 0.0 if reading.is_none(edge) else reading.arm(edge, equation.about)
+            if read:
+                force = Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.force(edge))
+                found.setdefault((edge.symbol, about), arm_of(force, about, read))
+    return list(found.values())
+
+
+def arm_items(
+    arms: Iterable[Arm],
+    placed: Sequence[tuple[Acting, Segment]],
+    height: float,
+    prefix: str,
+    say: Notation,
+) -> tuple[list[Item], list[Label]]:
+    """Return the perpendiculars with what they measure, and the lines of action as far as there.
+
+    ``placed`` are the arrows of the forces. Arms on one line have it together: ``h_{G5} = h_{Φ5}``.
+    """
+    lines: list[list[Arm]] = []
+    for arm in arms:
+        if arm.read < _LEAST:
+            continue
+        same = next((one for one in lines if _is_same(one[0], arm)), None)
+        if same is None:
+            lines.append([arm])
+        else:
+            same.append(arm)
+    items: list[Item] = []
+    labels: list[Label] = []
+    for line in lines:
+        first, names = line[0], [arm_symbol(arm.symbol) for arm in line]
+        about, foot = first.about, first.foot
+        items.append(Stroke((about, foot), Pen.THIN, tag=f"{ARM} {first.symbol}"))
+        for arm in line:
+            items += _action(arm, placed)
+        text = f"{' = '.join(names)} = {say.ruled(first.read)}"
+        label = segment_label(text, about, foot, min(height, _HEIGHT))
+        labels.append(replace(label, name=f"{prefix} arm: {' '.join(names)}", manner=MANNER))
+    return items, labels
+
+
+def _is_same(one: Arm, other: Arm) -> bool:
+    return max(abs(one.about - other.about), abs(one.foot - other.foot)) < _SAME
+
+
+def _action(arm: Arm, placed: Sequence[tuple[Acting, Segment]]) -> list[Item]:
+    """Return the line of action from an arrow to the foot of its arm, with the right angle."""
+    arrow = next((ends for force, ends in placed if force.symbol == arm.symbol), None)
+    if arrow is None:
+        return []
+    tail, head = arrow
+    along, near = unit(head - tail), min(arrow, key=lambda end: abs(end - arm.foot))
+    part = ((arm.foot - tail) * along.conjugate()).real
+    items: list[Item] = []
+    way = along if part > 0.0 else -along
+    if not 0.0 <= part <= abs(head - tail):
+        items.append(Stroke((near, arm.foot + way * _BEYOND), Pen.THIN, tag=ACTION))
+    a, b = -way * _CORNER, unit(arm.about - arm.foot) * _CORNER
+    corner = (arm.foot + a, arm.foot + a + b, arm.foot + b)
+    return [*items, Stroke(corner, Pen.THIN, tag=f"{ACTION}: right angle")]

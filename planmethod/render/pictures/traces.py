@@ -1,0 +1,196 @@
+"""Traces of the construction (следы построения): what compass and set square leave on the paper.
+
+They are read off the steps: a step that meets arcs leaves notches (засечки), one that meets lines
+their directions a little beyond the meeting, and a right angle where it was drawn as one. All are
+short and thin, so that they explain a sheet without covering it.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterable, Iterator, Mapping
+from math import pi
+from typing import TypeAlias
+
+from planmethod.construct.steps import (
+    LineName,
+    MeetCircles,
+    MeetLineCircle,
+    MeetLines,
+    Parallel,
+    Perpendicular,
+    PointName,
+    Similar,
+    Step,
+)
+from planmethod.note.narrate.letters import direction_text, shown_letters
+from planmethod.note.plaintext import plain_text
+from planmethod.plans.model import Plan, PlanKind, Relation, Vector
+from planmethod.record import dataclass
+from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
+from planmethod.render.symbols import unit
+from planmethod.solved.solution import Solution
+
+Shown: TypeAlias = bool | tuple[str, ...]
+"""All traces, none, or those of the steps that make the points with these letters."""
+
+TRACE = "trace"
+"""Tag of a trace."""
+
+NOTCH, BEYOND, CORNER = 8.0, 5.0, 2.5
+"""Half a notch of the scheme, how far a direction goes on beyond the meeting, and the sides of a
+right angle, mm."""
+
+_NAMES = 2.5  # height of the name of a direction, mm
+_LEGS = 1.6  # legs of a right angle are so many times as long as its sides at least
+_NOTHING = 0.5  # mm: a shorter vector gives its line no direction on the paper
+_RIGHT = 1e-6  # cosine of the angle between lines that were drawn as a right one
+
+
+def shown_traces(solution: Solution, told: Shown | None, *, room: bool) -> Shown:
+    """Return which traces are shown: as the layout says, else the file.
+
+    Where neither says anything they are shown of one position, if the sheet has ``room`` for them.
+    """
+    said = solution.problem.sheet.traces if told is None else told
+    return room and len(solution.positions) == 1 if said is None else said
+
+
+def scheme_traces(solution: Solution, index: int, factor: float, shown: Shown) -> list[Item]:
+    """Return the notches by which points of the scheme were found, mm; ``factor`` makes smaller."""
+    items: list[Item] = []
+    for step in _steps(solution, PlanKind.POSITION) if shown else ():
+        if _is_shown(shown, [step.out]):
+            for needle in _needles(step):
+                way = complex(solution.paper.vector(needle, PointName(step.out))[index])
+                at = complex(solution.paper.point(step.out)[index])
+                items.append(_notch(at - way, at, NOTCH * factor))
+    return items
+
+
+def plan_traces(
+    solution: Solution, kind: PlanKind, index: int, at: Mapping[PointName, complex], shown: Shown
+) -> tuple[list[Item], list[Label]]:
+    """Return the traces on a plan whose points lie at ``at``, mm, and the names of directions."""
+    plan = solution.construction.plan(kind)
+    letters = shown_letters(solution.problem, plan)
+    items: list[Item] = []
+    labels: list[Label] = []
+    for step in _steps(solution, kind) if shown else ():
+        own = [plain_text(letter) for letter in letters.get(PointName(str(step.out)), ())]
+        if not own or not _is_shown(shown, own):
+            continue
+        if isinstance(step, Similar):
+            items += _corner_of_triangle(step, at)
+        elif isinstance(step, MeetLines):
+            for line in (step.first, step.second):
+                ray = _Ray.of(solution, plan, index, line, step.out)
+                if ray is not None and {ray.start, ray.head} <= set(at):
+                    items += [*ray.beyond(at), *ray.right_angle(at)]
+                    labels += ray.names(at)
+    return items, labels
+
+
+def _is_shown(shown: Shown, letters: Iterable[str]) -> bool:
+    return shown if isinstance(shown, bool) else not set(shown).isdisjoint(letters)
+
+
+def _steps(solution: Solution, kind: PlanKind) -> Iterator[Step]:
+    for section in solution.construction.sections:
+        if section.kind is kind:
+            yield from section.steps
+
+
+def _needles(step: Step) -> tuple[PointName, ...]:
+    """Return where the needle of the compass stood for a point of the scheme."""
+    match step:
+        case MeetCircles(centre1=one, centre2=two):
+            return one, two
+        case MeetLineCircle(centre=centre):
+            return (centre,)
+        case _:
+            return ()
+
+
+def _notch(centre: complex, at: complex, half: float) -> Arc:
+    radius, turn = abs(at - centre), phase(at - centre)
+    by = min(half / radius, pi / 6)
+    return Arc(centre, radius, turn - by, turn + by, Pen.THIN, TRACE)
+
+
+def _corner_of_triangle(step: Similar, at: Mapping[PointName, complex]) -> list[Item]:
+    """Return the notches by which the corner of a triangle was found from its two others."""
+    b, c, corner = (at.get(point) for point in (step.plan_b, step.plan_c, step.out))
+    if b is None or c is None or corner is None:
+        return []
+    off = abs(((corner - b) * (c - b).conjugate()).imag)
+    if off <= _NOTHING * abs(c - b):
+        return []  # on the line of the two, where one length lays it off
+    return [_notch(end, corner, NOTCH / 2) for end in (b, c)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Ray:
+    """Direction in which an unknown vector was drawn, and what was laid off before it.
+
+    ``along`` is the direction of its line, a unit vector; ``before`` the point that the vector
+    before it begins at, where the line stands at a right angle to that.
+    """
+
+    start: PointName
+    head: PointName
+    along: complex
+    vector: Vector | None
+    before: PointName | None
+
+    @classmethod
+    def of(
+        cls, solution: Solution, plan: Plan, index: int, line: LineName, head: PointName
+    ) -> _Ray | None:
+        """Return the ray of a line that meets another, or None of a line that was there."""
+        step = solution.construction.step(line)
+        if not isinstance(step, Parallel | Perpendicular):
+            return None
+        along = unit(complex(solution.paper.course(line)[index]))
+        ends = {(vector.tail, vector.head): vector for vector in plan.vectors}
+        before = next((tail for tail, end in ends if end == step.through), None)
+        if before is not None:
+            way = complex(solution.paper.vector(before, step.through)[index])
+            if abs((way * along.conjugate()).real) > _RIGHT * abs(way):
+                before = None
+        return cls(step.through, head, along, ends.get((step.through, head)), before)
+
+    def _ends(self, at: Mapping[PointName, complex]) -> tuple[complex, complex]:
+        """Return where its vector begins and which way it goes, a unit vector."""
+        start, way = at[self.start], at[self.head] - at[self.start]
+        return start, unit(way) if abs(way) > _NOTHING else self.along
+
+    def beyond(self, at: Mapping[PointName, complex]) -> list[Item]:
+        """Return the line beyond the meeting; of no vector to both sides of it."""
+        start, way = self._ends(at)
+        head = at[self.head]
+        short = abs(head - start) <= _NOTHING
+        return [Stroke((head - way * BEYOND * short, head + way * BEYOND), Pen.THIN, tag=TRACE)]
+
+    def right_angle(self, at: Mapping[PointName, complex]) -> list[Item]:
+        """Return the sign of the right angle that it makes with what was laid off before it."""
+        if self.before is None or self.before not in at:
+            return []
+        start, way = self._ends(at)
+        back = at[self.before] - start
+        if min(abs(back), abs(at[self.head] - start)) < _LEGS * CORNER:
+            return []
+        one, two = unit(back) * CORNER, way * CORNER
+        corner = (start + one, start + one + two, start + two)
+        return [Stroke(corner, Pen.THIN, tag=TRACE)]
+
+    def names(self, at: Mapping[PointName, complex]) -> list[Label]:
+        """Return how the line was drawn, for the end of it: ``⊥ CB``."""
+        told = None if self.vector is None else self.vector.direction
+        if told is None or told.relation not in (Relation.ACROSS, Relation.ALONG):
+            return []
+        end = at[self.head] + self._ends(at)[1] * BEYOND
+        way = self._ends(at)[1]
+        return [Label(typeset(direction_text(told), _NAMES), end, prefer=way, gap=0.6)]
