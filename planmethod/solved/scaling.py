@@ -300,12 +300,12 @@ class _Chosen:
 
         What the file gives a scale for is as large as it is.
         """
-        return all(self._large(kind, self.per_mm[kind]) for kind in self.free)
+        return all(self._large(kind, self.per_mm[kind] * STEP) for kind in self.free)
 
     def _large(self, kind: PlanKind, per_mm: float) -> bool:
         scheme = SCHEME[AS_HIGH.get(self.views.paper, self.views.paper)]
         wanted = scheme if kind is PlanKind.POSITION else PLAN
-        return max(self.drawn[kind].size) >= STEP * wanted * per_mm
+        return max(self.drawn[kind].size) >= wanted * per_mm
 
 
 @dataclass(frozen=True)
