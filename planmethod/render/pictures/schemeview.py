@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import ceil
 
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
@@ -16,7 +17,7 @@ from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.tidy import untidiness
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
-from planmethod.render.pictures.extremes import construction_items
+from planmethod.render.pictures.extremes import construction_items, stroke_items
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.positions import Positions
 from planmethod.render.pictures.scheme import Scheme
@@ -170,6 +171,10 @@ def _many_picture(view: _View, positions: Positions, ellipses: Ellipses, *, turn
     if construction is not None:
         lines, radii = construction_items(construction, SMALL)
         others, own = [*others, *lines], [*own, *radii]
+    if positions.ends is not None:
+        before = [*others, *view.items()]
+        lines, letters = stroke_items(positions.paths, positions.ends, before, SMALL)
+        others, own = [*others, *lines], [*own, *letters]
     items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
     left, low, right, high = ink_bounds(items)
     bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)

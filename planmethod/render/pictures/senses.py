@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 
 import numpy as np
@@ -13,6 +13,7 @@ from planmethod.note.narrate.given import solution_peak
 from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset
@@ -180,7 +181,7 @@ class Senses:
         scheme, f, own = self.scheme, self.scheme.factor, f"link {link}"
         firm = [*scheme.bodies, *scheme.lines, *scheme.joints]
         joints: list[Item] = [Stroke((p, p + 1e-6)) for p in map(scheme.at, scheme.named)]
-        strange = _ends([*(item for item in firm if item.tag != own), *joints])
+        strange = ends_of([*(item for item in firm if item.tag != own), *joints])
         half = np.minimum(SWEEP, np.degrees(ARC * f / radii)) / 2
         steps = np.linspace(-1.0, 1.0, 9)
         arcs = centres[..., None] + radii[..., None] * _cis(
@@ -189,11 +190,11 @@ class Senses:
         height = self._height
         beyond = half + np.degrees(height / radii)
         letters = centres + radii * _cis(turns - sense * beyond)
-        everything = _ends([*firm, *joints, *self.arrows, *self.others, *self.clear])
+        everything = ends_of([*firm, *joints, *self.arrows, *self.others, *self.clear])
         costs: Reals = (
-            _nearness(arcs, strange, _CLEAR * f).sum(axis=-1)
-            + 2.0 * _nearness(arcs, _ends(self.arrows), _APART * f).sum(axis=-1)
-            + _LETTER * _nearness(letters, everything, 1.2 * height)
+            nearness(arcs, strange, _CLEAR * f).sum(axis=-1)
+            + 2.0 * nearness(arcs, ends_of(self.arrows), _APART * f).sum(axis=-1)
+            + _LETTER * nearness(letters, everything, 1.2 * height)
         )
         return costs
 
@@ -242,7 +243,7 @@ def _cis(degrees: Reals) -> Complexes:
     return np.asarray(np.exp(1j * np.radians(degrees)))
 
 
-def _ends(items: Iterable[Item]) -> Complexes:
+def ends_of(items: Iterable[Item]) -> Complexes:
     """Return the ends of the straight parts of items, shape (n, 2), mm."""
     pairs: list[tuple[complex, complex]] = []
     for item in items:
@@ -253,7 +254,7 @@ def _ends(items: Iterable[Item]) -> Complexes:
     return np.asarray(pairs, dtype=complex).reshape(-1, 2)
 
 
-def _nearness(places: Complexes, ends: Complexes, clear: float) -> Reals:
+def nearness(places: Complexes, ends: Complexes, clear: float) -> Reals:
     """Return how near places are to lines: 1 on one, 0 from ``clear`` mm on; the places' shape."""
     if not len(ends):
         return np.zeros(places.shape)

@@ -15,6 +15,7 @@ from planmethod.render.symbols.arrows import (
     turn_sign,
     vector_arrow,
 )
+from planmethod.render.symbols.dimensions import angle_dimension, dimension
 from planmethod.render.symbols.grounds import (
     bearing,
     fixed_pivot,
@@ -47,12 +48,14 @@ __all__ = [
     "SIZES",
     "SLIDER",
     "Sizes",
+    "angle_dimension",
     "angle_of",
     "arrowhead",
     "bearing",
     "before_links",
     "clipped",
     "crank",
+    "dimension",
     "drive_arrow",
     "fixed_pivot",
     "fixed_pivots",

@@ -17,6 +17,7 @@ SHEETS = SheetWording(
         "acceleration": "Calculation of accelerations",
     },
     but_for=" (but for positions: {numbers})",
+    extremes="{names}: extreme positions",
     of_position="{title} (position {number})",
     wanted="Find: {wanted}.",
     results="Results",

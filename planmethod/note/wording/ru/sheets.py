@@ -17,6 +17,7 @@ SHEETS = SheetWording(
         "acceleration": "Расчёт ускорений",
     },
     but_for=" (кроме положений: {numbers})",
+    extremes="{names} — крайние положения",
     of_position="{title} (положение {number})",
     wanted="Определить: {wanted}.",
     results="Результаты",
