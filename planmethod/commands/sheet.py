@@ -86,8 +86,8 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 @click.option(
     "--compact",
     is_flag=True,
-    help="For a printer at home: several sheets of A4 (or A3), up to five positions, at scales of "
-    "their own.",
+    help="For a printer at home: several sheets of A4 (A3 with --paper), up to five positions, at "
+    "scales of their own.",
 )
 @click.option(
     "--one-file",

@@ -4,7 +4,7 @@ from types import MappingProxyType
 
 LAYOUTS = MappingProxyType(
     {
-        "compact_head": "For a printer at home, up to five positions: several sheets of A4 (A3) in "
+        "compact_head": "For a printer at home, up to five positions: several sheets of A4 in "
         "place of a large one. So planmethod sheet --compact draws.\n# What each key means: "
         "docs/layout.md.",
         "compact_about": "for a printer at home: sheets of A4 with the scheme, the velocity plan, "

@@ -4,7 +4,7 @@ from types import MappingProxyType
 
 LAYOUTS = MappingProxyType(
     {
-        "compact_head": "Для домашнего принтера, до пяти положений: несколько листов А4 (А3) "
+        "compact_head": "Для домашнего принтера, до пяти положений: несколько листов А4 "
         "вместо одного большого. Так чертит planmethod sheet --compact.\n# Что значит каждый ключ: "
         "docs/layout.md.",
         "compact_about": "для домашнего принтера: листы А4 — схема, план скоростей, план "
