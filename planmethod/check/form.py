@@ -6,7 +6,6 @@ import datetime
 import hashlib
 import io
 import json
-import re
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
@@ -17,15 +16,15 @@ from planmethod.check.model import KeyEntry
 from planmethod.check.works.gather import is_of
 from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.check.works.xlsx_file import META
-from planmethod.kinds import KindProblem
 from planmethod.note.wording import language
 from planmethod.note.wording.form_model import FormWording
-from planmethod.problem.model import Problem
+from planmethod.pattern import pattern
+from planmethod.problem.head import KindProblem
 
 SCHEMA = 1
 
 _MADE = datetime.datetime(2000, 1, 1)
-_MODIFIED = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
+_MODIFIED = pattern(rb"(<dcterms:modified[^>]*>)[^<]*")
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _SHOWN = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
@@ -37,7 +36,7 @@ _AGREE = 0.01
 """Share of the value by which mm × μ may differ from it before the form says so."""
 
 
-def fingerprint_of(problem: Problem | KindProblem) -> str:
+def fingerprint_of(problem: KindProblem) -> str:
     """Return what tells problems apart: SHA-256 of all of it that the answers depend on.
 
     Comments and the order of the file, its titles and published values make no difference.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
@@ -13,9 +12,9 @@ from planmethod.check.sense import sense_of
 from planmethod.check.sheet import Sheet, scalar
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
-from planmethod.kinds import KindProblem
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.problem.model import Problem
+from planmethod.problem.head import KindProblem
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 
@@ -34,7 +33,7 @@ class Key:
         Mistakes that none of the answers can show, and the places where they can be made.
     """
 
-    problem: Problem | KindProblem
+    problem: KindProblem
     variant: str | None
     entries: tuple[KeyEntry, ...]
     scales: Mapping[str, float]

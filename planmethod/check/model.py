@@ -7,8 +7,10 @@ function of a key and a work: nothing here reads a file or draws.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
+
+from planmethod.record import dataclass
 
 
 class Sense(Enum):

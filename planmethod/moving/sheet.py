@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from itertools import combinations, pairwise
 from typing import TypeAlias
@@ -33,6 +33,7 @@ from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format
 from planmethod.problem.model import Convention
+from planmethod.record import dataclass
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
@@ -331,7 +332,7 @@ def _finer(per_mm: float, *, inverse: bool) -> float:
     return series_near(0.99 * per_mm, up=False)
 
 
-def point_sheets(
+def drawings(
     problem: PointProblem,
     *,
     fields: Mapping[str, str] | None = None,
@@ -358,7 +359,7 @@ def point_sheets(
         When everything fits no format, or not the asked one.
     """
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    drawings = []
+    made = []
     with using(lettering(problem.sheet.lettering or "B")):
         fmt, laid = _laid_out(problem, course_of(problem), profile, furniture)
         for number, blocks in enumerate(laid.pages, 1):
@@ -375,8 +376,8 @@ def point_sheets(
                 drawing.extend(items)
                 if isinstance(part.block, Viewed):
                     drawing.views.append(part.block.view(items, corner))
-            drawings.append(drawing)
-    return drawings
+            made.append(drawing)
+    return made
 
 
 def sheet_scales(problem: PointProblem, course: Course, profile: Profile) -> dict[str, Scale]:

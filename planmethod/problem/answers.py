@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planmethod.languages import say
@@ -22,9 +21,11 @@ from planmethod.problem.fields import (
     read_whole,
     unmask,
 )
-from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense, Drive, Slide
+from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
+from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
 from planmethod.problem.selector import ANALOGUES, MACHINE, Selector
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics

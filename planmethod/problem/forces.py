@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
+from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -23,11 +23,12 @@ from planmethod.problem.fields import (
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed, near
+from planmethod.problem.names import listed, near_hint
 from planmethod.problem.sizes import TURN, read_phase, read_size
+from planmethod.record import dataclass
 
 NAME_LIMIT = 40
-_NAME_RE = re.compile(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
+_NAME_RE = pattern(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +82,7 @@ class Scene:
         elif name in self.fixed:
             hint = say("{} is a point of the frame; {}.", name, points)
         else:
-            guess = near(name, link.points)
-            hint = (
-                say("Did you mean '{}'?", guess) if guess else f"{points[:1].upper()}{points[1:]}."
-            )
+            hint = near_hint(name, link.points, f"{points[:1].upper()}{points[1:]}.")
         faults.add(path, say("link {} has no point '{}'", link.name, name), hint)
         return None
 

@@ -6,10 +6,10 @@ written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 from planmethod.languages import say, typed
+from planmethod.pattern import pattern
 from planmethod.problem.keys import UNITS
 
 POINT_NAME_LIMIT = 8
@@ -29,10 +29,10 @@ _PRIMES = "'′’"
 _FOLD = str.maketrans(LOOKALIKES)
 _LETTER = r"[A-Za-zΓΔΘΛΞΠΣΦΨΩα-νξπ-ω]"
 _POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
-_POINT_RE = re.compile(rf"{_POINT}\Z")
-_POINT_FIND, _POINTS_RE = re.compile(_POINT), re.compile(rf"(?:{_POINT})+\Z")
-_PAIR_RE = re.compile(rf"({_POINT})({_POINT})\Z")
-_LABEL_RE = re.compile(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
+_POINT_RE = pattern(rf"{_POINT}\Z")
+_POINT_FIND, _POINTS_RE = pattern(_POINT), pattern(rf"(?:{_POINT})+\Z")
+_PAIR_RE = pattern(rf"({_POINT})({_POINT})\Z")
+_LABEL_RE = pattern(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
 
 
 _LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm"}
@@ -133,6 +133,12 @@ def near(name: str, known: Iterable[str]) -> str | None:
             return choice
     found = get_close_matches(fold(name), choices, 1, 0.6)
     return found[0] if found else None
+
+
+def near_hint(name: str, known: Iterable[str], otherwise: str = "") -> str:
+    """Return the hint that names the nearest of the known names, else another one."""
+    guess = near(name, known)
+    return say("Did you mean '{}'?", guess) if guess else otherwise
 
 
 def listed(names: Iterable[str], *, limit: int = 12) -> str:

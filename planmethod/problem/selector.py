@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.names import near, short
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

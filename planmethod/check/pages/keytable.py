@@ -7,7 +7,6 @@ each, and the answers are columns.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry, Sense
@@ -16,6 +15,7 @@ from planmethod.check.pages.speech import Speech
 from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
+from planmethod.record import dataclass
 
 UNSEEN = "*"
 """Sign of an answer that the drawing does not show, where there is no room for words."""

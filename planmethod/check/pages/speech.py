@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import html
-import re
-from dataclasses import dataclass
 
 from planmethod.check.model import Judged, KeyEntry, Sense, Written
 from planmethod.note.numbers import trimmed
@@ -12,13 +10,15 @@ from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.language import Language
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 LONGEST = 60
 """Letters of what somebody else wrote that are repeated; the rest is cut."""
 
-_INDEX = re.compile(r"([_^])\{([^{}]*)\}")
+_INDEX = pattern(r"([_^])\{([^{}]*)\}")
 _TAGS = {"_": "sub", "^": "sup"}
-_CONTROL = re.compile("[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_CONTROL = pattern("[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def tagged(rich: str) -> str:

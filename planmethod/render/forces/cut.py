@@ -6,7 +6,7 @@ A group is cut free at its outer joints: there the reactions stand for what was 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import combinations
 
 from planmethod.construct.steps import PointName
@@ -15,6 +15,7 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import CoupleOn, Edge, Moments, Share
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
 from planmethod.render.forces.arms import Arm, arm_items, arms_of
 from planmethod.render.forces.arrows import (
     Acting,

@@ -7,10 +7,10 @@ from the joint; where a slider does not reach so far, as two forces at its edges
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass
 
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
 from planmethod.render.forces.arrows import Acting, Segment, distance
 from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.ink.typeset import typeset

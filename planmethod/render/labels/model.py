@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import Inscription, typeset
 

@@ -10,7 +10,7 @@ dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import combinations
 
 import numpy as np
@@ -18,6 +18,7 @@ import numpy as np
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label

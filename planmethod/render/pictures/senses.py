@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 
 import numpy as np
@@ -13,6 +13,7 @@ from planmethod.note.narrate.given import solution_peak
 from planmethod.note.numbers import is_nothing
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.construct.steps import LayOff, NumberName, PointName, Step
@@ -14,6 +13,7 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.plans.motion.board import Motion
 from planmethod.plans.segments import Segments
 from planmethod.problem.selector import ANALOGUES, POLE, Selector
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 PLANS: Mapping[str, PlanKind] = {
