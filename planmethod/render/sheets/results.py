@@ -52,7 +52,7 @@ def _sigma_rows(
     decimals = len(like.partition(".")[2])
     text = (
         f"{abs(read):.{decimals}f}"
-        if decimals and "e" not in like
+        if like != "0" and "e" not in like
         else rounded_to(abs(read), sigma)
     )
     return (
