@@ -20,6 +20,9 @@ class SheetWording:
     equations: Mapping[str, str]
     calculation: Mapping[str, str]
     but_for: str
+    knots: tuple[str, ...]
+    enlarged: str
+    read_on: str
     of_position: str
     wanted: str
 
