@@ -7,10 +7,10 @@ as it stands and turns `exit_code` into the exit code of the process.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import IntEnum
 
 from planmethod.languages import say
+from planmethod.record import dataclass
 
 
 class ExitCode(IntEnum):

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
+from planmethod.pattern import pattern
 from planmethod.problem.source import parse, read_source
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -243,7 +244,7 @@ KINDS = (
 )
 """All of them; a file that has links is a linkage whatever else it has."""
 
-_HEAD = re.compile(r"^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b", re.M)
+_HEAD = pattern(r"^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b", re.M)
 
 
 def kind_of(path: Path) -> Kind | None:

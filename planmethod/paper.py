@@ -6,13 +6,13 @@ across; ``A3:portrait`` (``А3:книжная``) is the standing sheet.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import NoReturn, TypeAlias
 
 from planmethod.errors import LayoutError
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 Box: TypeAlias = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax in mm."""
@@ -108,7 +108,7 @@ FORMATS: Mapping[str, Format] = MappingProxyType({fmt.name: fmt for fmt in _form
 """All formats by name, the basic ones first, from A4 to A0."""
 
 _LATIN = str.maketrans("АаaХхX×*", "AAAxxxxx")
-_NAME = re.compile(r"(A[0-4])(?:x([0-9]+))?")
+_NAME = pattern(r"(A[0-4])(?:x([0-9]+))?")
 _TURNS = MappingProxyType(
     {
         "portrait": True,

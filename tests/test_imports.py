@@ -28,6 +28,10 @@ OTHER_WORDS = {f"planmethod.note.wording.ru.{name}" for name in ("check", "gears
 """Words of subjects that tables of results do not have."""
 
 
+MOST = {"--help": 35, "structure": 114, "solve": 106, "sheet": 205}
+"""Most modules of this package that a command imports: each costs a third of a millisecond."""
+
+
 def imported(folder: Path, *commands: tuple[str, ...]) -> set[str]:
     """Return the modules there are after commands in one process."""
     program = (
@@ -139,3 +143,12 @@ def test_commands_import_what_they_use(
     modules = imported(tmp_path, *commands)
     assert needs <= modules
     assert modules & spares == set()
+
+
+@pytest.mark.parametrize("command", MOST)
+def test_commands_import_few_modules(command: str, tmp_path: Path) -> None:
+    rest = (
+        () if command == "--help" else (EX3, *(("--format", "svg") if command == "sheet" else ()))
+    )
+    own = {name for name in imported(tmp_path, (command, *rest)) if name.startswith("planmethod")}
+    assert len(own) <= MOST[command], sorted(own)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from planmethod.bench.clock import clock
 from planmethod.construct.hand import Hand
 from planmethod.problem.model import Differentiation, Problem
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations
 from planmethod.solved.turn.turn import Turn

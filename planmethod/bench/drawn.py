@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution

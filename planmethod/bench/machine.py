@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from planmethod.bench.clock import clock
 from planmethod.problem.load_records import Ordinates
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.machine.runup import RunUp
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -19,6 +18,7 @@ from planmethod.construct.referee import Precise
 from planmethod.errors import AssemblyError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.many.sweep import FEW, Sweep
 from planmethod.solved.results import results_of
 from planmethod.solved.selfcheck import verify

@@ -141,6 +141,7 @@ class Calculation(Task):
             asks_sense=asked.sense is not None,
             fixed=asked.tolerance or item.fixed,
             label=asked.letters[0] if asked.letters else "",
+            unit=self.unit_of(asked, question),
         )
         for form in (asked.id, *asked.letters, asked.what):
             self._forms.setdefault(form, item)
@@ -200,6 +201,7 @@ class Calculation(Task):
 
     def written(self, item: Item, written: Written) -> Written:
         """Return an answer in the unit of its key, its sense as the sign of its number."""
+        written = super().written(item, written)
         per = ratio(written, item.question.unit)
         if per is None:
             return refused(Unread.UNIT, written.unit, written.where, base=written)

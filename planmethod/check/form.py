@@ -6,7 +6,6 @@ import datetime
 import hashlib
 import io
 import json
-import re
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
@@ -20,12 +19,13 @@ from planmethod.check.works.xlsx_file import META
 from planmethod.kinds import KindProblem
 from planmethod.note.wording import language
 from planmethod.note.wording.form_model import FormWording
+from planmethod.pattern import pattern
 from planmethod.problem.model import Problem
 
 SCHEMA = 1
 
 _MADE = datetime.datetime(2000, 1, 1)
-_MODIFIED = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
+_MODIFIED = pattern(rb"(<dcterms:modified[^>]*>)[^<]*")
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _SHOWN = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
@@ -81,7 +81,8 @@ def form_of(
     book = openpyxl.Workbook()
     sheet = book.active
     sheet.title = words.sheet
-    units = [unit for unit in words.units if read_unit(unit)]
+    asked = (entry.asked for entry in entries)
+    units = [unit for unit in dict.fromkeys((*words.units, *asked)) if unit and read_unit(unit)]
     _write_meta(book, entries, units, problem, variant, fingerprint)
     scales = _write_head(sheet, entries, words, problem, variant, student, title)
     _write_rows(sheet, entries, words, units, scales)
@@ -196,7 +197,8 @@ def _write_rows(
     for number, entry in enumerate(entries, 1):
         row = head + number
         fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
-        own = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
+        usual = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
+        own = entry.asked or usual
         for column, text in ((1, number), (2, entry.id), (3, entry.label), (7, own)):
             _write(sheet.cell(row, column), text)
         for column in (4, 6):

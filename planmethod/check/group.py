@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from planmethod.check.calculation import Calculation
@@ -15,6 +15,7 @@ from planmethod.check.model import Checked, Work
 from planmethod.check.task import Item, Task
 from planmethod.kinds import kind_of, load
 from planmethod.problem import variant_names
+from planmethod.record import dataclass
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
 

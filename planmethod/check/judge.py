@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 
 from planmethod.check.explain import Fact
@@ -21,6 +21,7 @@ from planmethod.check.tolerance import Limit, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.record import dataclass
 from planmethod.solved.selected.asking import UnansweredError
 
 USABLE = 3.0

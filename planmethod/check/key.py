@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
@@ -16,6 +15,7 @@ from planmethod.check.tolerance import Limit, limit_of
 from planmethod.kinds import KindProblem
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 
@@ -142,6 +142,8 @@ def entry_of(task: Task, item: Item, limit: Limit, *, hidden: tuple[str, ...] = 
         points=item.points,
         position=item.position,
         hidden=hidden,
+        asked=item.unit,
+        per=item.per,
     )
 
 

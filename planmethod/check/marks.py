@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
@@ -20,6 +19,7 @@ from planmethod.problem.fields import (
     read_word,
 )
 from planmethod.problem.source import parse, read_source
+from planmethod.record import dataclass
 
 PROFILES = ("board", "cad", "coarse")
 """Profiles of drafting errors that a tolerance can follow from."""

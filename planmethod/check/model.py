@@ -7,8 +7,10 @@ function of a key and a work: nothing here reads a file or draws.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
+
+from planmethod.record import dataclass
 
 
 class Sense(Enum):
@@ -169,6 +171,10 @@ class KeyEntry:
         The same as rich text: ``v_{B3}``.
     unit : str
         SI; ``deg`` of angles, ``mm`` of lengths on a plan.
+    asked : str
+        Unit in which the task asks it, as the file has it; empty for ``unit``.
+    per : float
+        What one of ``asked`` is of ``unit``: pages tell values in the unit that is asked.
     exact : float
         With its sign if it has one.
     sigma : float
@@ -216,6 +222,8 @@ class KeyEntry:
     position: int = 0
     hidden: tuple[str, ...] = ()
     signed: bool = True
+    asked: str = ""
+    per: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)

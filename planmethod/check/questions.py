@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.check.letters import called, plain
@@ -17,6 +16,7 @@ from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, VectorKind
 from planmethod.plans.segments import Ends, Segments
 from planmethod.problem.selector import FORCES, Selector
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.selected.asking import COMPONENTS, Asking, NoAnswer, UnansweredError

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TypeAlias
@@ -24,6 +23,7 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
 from planmethod.plans.model import Plan
 from planmethod.plans.segments import Ends
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
 

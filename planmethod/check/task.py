@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 
 from planmethod.check.explain import Explanation, Explanations
@@ -13,11 +13,15 @@ from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Written
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
+from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.construct.drafting import PROFILES
+from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KindProblem
+from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import AskedAnswer, AskedSense, Problem
 from planmethod.problem.selector import is_force, parse_selector
+from planmethod.record import dataclass
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
 
@@ -39,6 +43,8 @@ class Item:
         How the department writes it.
     name : str
         The same for all who are asked, however they call it.
+    unit : str
+        Unit in which it is asked: that of numbers without one; empty for that of the key.
     """
 
     id: str
@@ -49,6 +55,12 @@ class Item:
     fixed: float | None = None
     label: str = ""
     name: str = ""
+    unit: str = ""
+
+    @property
+    def per(self) -> float:
+        """What one of its unit is of that of the key."""
+        return (ratio_of(self.unit, self.question.unit) or 1.0) if self.unit else 1.0
 
 
 class Task:
@@ -99,6 +111,7 @@ class Task:
             asked.tolerance,
             asked.letters[0] if asked.letters else "",
             asked.id,
+            self.unit_of(asked, question),
         )
         forms = (asked.id, *asked.letters, asked.what)
         if asked.sense is AskedSense.ANGLE:
@@ -110,6 +123,7 @@ class Task:
                 question=self.ask(questions.direction(question), position),
                 points=asked.points * share,
                 fixed=None,
+                unit="",
                 label=f"α({item.label})" if item.label else "",
                 name=f"angle_{asked.id}",
             )
@@ -122,6 +136,22 @@ class Task:
         yield item
         if asked.sense is AskedSense.ANGLE:
             yield turned
+
+    def unit_of(self, asked: AskedAnswer, question: Question) -> str:
+        """Return the unit in which an answer is asked.
+
+        Raises
+        ------
+        ProblemError
+            It is no unit, or one of another quantity.
+        """
+        if asked.unit and ratio_of(asked.unit, question.unit) is None:
+            said = say(
+                "'{}' is no unit of '{}', which is in {}", asked.unit, asked.id, question.unit
+            )
+            fault = Fault("answers.unit", said, "Write one of this quantity, or leave it out.")
+            raise ProblemError(self.problem.name, [fault])
+        return asked.unit
 
     def others(self) -> Iterator[Task]:
         """Yield the other variants."""
@@ -202,8 +232,12 @@ class Task:
         raise UnansweredError(why)
 
     def written(self, item: Item, written: Written) -> Written:
-        """Return an answer as it is judged, in the unit of its key."""
-        return written
+        """Return an answer as it is judged: a bare number is in the unit that is asked."""
+        unit = read_unit(item.unit) if item.unit and not written.unit else None
+        if unit is None or written.value is None:
+            return written
+        value, step = written.value * unit.factor, written.step * unit.factor
+        return replace(written, value=value, step=step, unit=item.unit)
 
     # Sheets ----------------------------------------------------------------------------------
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from planmethod.check.marks import Settings
 from planmethod.check.questions import RATES, Question, Sign
 from planmethod.check.sheet import Sheet
+from planmethod.record import dataclass
 
 LONG_MM = 100.0
 """Length on the drawing of a link that turns too little to be measured."""

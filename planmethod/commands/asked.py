@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import click
 
 from planmethod.languages import say
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.kinds import KindProblem

@@ -9,7 +9,7 @@ import logging
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
@@ -35,6 +35,7 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from distributed import Client, Future

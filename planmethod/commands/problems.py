@@ -6,7 +6,6 @@ import functools
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -17,6 +16,7 @@ import click
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 from planmethod.languages import say
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.commands.processes import Part

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
-from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 import click
@@ -19,6 +18,7 @@ import click
 from planmethod.commands.output import settle_process
 from planmethod.errors import PlanMethodError
 from planmethod.languages import say, speaking, spoken
+from planmethod.record import dataclass
 
 T = TypeVar("T")
 R = TypeVar("R")

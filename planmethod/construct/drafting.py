@@ -19,7 +19,6 @@ How each step errs, sigma by sigma:
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -28,6 +27,7 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.dual import Dual, Duals, Rows, as_dual
 from planmethod.construct.hand import Hand
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

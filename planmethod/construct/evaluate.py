@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias, assert_never
 
 import numpy as np
@@ -32,6 +31,7 @@ from planmethod.construct.steps import (
     Total,
     Touch,
 )
+from planmethod.record import dataclass
 
 PARALLEL = 1e-12
 """Sine of the angle between two lines below which their meeting is not defined."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from planmethod.construct.arithmetic import Float64, Number
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True)

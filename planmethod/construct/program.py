@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from difflib import get_close_matches
 
 from planmethod.construct.steps import (
@@ -36,6 +36,7 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.errors import ProgramError
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from planmethod.record import dataclass
 
 SERIES: tuple[float, ...] = (1.0, 2.0, 2.5, 4.0, 5.0)
 """Mantissas of GOST 2.302, in which training drawings take their scales."""

@@ -8,9 +8,11 @@ paper millimetres, x right, y up; lines are directed; angles are in degrees, as 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from enum import Enum
 from typing import NewType, TypeAlias, get_args
+
+from planmethod.record import dataclass
 
 PointName = NewType("PointName", str)
 LineName = NewType("LineName", str)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 
 from planmethod.gears.asked import Asked, parse
@@ -11,6 +10,7 @@ from planmethod.gears.conditions import satellites_held
 from planmethod.gears.efficiency import efficiency
 from planmethod.gears.model import PARALLEL, MeshKind
 from planmethod.gears.motion import Motion
+from planmethod.record import dataclass
 
 ALPHA = math.radians(20)
 """Pressure angle of the standard rack, rad."""

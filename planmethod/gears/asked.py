@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
 
 from planmethod.languages import say
 from planmethod.problem.names import fold, listed, looks_latin, near, short
+from planmethod.record import dataclass
 
 PLAIN = ("W", "q")
 """Names without labels."""

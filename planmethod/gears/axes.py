@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from itertools import product
 
@@ -12,6 +12,7 @@ from planmethod.gears.linear import Row, Solved, solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles
 from planmethod.languages import say
+from planmethod.record import dataclass
 
 MOST_CHOSEN = 10
 """Most meshes in loops between wheels off the main axis: each may be on either side."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy.typing as npt
 
 from planmethod.gears.conditions import RING_LESS, SIN2, ring_room
 from planmethod.gears.model import MeshKind
+from planmethod.record import dataclass
 
 Ints = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]

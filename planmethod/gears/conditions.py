@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from typing import Any
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
 from planmethod.note.wording import Language
+from planmethod.record import dataclass
 
 LEAST_TEETH = 17
 """Least teeth of a wheel without shift that the rack does not undercut."""

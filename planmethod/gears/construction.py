@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from itertools import combinations
 
@@ -28,6 +28,7 @@ from planmethod.gears.asked import parse
 from planmethod.gears.motion import Motion
 from planmethod.gears.picture import Picture, carrier_of
 from planmethod.languages import say
+from planmethod.record import dataclass
 
 LETTERS = "abcdefghklmnqrstuvwxz"
 """Letters of contact points, in the order of the meshes; ``p`` is the pole."""

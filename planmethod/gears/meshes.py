@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from typing import Any
 
@@ -24,6 +24,7 @@ from planmethod.problem.fields import (
     show,
 )
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
+from planmethod.record import dataclass
 
 WHEEL_LIMIT = 60
 TEETH_LIMIT = 10_000

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
 from planmethod.problem.model import AskedAnswer, Published, SheetSettings
+from planmethod.record import dataclass
 
 
 class MeshKind(Enum):

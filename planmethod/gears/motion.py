@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
@@ -13,6 +12,7 @@ from planmethod.gears.linear import Row, solve
 from planmethod.gears.model import GearProblem, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles, find_roles
 from planmethod.languages import say
+from planmethod.record import dataclass
 
 
 class TrainKind(Enum):

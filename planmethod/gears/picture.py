@@ -6,11 +6,11 @@ of a body is parallel to its line, at the pole distance from which segments of s
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings
 from planmethod.gears.motion import Motion
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -106,14 +106,15 @@ class _Teller:
                 self._item("line", one=one, other=other, body=body)
             case MeetLines(out, _, line):
                 spot = self.ends[out]
-                facts = {"foot": spot.foot, "point": out, "what": self._what(spot)}
+                facts = {"foot": spot.foot, "point": out, "what": self._what(spot, "of ")}
                 self._item("meet", body=self.drawn.label(self.bodies[line]), **facts)
             case _:
                 pass
 
-    def _what(self, spot: Spot) -> str:
+    def _what(self, spot: Spot, case: str = "") -> str:
+        """Return what a point of the picture is; ``of `` is what something is of."""
         kind, _, name = spot.contact.partition(" ")
-        return self.say.steps["pitch" if kind == "pitch" else "own"].format(name=name)
+        return self.say.steps[case + ("pitch" if kind == "pitch" else "own")].format(name=name)
 
     def _axis_at(self, height: float) -> str:
         """Return whose fixed axis is at a height that no contact has."""
@@ -124,7 +125,7 @@ class _Teller:
 
     def _start(self, spot: Spot, origin: PointName) -> None:
         body = next((b for b in self.drawn.starts if b in spot.bodies), spot.bodies[0])
-        facts = {"foot": origin, "point": spot.letter, "what": self._what(spot)}
+        facts = {"foot": origin, "point": spot.letter, "what": self._what(spot, "of ")}
         mu_v = self.notation.short(self._mu_v(), 4)
         length = self._mm(abs(float(spot.speed)))
         lines = [self.say.steps["laid"].format(**facts, length=length, mu_v=mu_v)]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from planmethod.errors import Fault
 from planmethod.gears.model import Mesh, MeshKind, Train
 from planmethod.languages import say
+from planmethod.record import dataclass
 
 Vector = tuple[float, float, float]
 

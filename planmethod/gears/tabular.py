@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 
 from planmethod.errors import PlanMethodError
 from planmethod.gears.motion import Motion, mesh_row
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

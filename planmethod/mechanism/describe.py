@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.record import dataclass
 
 
 class PairKind(Enum):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from planmethod.mechanism.decompose import contours
 from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
+from planmethod.record import dataclass
 
 Joint: TypeAlias = Revolute | Prismatic
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from planmethod.record import dataclass
 
 FRAME = "0"
 """Name of the frame (стойка) among the links."""

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from planmethod.errors import StructureError
 from planmethod.mechanism.decompose import Node, blocks
 from planmethod.mechanism.groups import AssurGroup, make_group
 from planmethod.mechanism.mobility import refuse_immovable, refuse_unbalanced
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.record import dataclass
 
 WAYS_IN = 1
 """Number of drivers W0 (число начальных звеньев)."""

@@ -8,7 +8,7 @@ The readings are those of every construction: exact, with a ruler, and with a pe
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import degrees
 from typing import Any
 
@@ -26,6 +26,7 @@ from planmethod.moving.bounded import Reals
 from planmethod.moving.course import Course
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Why
+from planmethod.record import dataclass
 
 READ = ("v", "a", "a_tangential", "a_normal", "rho")
 """Columns of the record that are read off the drawing."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, TypeAlias
 
@@ -16,6 +16,7 @@ from planmethod.languages import say
 from planmethod.moving.bounded import Reals
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, Why, move
+from planmethod.record import dataclass
 
 Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 

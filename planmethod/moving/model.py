@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.moving.formula import Formula
 from planmethod.problem.model import AskedAnswer, Published, Scales, SheetSettings
+from planmethod.record import dataclass
 
 
 class Law(Enum):

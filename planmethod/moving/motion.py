@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -11,6 +10,7 @@ from planmethod.construct.jet import Jet
 from planmethod.moving.bounded import ROUNDOFF, Bounded, Reals, bounded, length
 from planmethod.moving.model import Law, PointProblem, Wheel
 from planmethod.moving.series import CALLS, evaluate
+from planmethod.record import dataclass
 
 
 class Why(Enum):

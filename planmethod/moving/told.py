@@ -9,6 +9,7 @@ from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Why
 from planmethod.note.numbers import MINUS, Notation, with_unit
 from planmethod.note.wording import Language
+from planmethod.pattern import pattern
 
 SYMBOLS = {
     **dict(zip(("t", "x", "y", "v", "a", "rho"), ("t", "x", "y", "v", "a", "ρ"), strict=True)),
@@ -80,7 +81,7 @@ def _end_of_power(tail: str) -> int:
     return end + 1 + _end_of_power(tail[end + 1 :]) if tail[end : end + 1] == "^" else end
 
 
-_POWER = re.compile(r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?")
+_POWER = pattern(r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?")
 
 
 def law_lines(

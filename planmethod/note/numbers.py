@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import SupportsFloat
+
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 MINUS = "−"
 
@@ -75,7 +76,7 @@ def raised(unit: str) -> str:
     return _POWER.sub(lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
 
 
-_POWER, _LEVEL = re.compile("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
+_POWER, _LEVEL = pattern("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

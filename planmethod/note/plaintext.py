@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from planmethod.note.numbers import rich_number, significant, trimmed
+from planmethod.pattern import pattern
 
 if TYPE_CHECKING:
     from planmethod.note.wording.model import Wording
@@ -23,8 +24,8 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
-_UP = re.compile(r"\^\{([^}]*)\}")
-_DOWN = re.compile(r"_\{([^}]*)\}")
+_UP = pattern(r"\^\{([^}]*)\}")
+_DOWN = pattern(r"_\{([^}]*)\}")
 
 
 def plain_text(rich: str) -> str:

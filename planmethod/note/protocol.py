@@ -64,7 +64,7 @@ class _Writer(Steps):
             self.lines += wrap(words.source.format(source=problem.source))
         self.lines.append(position_line(self.solution, words, self.index))
         self.lines.append(words.formula.format(formula=self.solution.structure.formula))
-        facts = given_facts(problem, language(words.lang))
+        facts = self._given()
         text = "; ".join(plain_text(line).replace(" ", NO_BREAK) for line in facts)
         self.lines += wrap(words.given.format(given=text))
         self.chapter(words.scales)
@@ -94,6 +94,17 @@ class _Writer(Steps):
 
             self.lines += ["", *balancing_tables(self.solution, words)]
         return self.lines
+
+    def _given(self) -> list[str]:
+        """Return what the file gives for this position, masses and loads where forces are told."""
+        lang = language(self.words.lang)
+        if self.solution.problem.dynamics is None:
+            position = float(self.solution.positions[self.index])
+            return given_facts(self.solution.problem, lang, [position])
+        from planmethod.note.narrate.forces.statement import statement
+        from planmethod.solved.forces.reading import ForceReading
+
+        return statement(ForceReading(self.solution, self.index), lang)
 
     # Content ---------------------------------------------------------------------------------
 

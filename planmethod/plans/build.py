@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from planmethod.construct.program import Program
@@ -19,6 +19,7 @@ from planmethod.plans.motion.dyads import drive_motion, group_motion
 from planmethod.plans.motion.leads import Kinematics
 from planmethod.plans.motion.position import place_driver, place_frame, place_group
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import copy
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
 from planmethod.construct.program import Builder
@@ -15,6 +15,7 @@ from planmethod.plans.closing import Choice, Closing
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Slide
+from planmethod.record import dataclass
 
 TINY = 1e-12
 """Share of a link's size below which an offset is rounding, not a dimension."""

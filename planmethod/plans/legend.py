@@ -7,7 +7,6 @@ whoever writes quantities down reads it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import Enum, unique
 
 from planmethod.construct.steps import Compute, LayOff, Name, NumberName, PointName
@@ -15,6 +14,7 @@ from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.board import Motion, plain_letter
 from planmethod.plans.motion.leads import Kinematics
+from planmethod.record import dataclass
 
 ZERO = "0"
 """Name of the number zero, which nothing in a problem can be called."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.construct.steps import PointName
+from planmethod.record import dataclass
 
 
 class PlanKind(Enum):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planmethod.languages import say
@@ -24,7 +23,8 @@ from planmethod.problem.fields import (
 )
 from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense, Drive, Slide
 from planmethod.problem.names import short, split_pair
-from planmethod.problem.selector import MACHINE, Selector
+from planmethod.problem.selector import ANALOGUES, MACHINE, Selector
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -265,6 +265,8 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
     selector = check_what(faults, path, words, scene.points, scene.links, scene.dynamics)
     if selector is not None and selector.kind in MACHINE:
         faults.add(path, say("'{}' is of the flywheel", words), "Ask for the motion or the forces.")
+    elif selector is not None and selector.kind in ANALOGUES:
+        faults.add(path, say("'{}' is on no plan", words), "Ask for the motion or the forces.")
     reaction = _REACTION_RE.match(name)
     if reaction and scene.points and len(faults) == before:
         joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}

@@ -280,19 +280,7 @@ class _Placement:
                     "Points must not be measured from one another in a circle.",
                 )
             elif known:
-                more = next((b for b in bases if b not in {other for other, _ in known}), None)
-                second = f"{more}{point} = ..." if more else "a second distance"
-                side = say(' and {}.side = "left of {}"', point, line) if line else ""
-                if more:  # measured along the link, the length that is given is the whole answer
-                    (start, length), unit = known[0], keys.UNITS[self.faults.unit]
-                    at = f"{length.value * unit:.10g}"
-                    example = f'{point} = {{ on = "{start}{more}", at = {at} }}'
-                tail = say(", or use {}", example) if example else ""
-                self.faults.add(
-                    f"{link.path}.points",
-                    say("point {} is not placed: {} alone is given", point, known[0][1].key),
-                    say("Add {}{}{}.", second, side, tail),
-                )
+                self._report_one_length(point, bases, *known[0])
             else:
                 first = bases[0] if bases else link.points[0]
                 tail = say(" or {}", example) if example else ""
@@ -305,6 +293,24 @@ class _Placement:
                     ),
                     say("Add its lengths ({}{} = ...){}.", first, point, tail),
                 )
+
+    def _report_one_length(self, point: str, bases: list[str], start: str, length: Length) -> None:
+        """Note a point with one length, which most often lies on the line of two others."""
+        said = say("point {} is not placed: {} alone is given", point, length.key)
+        more = next((base for base in bases if base != start), None)
+        hint = say("Add a second distance.")
+        if more is not None:
+            stated = self.faults.stated.get(f"{self.link.path}.{length.key}")
+            at = length.value * keys.UNITS[self.faults.unit]
+            hint = say(
+                'If it lies on {0}{1}, write {2} = {{ on = "{0}{1}", at = {3} }}; else add {1}{2} '
+                'and {2}.side = "left of {0}{1}", or angle.{1}{0}{2}.',
+                start,
+                more,
+                point,
+                f"{at:.10g}" if stated is None else f'"{stated}"',
+            )
+        self.faults.add(f"{self.link.path}.points", said, hint)
 
     def _in_own_axes(self) -> dict[str, complex]:
         if self.axis is None or self.axis is self.base:

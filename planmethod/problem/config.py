@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from planmethod.errors import ConfigError, Fault, ProblemError
@@ -18,6 +18,7 @@ from planmethod.problem.fields import Faults, read_keys
 from planmethod.problem.model import SheetSettings
 from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.source import parse, read_source
+from planmethod.record import dataclass
 
 VARIABLE = "PLANMETHOD_CONFIG"
 """Environment variable that names the config file."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
+from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -25,9 +25,10 @@ from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near
 from planmethod.problem.sizes import TURN, read_phase, read_size
+from planmethod.record import dataclass
 
 NAME_LIMIT = 40
-_NAME_RE = re.compile(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
+_NAME_RE = pattern(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
 
 
 @dataclass(frozen=True, slots=True)

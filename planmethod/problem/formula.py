@@ -17,13 +17,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 from types import MappingProxyType
 
 from planmethod.languages import say
+from planmethod.pattern import pattern
 from planmethod.problem.names import listed, near, short
+from planmethod.record import dataclass
 
 LENGTH_LIMIT = 500
 DEPTH_LIMIT = 40
@@ -47,7 +48,7 @@ FUNCTIONS: Mapping[str, str] = MappingProxyType(
 CONSTANTS: Mapping[str, float] = MappingProxyType({"pi": math.pi, "e": math.e})
 TIME = "t"
 
-_TOKEN = re.compile(
+_TOKEN = pattern(
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<sign>\*\*|[-+*/^()])"
 )
@@ -108,9 +109,9 @@ def is_exact(text: str) -> bool:
     return Decimal(text) == Decimal(float(text))
 
 
-_PRINTED = re.compile(_TOKEN.pattern.removesuffix(")") + "|[√²³π])")
+_PRINTED = pattern(_TOKEN.pattern.removesuffix(")") + "|[√²³π])")
 _AS_TYPED = str.maketrans("−–—·×∙÷:", "---***//")
-_COMMA = re.compile(r"(?<=\d),(?=\d)")
+_COMMA = pattern(r"(?<=\d),(?=\d)")
 
 
 def work_out(text: str) -> float:

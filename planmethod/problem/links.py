@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import permutations
 from typing import Any
 
@@ -39,6 +39,7 @@ from planmethod.problem.names import (
     split_names,
     split_pair,
 )
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

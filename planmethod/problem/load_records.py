@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
+
+from planmethod.record import dataclass
 
 GRAVITY = 9.81
 """Acceleration of free fall where the file gives no other, m/s²."""

@@ -7,7 +7,7 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from enum import Enum
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem.names import told_length
+from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from fractions import Fraction

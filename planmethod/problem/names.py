@@ -6,10 +6,10 @@ written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 from planmethod.languages import say, typed
+from planmethod.pattern import pattern
 from planmethod.problem.keys import UNITS
 
 POINT_NAME_LIMIT = 8
@@ -29,10 +29,10 @@ _PRIMES = "'′’"
 _FOLD = str.maketrans(LOOKALIKES)
 _LETTER = r"[A-Za-zΓΔΘΛΞΠΣΦΨΩα-νξπ-ω]"
 _POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
-_POINT_RE = re.compile(rf"{_POINT}\Z")
-_POINT_FIND, _POINTS_RE = re.compile(_POINT), re.compile(rf"(?:{_POINT})+\Z")
-_PAIR_RE = re.compile(rf"({_POINT})({_POINT})\Z")
-_LABEL_RE = re.compile(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
+_POINT_RE = pattern(rf"{_POINT}\Z")
+_POINT_FIND, _POINTS_RE = pattern(_POINT), pattern(rf"(?:{_POINT})+\Z")
+_PAIR_RE = pattern(rf"({_POINT})({_POINT})\Z")
+_LABEL_RE = pattern(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
 
 
 _LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm"}

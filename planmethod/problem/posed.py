@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
 
 from planmethod.languages import say
+from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.fields import (
     Faults,
@@ -30,7 +30,7 @@ _READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
     "stroke": partial(read_number, what="a share of the stroke", low=0.0, high=1.0, hint=""),
 }
 _SIDE = "|".join(keys.EXTREMES)
-_AT = re.compile(rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z")
+_AT = pattern(rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z")
 _ROOT = 'For example: x_B = 0.12, root = "going right".'
 _WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30"'
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.names import near, short
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +32,9 @@ class Selector:
     over: Selector | None = None
 
 
+ANALOGUES = ("x1", "y1", "x2", "y2", "phi1", "phi2")
+"""First and second derivatives by the coordinate of the driver (аналоги), as JSON has them."""
+
 QUANTITIES: Mapping[str, tuple[int, ...]] = {
     "x": (1,),
     "y": (1,),
@@ -52,10 +55,11 @@ QUANTITIES: Mapping[str, tuple[int, ...]] = {
     "length": (2,),
     "segment velocity": (2,),
     "segment acceleration": (2,),
+    **dict.fromkeys(ANALOGUES, (1,)),
 }
 """Kinds of quantity of the motion, and how many names each may have."""
 
-LINK_KINDS = frozenset({"phi", "omega", "epsilon"})
+LINK_KINDS = frozenset({"phi", "omega", "epsilon", "phi1", "phi2"})
 POLE = "p"
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
@@ -27,6 +26,7 @@ from planmethod.problem.fields import (
 from planmethod.problem.links import LinkText, read_label
 from planmethod.problem.model import Body, Slide
 from planmethod.problem.names import looks_latin, segment
+from planmethod.record import dataclass
 
 Guide = tuple[str | None, complex, float]
 """Name of the fixed point (or None), base in m, angle in degrees."""

@@ -12,6 +12,7 @@ from typing import Any
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
+from planmethod.pattern import pattern
 from planmethod.problem.mistyped import line_hint
 from planmethod.problem.names import near
 
@@ -20,11 +21,9 @@ LINE_LIMIT = 8192
 DOT_LIMIT = 64
 DEPTH_LIMIT = 12
 
-_WHERE_RE = re.compile(
-    r"^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$", re.S
-)
+_WHERE_RE = pattern(r"^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$", re.S)
 # the parser's time grows with the square of the parts of a key
-_DOTS_RE = re.compile(rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}")
+_DOTS_RE = pattern(rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}")
 _BOMS = (
     (b"\xff\xfe", "UTF-16"),
     (b"\xfe\xff", "UTF-16"),
@@ -120,9 +119,7 @@ def parse(text: str, *, name: str) -> dict[str, Any]:
     return table
 
 
-_VARIANT_HEADER = re.compile(
-    r"^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)", re.MULTILINE
-)
+_VARIANT_HEADER = pattern(r"^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)", re.MULTILINE)
 
 
 def _quoted(header: re.Match[str]) -> str:

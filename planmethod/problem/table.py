@@ -4,26 +4,26 @@ from __future__ import annotations
 
 import csv
 import io
-import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from planmethod.languages import say
+from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.names import fold, listed, near, short, split_names
 from planmethod.problem.source import SIZE_LIMIT, table_text
 
 _UNITS = {"м": "m", "см": "cm", "мм": "mm", "m": "m", "cm": "cm", "mm": "mm"}
-_SI = re.compile(
+_SI = pattern(
     r"(?:°|град|deg|об/мин|rpm|(?:мин|с)[-⁻][12¹²]|(?:1|рад|rad|м|m)/[сs][²2]?"
     r"|кг|kg|Н|N|(?:Н|N|кг|kg)[·*][мm][²2]?)\Z"
 )
 """Units that the file has them in: they change nothing."""
 
-_HEAD = re.compile(r"(?P<name>[^,(\[]+?)\s*(?:[,(\[]\s*(?P<unit>[^)\]]*)[)\]]?)?\Z")
-_NUMBER = re.compile(r"[-+−]?[0-9]+(?:[.,][0-9]*)?(?:[eE][-+]?[0-9]+)?\Z")
+_HEAD = pattern(r"(?P<name>[^,(\[]+?)\s*(?:[,(\[]\s*(?P<unit>[^)\]]*)[)\]]?)?\Z")
+_NUMBER = pattern(r"[-+−]?[0-9]+(?:[.,][0-9]*)?(?:[eE][-+]?[0-9]+)?\Z")
 _GREEK = str.maketrans(
     {"φ": "phi", "ω": "omega", "ε": "epsilon", "∠": "", "_": "", "{": "", "}": ""}
 )

@@ -7,15 +7,16 @@ import re
 import tomllib
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 from unicodedata import combining, normalize
 
+from planmethod.pattern import pattern
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
 from planmethod.problem.variants import apply_variant, read_variants
+from planmethod.record import dataclass
 
 LINKAGE = "linkage"
 """Kind of the problems that are linkages; the others are called as their table is."""
@@ -133,7 +134,7 @@ class _Table:
     lines: list[str]
 
 
-_HEADER = re.compile(r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$")
+_HEADER = pattern(r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$")
 
 
 def _tables(text: str) -> list[_Table]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import radians
 
 from planmethod.construct.scale import Scale, choose_scale
@@ -17,6 +17,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
+from planmethod.record import dataclass
 from planmethod.render.forces.arrows import Acting, Turning, couple_items, force_items, lay_forces
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import escape, typeset

@@ -7,7 +7,6 @@ them. A load that jumps (a phase, a step of a table) leaves a gap in the curve j
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +14,7 @@ import numpy.typing as npt
 
 from planmethod.errors import LayoutError
 from planmethod.problem.load_records import Dynamics, Over, Table
+from planmethod.record import dataclass
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.reading import FAINT_SHARE, require_dynamics
 from planmethod.solved.forces.statics import statics_of

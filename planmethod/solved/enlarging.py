@@ -7,11 +7,11 @@ finer. One that is shorter than the lines of the plan are off is nothing, and st
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from planmethod.construct.steps import Measure, MeasureAlong, NumberName, PointName
 from planmethod.plans.build import Construction
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.solved.reading import Reading
 
 SHORT = 5.0

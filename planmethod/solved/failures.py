@@ -6,7 +6,7 @@ told of in common without a look at the words.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
 from planmethod.errors import AssemblyError
@@ -14,6 +14,7 @@ from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Coordinate, Problem
 from planmethod.problem.names import told_length
+from planmethod.record import dataclass
 from planmethod.solved.reading import Reals
 
 

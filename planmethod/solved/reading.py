@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from functools import wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
@@ -13,6 +12,7 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.evaluate import Trace, go_on
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
+from planmethod.record import dataclass
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
@@ -16,6 +15,7 @@ from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.record import dataclass
 
 BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
 """Kinds of what is given only when it is asked for by name."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +14,7 @@ from planmethod.paper import FORMATS
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Problem, Scales
+from planmethod.record import dataclass
 from planmethod.solved.reading import Reading, Reals
 
 Box = tuple[float, float]
@@ -204,8 +204,14 @@ def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
     """Return the size of what is drawn, in its own unit: of plans the largest, without outliers."""
     width, height = sizes(construction, si, kind)
     size = np.maximum(width, height)
-    usual = size <= OUTLIER * np.median(size)
+    usual = size <= OUTLIER * _median(size)
     return float(np.max(width[usual])), float(np.max(height[usual]))
+
+
+def _median(sizes: Reals) -> float:
+    """Return the median of (N,) sizes; numpy's own would import its masked arrays."""
+    ordered = np.sort(sizes)
+    return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
 
 
 def choose_scales(construction: Construction, si: Reading, views: Views) -> dict[PlanKind, Scale]:

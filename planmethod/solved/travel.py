@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import ceil
 
 import numpy as np
 
+from planmethod.record import dataclass
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 

@@ -7,11 +7,12 @@ beside the steps. Lengths are given in metres and laid off at the scale ``mu_l``
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeAlias
 
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
+from planmethod.record import dataclass
 
 Said: TypeAlias = tuple[str, Mapping[str, str | float]]
 """Name of a sentence in `SynthesisWording.steps`, and its places: points by name, and numbers."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from math import tau
@@ -28,6 +28,7 @@ from planmethod.construct.steps import (
     PointName,
     makes,
 )
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.synthesis.model import Synthesis, place, scaled

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from planmethod.construct.evaluate import Trace, evaluate, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
+from planmethod.record import dataclass
 from planmethod.synthesis.board import MU, Board
 
 

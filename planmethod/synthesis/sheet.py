@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 from math import radians, tau
 from typing import Any
@@ -16,6 +16,7 @@ from planmethod.languages import LANGUAGES
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
+from planmethod.record import dataclass
 from planmethod.render.control.unused import largest_empty
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping
 from typing import Any, assert_never
 
@@ -35,10 +34,11 @@ from planmethod.note.narrate.numbered import Steps
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import NO_BREAK, fixed, given, plain_text, table, wrap
 from planmethod.note.wording import Language
+from planmethod.pattern import pattern
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.model import place
 
-_LETTERS = re.compile(r"([^\d']+)(\d*)('*)")
+_LETTERS = pattern(r"([^\d']+)(\d*)('*)")
 
 
 def point_name(name: str) -> str:

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import cmath
+import io
 import math
 from dataclasses import replace
 
+import openpyxl
 import pytest
 from cases import some
 from planted import checked, exact, explanations, task_of, verdicts, work_of
 from worked import SIX, problem_of
 
 from planmethod.check.checking import check
+from planmethod.check.form import form_of
 from planmethod.check.key import key_of, key_of_task
 from planmethod.check.marks import Settings
 from planmethod.check.mistakes.model import Scene
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Sense, Verdict, Work, Written
+from planmethod.check.pages.compared import compared_text
+from planmethod.check.pages.keypage import key_text
 from planmethod.check.task import Task
+from planmethod.errors import ProblemError
+from planmethod.note.plaintext import NO_BREAK
+from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import AskedAnswer, AskedSense
 from planmethod.solved.solution import Solution
@@ -285,6 +293,29 @@ def test_the_direction_of_a_vector_is_an_answer_of_its_own() -> None:
     ):
         found = check(task, Work("s", (Written(text, value=right + off, step=0.1),)))
         assert found.answers[0].verdict is verdict, text
+
+
+def test_a_number_without_a_unit_is_in_the_one_that_is_asked() -> None:
+    problem = task_of("linkages/ex3").solution.problem
+    speed, turn = AskedAnswer("v", "v B3", unit="мм/с"), AskedAnswer("w", "omega 3", unit="об/мин")
+    task = Task(Solution(replace(problem, answers=(speed, turn))))
+    key = key_of_task(task)
+    mm_s, rpm = (abs(entry.exact) / entry.per for entry in key.entries)
+    exact = [entry.exact for entry in key_of(Solution(problem)).entries if entry.id == "omega_3"]
+    assert [rpm * math.pi / 30.0] == pytest.approx(exact)
+    bare = (Written(id="v", value=mm_s, step=1.0), Written(id="w", value=rpm, sense=Sense.CCW))
+    si = (Written(id="v", value=mm_s / 1e3, unit="м/с"), Written(id="w", value=exact[0]))
+    right, wrong = (check(task, Work("s", answers)) for answers in (bare, si))
+    assert set(verdicts(right).values()) == {Verdict.OK}
+    assert list(verdicts(wrong).values()) == [Verdict.OK, Verdict.WRONG]  # 15.5 of 148 rev/min
+    words = language("ru")
+    assert compared_text([right], words).count(f"{mm_s:.0f} мм/с") == 2
+    assert f"{mm_s / 10:.0f}0 ± " in key_text([key], words).replace(NO_BREAK, " ")
+    book = openpyxl.load_workbook(io.BytesIO(form_of(key.entries, problem="ex3")))
+    rows = book.worksheets[0].iter_rows(values_only=True)
+    assert [row[6] for row in rows if row[1] in ("v", "w")] == ["мм/с", "об/мин"]
+    with pytest.raises(ProblemError, match="'м/с²' is no unit of 'v'"):
+        Task(Solution(replace(problem, answers=(replace(speed, unit="м/с²"),))))
 
 
 def test_the_key_has_every_position_and_hides_what_none_shows() -> None:

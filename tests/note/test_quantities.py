@@ -56,6 +56,12 @@ EXACT = {
     "segment acceleration p B": 10 * sqrt(104),
     "vx D / omega 1": -0.15 * R,
     "omega 3 / omega 1": 0.5,
+    "x1 D": -0.15 * R,
+    "y1 D": 0.15 * R,
+    "x2 D": -0.075 * R,  # it goes on a circle of 0.3 m at half a radian per radian
+    "y2 D": -0.075 * R,
+    "phi1 3": 0.5,
+    "phi2 3": 0.0,
 }
 
 
@@ -102,6 +108,7 @@ def test_the_hand_reads_what_its_results_say() -> None:
 
 def test_an_angle_is_not_read_with_a_ruler() -> None:
     assert kulisa().read(parse_selector("phi 3")) is None
+    assert kulisa().read(parse_selector("x2 D")) is None
 
 
 @pytest.mark.parametrize(

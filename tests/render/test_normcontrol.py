@@ -43,6 +43,7 @@ from planmethod.render.sheets.controlled import (
 )
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
+from planmethod.render.symbols import slider
 
 A4 = FORMATS["A4"]
 BOX = (40.0, 100.0, 160.0, 220.0)
@@ -125,8 +126,30 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
             Text(104 + 94j, "ω", 3.5, label="ω 1"),
         ),
     ),
+    "PM-D15": (
+        sheet(Arc(100 + 100j, 9.0, 0.0, 1.0, tag="ω 1"), *slider(109 + 104j)),
+        sheet(Arc(100 + 100j, 9.0, 0.0, 1.0, tag="ω 1"), *slider(124 + 104j)),
+    ),
+    "PM-D16": (
+        sheet(word("ε", 70 + 200j), word("x", 74 + 200j), *SCALE, views=(VIEW,)),
+        sheet(word("ε", 70 + 200j), word("x", 77 + 200j), *SCALE, views=(VIEW,)),
+    ),
 }
 """Of every code a sheet that shows it and one that does not."""
+
+
+@pytest.mark.parametrize(("tag", "radius", "expected"), [("ε 1", 9.6, 1), ("ε 1", 11.0, 0)])
+def test_arrows_of_turns_keep_apart(tag: str, radius: float, expected: int) -> None:
+    one = Arc(100 + 100j, 9.0, 0.0, 1.0, tag="ω 1")
+    assert codes(sheet(one, replace(one, radius=radius, tag=tag))).count("PM-D15") == expected
+
+
+def test_letters_over_and_under_a_short_line_are_a_fraction() -> None:
+    line, letters = Stroke((70 + 200j, 84 + 200j), Pen.THIN), (word("φ", 75 + 202j), *SCALE)
+    fraction = sheet(line, *letters, word("ω", 75 + 194.5j), views=(VIEW,))
+    (finding,) = (one for one in found(fraction) if one.code == "PM-D16")
+    assert "fraction" in finding.action("en")
+    assert "PM-D16" not in codes(sheet(line, *letters, word("ω", 92 + 194.5j), views=(VIEW,)))
 
 
 def test_every_code_is_shown() -> None:

@@ -9,17 +9,20 @@ import numpy as np
 import pytest
 from worked import DEAD, SIX, problem_of
 
+from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
 from planmethod.render.control.texts import lint, writings_of
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
 from planmethod.render.labels import UNDER_LABEL
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.extremes import STROKE
 from planmethod.render.pictures.paths import TRAJECTORY, Paths
 from planmethod.render.pictures.positions import PRIMES, Positions, bold_position, written
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import turn_of
 
 ALL_ROUND = [30.0 * k for k in range(12)]
 SOME = [150.0 + 10.0 * k for k in range(12)]  # the six-link mechanism does not go all round
@@ -203,6 +206,31 @@ def test_extreme_positions_are_lines_with_two_dots() -> None:
     assert len([i for i in items if isinstance(i, Stroke) and i.pen is Pen.PALE]) >= 11 * 3
 
 
+def test_few_positions_have_no_extreme_ones_behind_them() -> None:
+    few = Solution(problem_of("press/press"), positions=ALL_ROUND[1:4])
+    items = scheme_picture(few, 0, overlay=(0, 1, 2)).items
+    assert not [i for i in items if isinstance(i, Stroke) and i.pen is Pen.PHANTOM]
+
+
+def test_the_stroke_is_dimensioned_between_the_extreme_positions() -> None:
+    solution, items = solved("linkages/ex1"), drawn("linkages/ex1").items
+    heads = [i.points[0] for i in items if isinstance(i, Fill) and i.tag == STROKE]
+    stroke = turn_of(solution).stroke
+    assert stroke is not None
+    per_mm = solution.scales[PlanKind.POSITION].per_mm
+    assert abs(heads[0] - heads[1]) * per_mm == pytest.approx(stroke, abs=1e-6)
+    assert "H" in [w.shown for w in writings_of(items)]
+
+
+def test_the_swing_is_dimensioned_from_one_extreme_position_to_the_other() -> None:
+    solution, items = solved("levers/task-49"), drawn("levers/task-49").items
+    (arc,) = (i for i in items if isinstance(i, Arc) and i.tag == STROKE)
+    swing = turn_of(solution).stroke
+    assert swing is not None
+    assert np.degrees(arc.end - arc.start) == pytest.approx(swing, abs=0.1)
+    assert "ψ" in [w.shown for w in writings_of(items)]
+
+
 def test_a_link_that_goes_on_has_no_extreme_position() -> None:
     solution = Solution(problem_of("linkages/ex1"), positions=[20.0, 30.0, 40.0, 50.0, 60.0])
     assert Paths(solution).extremes == ()
@@ -242,6 +270,7 @@ def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
     (sheet,) = kinematics_sheets(problem_of("press/press"), positions=ALL_ROUND)
     assert (sheet.width, sheet.height) == (841.0, 594.0)
     shown = " ".join(w.shown for w in writings_of(sheet.items)).replace(",", " ").split()
+    assert {"A′", "A″", "крайние", "H", "φр", "φх"} <= set(shown)  # told at the name of the view
     for letter in "AB":  # the driver's and the output's; N has numbers alone
         assert {f"{letter}{k}" for k in TWELVE} <= set(shown)
     assert sum(word.startswith("N") and word[1:].isdigit() for word in shown) == 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from types import MappingProxyType
 
@@ -23,6 +23,7 @@ from planmethod.plans.forces.board import Board
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Turning
 from planmethod.plans.segments import Segments
+from planmethod.record import dataclass
 
 Powers = tuple[tuple[NumberName, int], ...]
 

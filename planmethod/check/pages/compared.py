@@ -37,11 +37,11 @@ def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
     if key is None:
         yield from (_NONE, _NONE, _NONE)
         return
-    yield speech.with_unit(speech.number(told(key.exact, key)), key)
+    yield speech.si(told(key.exact, key), key)
     if value is None:
         yield from (_NONE, _NONE)
         return
     off = told(value, key) - told(key.exact, key)
     number = speech.words.say.number
-    yield speech.with_unit(number(trimmed(off, 2)), key)
+    yield speech.with_unit(number(trimmed(off / key.per, 2)), key)
     yield number(trimmed(100.0 * off / abs(key.exact), 2)) if key.exact else _NONE

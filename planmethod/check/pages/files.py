@@ -19,6 +19,7 @@ from planmethod.check.pages.run import run_json, run_record, settings_rows
 from planmethod.check.pages.student import student_page
 from planmethod.kinds import KindProblem
 from planmethod.note.wording import language
+from planmethod.pattern import pattern
 from planmethod.problem.model import Problem
 from planmethod.render.backends.output import write
 from planmethod.solved.solution import Solution
@@ -26,7 +27,7 @@ from planmethod.solved.solution import Solution
 LONGEST = 40
 """Letters of a file's name: with four bytes each and its ending it is short enough anywhere."""
 
-_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
+_RESERVED = pattern(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
 
 
 def file_names(students: Sequence[str]) -> list[str]:

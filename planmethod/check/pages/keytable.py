@@ -7,16 +7,15 @@ each, and the answers are columns.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry, Sense
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
 from planmethod.check.pages.speech import Speech
-from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
+from planmethod.record import dataclass
 
 UNSEEN = "*"
 """Sign of an answer that the drawing does not show, where there is no room for words."""
@@ -129,7 +128,7 @@ class KeyPage:
         speech = self.speech
         return [
             speech.letters(entry),
-            self._value(entry),
+            speech.value(entry),
             speech.unit(entry),
             segment_letters(entry.segment) if entry.segment else "",
             "" if entry.mm is None else speech.mm(entry.mm, unit=False),
@@ -146,7 +145,7 @@ class KeyPage:
         mm = "" if entry.mm is None else speech.mm(entry.mm)
         sign = self._sense(entry.sense)
         return (
-            self._value(entry) + ("" if entry.seen else UNSEEN),
+            speech.value(entry) + ("" if entry.seen else UNSEEN),
             " ".join(part for part in (mm, sign) if part),
         )
 
@@ -161,10 +160,6 @@ class KeyPage:
         lead = [row.key.variant] if row.key.variant else []
         lead += [self.say.position.format(position=row.position)] if several else []
         return ", ".join(lead) or "—"
-
-    def _value(self, entry: KeyEntry) -> str:
-        number = self.speech.value(entry, entry.tolerance)
-        return f"{number}{NO_BREAK}±{NO_BREAK}{self.speech.error(entry.tolerance)}"
 
     def _sense(self, sense: Sense | None) -> str:
         return self.speech.sense(sense)

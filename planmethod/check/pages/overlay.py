@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from planmethod.check.model import Checked, Diagnosis, Judged, Verdict
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, shifted
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.layout.block import Picture

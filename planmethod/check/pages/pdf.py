@@ -6,7 +6,6 @@ words are measured once here, and lines broken where they are full.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, lru_cache
 from io import BytesIO
@@ -20,6 +19,7 @@ from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import Canvas
 
 from planmethod.check.pages.speech import clean
+from planmethod.pattern import pattern
 from planmethod.render.ink.lettering import STYLES, OutlineLettering
 
 Word: TypeAlias = tuple[tuple[str, str], ...]
@@ -40,7 +40,7 @@ PAD = 3.0
 GREY = colors.HexColor("#8a8a8a")
 RULE = colors.HexColor("#bbbbbb")
 HEAD = colors.HexColor("#f4f4f4")
-_INDEX = re.compile(r"([_^])\{([^{}]*)\}")
+_INDEX = pattern(r"([_^])\{([^{}]*)\}")
 
 
 @cache

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict, Written
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.check_model import StudentWording
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.record import dataclass
 
 PLANS = {FACTS[kind].scale: kind for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)}
 OFF = (Verdict.WRONG, Verdict.NEAR)
@@ -208,7 +208,7 @@ class Remarks:
             answer=self.speech.symbol(judged),
             mm=self.speech.number(written.mm),
             scale=self.speech.number(per_mm),
-            product=self.speech.with_unit(self.speech.number(written.mm * per_mm), key),
+            product=self.speech.si(written.mm * per_mm, key),
             own=self.speech.own(judged),
         )
 

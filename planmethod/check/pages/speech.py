@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import html
-import re
-from dataclasses import dataclass
 
 from planmethod.check.model import Judged, KeyEntry, Sense, Written
 from planmethod.note.numbers import trimmed
@@ -12,13 +10,15 @@ from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.language import Language
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 LONGEST = 60
 """Letters of what somebody else wrote that are repeated; the rest is cut."""
 
-_INDEX = re.compile(r"([_^])\{([^{}]*)\}")
+_INDEX = pattern(r"([_^])\{([^{}]*)\}")
 _TAGS = {"_": "sub", "^": "sup"}
-_CONTROL = re.compile("[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_CONTROL = pattern("[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def tagged(rich: str) -> str:
@@ -69,6 +69,8 @@ class Speech:
 
     def unit(self, key: KeyEntry) -> str:
         """Return the unit of what is asked; empty where it has none."""
+        if key.asked:
+            return key.asked
         return "" if key.unit == "1" else self.words.say.units.get(key.unit, key.unit)
 
     def unread(self, written: Written) -> str:
@@ -96,13 +98,20 @@ class Speech:
         """Return the exact value with its tolerance, unit and sense: ``21,3 ± 0,7 м/с² ←``."""
         allowed = key.tolerance if tolerance is None else tolerance
         value = abs(key.exact) if shows_turn(key) else key.exact
-        number = self.rounded(told(value, key), allowed)
-        number += f"{NO_BREAK}±{NO_BREAK}{self.error(allowed)}"
+        number = self._within(value, key, allowed)
         return self._pointed(self.with_unit(number, key), key.sense if key.asks_sense else None)
 
-    def value(self, key: KeyEntry, tolerance: float) -> str:
-        """Return the exact value up to the last digit of its tolerance."""
-        return self.rounded(told(key.exact, key), tolerance)
+    def value(self, key: KeyEntry) -> str:
+        """Return the exact value with its tolerance, up to the last digit of it."""
+        return self._within(key.exact, key, key.tolerance)
+
+    def _within(self, value: float, key: KeyEntry, tolerance: float) -> str:
+        number = self.rounded(told(value, key) / key.per, tolerance / key.per)
+        return f"{number}{NO_BREAK}±{NO_BREAK}{self.error(tolerance / key.per)}"
+
+    def si(self, value: float, key: KeyEntry) -> str:
+        """Return a number of SI as a student would write it, with the unit of what is asked."""
+        return self.with_unit(self.number(value / key.per), key)
 
     def rounded(self, value: float, tolerance: float) -> str:
         """Return a value up to the last digit of its tolerance."""
@@ -120,7 +129,7 @@ class Speech:
             return self._pointed(bare, None if written is None else written.sense)
         sense = None if written is None else written.sense
         value = abs(judged.value) if sense is not None and sense.turns else judged.value
-        return self._pointed(self.with_unit(self.number(told(value, key)), key), sense)
+        return self._pointed(self.si(told(value, key), key), sense)
 
     def close_to(self, value: float, judged: Judged) -> str:
         """Return another value of an answer, to the digits that can be told apart."""
@@ -131,7 +140,8 @@ class Speech:
         if shows_turn(key):
             sense = Sense.CCW if value > 0 else Sense.CW
             value = abs(value)
-        number = self.rounded(told(value, key), judged.tolerance or key.tolerance)
+        allowed = judged.tolerance or key.tolerance
+        number = self.rounded(told(value, key) / key.per, allowed / key.per)
         return self._pointed(self.with_unit(number, key), sense)
 
     def mm(self, length: float, *, unit: bool = True) -> str:

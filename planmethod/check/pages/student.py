@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from planmethod.check.model import Checked, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
@@ -12,6 +11,7 @@ from planmethod.check.pages.speech import Speech, quoted
 from planmethod.kinds import KindProblem
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 PAPER = (178.0, 92.0)

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
+
 if TYPE_CHECKING:
     from openpyxl import Workbook
 
-_CLOCK = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
-_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_CLOCK = pattern(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
+_CONTROL = pattern("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 LONGEST = 1000
 WIDEST, NUMBER = 60, 7
 """Letters in the widest column, and in a number."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -11,11 +10,12 @@ from planmethod.check.works.cells import Cell, found, read_name, refused
 from planmethod.check.works.numbers import read_number
 from planmethod.check.works.units import read_unit
 from planmethod.check.works.vocabulary import read_sense
+from planmethod.pattern import pattern
 
 POSITION_LIMIT = 100_000
 
 _MM = read_unit("mm")
-_BREAK = re.compile(r"[\s(,;]+")
+_BREAK = pattern(r"[\s(,;]+")
 
 Scaled = tuple[float, float, str, Sense | None]
 """Value and step, SI; unit as written; sense."""

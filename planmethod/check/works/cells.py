@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 from planmethod.check.model import Unread, Written
@@ -12,6 +12,7 @@ from planmethod.check.works.vocabulary import BLANKS, key
 from planmethod.note.wording import language
 from planmethod.problem.names import fold, short
 from planmethod.problem.selector import SelectorError, parse_selector
+from planmethod.record import dataclass
 
 TEXT_LIMIT = 200
 """Characters of a cell that are looked at."""

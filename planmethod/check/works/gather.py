@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 
 from planmethod.check.model import Unread, Work, Written
 from planmethod.check.works.answer import NotReadError, read_scaled
@@ -13,15 +12,17 @@ from planmethod.check.works.faults import WorksError
 from planmethod.check.works.numbers import read_number
 from planmethod.check.works.units import Dimension, read_unit
 from planmethod.check.works.vocabulary import key
+from planmethod.pattern import pattern
 from planmethod.problem.names import fold
+from planmethod.record import dataclass
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000
 
-_SCALE = re.compile(r"(?:mu|μ|µ|мю)[\s_{]*([lvafs])[\s}]*\Z")
-_RATIO = re.compile(r"(?:[MМ]\s*)?1\s*:\s*(\S+)\Z")
-_WORD = re.compile(r"([\s_\-{}(),]+)")
-_POINT = re.compile(r"([^\W\d_])([0-9]*'*)")
+_SCALE = pattern(r"(?:mu|μ|µ|мю)[\s_{]*([lvafs])[\s}]*\Z")
+_RATIO = pattern(r"(?:[MМ]\s*)?1\s*:\s*(\S+)\Z")
+_WORD = pattern(r"([\s_\-{}(),]+)")
+_POINT = pattern(r"([^\W\d_])([0-9]*'*)")
 _MM = 1e-3
 _OF_SCALES: dict[str, Dimension] = {
     "mu_l": (1, 0, 0, 0),

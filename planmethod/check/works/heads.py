@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 
 from planmethod.check.works.cells import read_name
 from planmethod.check.works.gather import scale_name
 from planmethod.check.works.units import read_unit
 from planmethod.check.works.vocabulary import HEADS, MM, key
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 ASPECTS = ("value", "mm", "sense", "unit", "segment")
 """What of an answer may stand in a column of its own."""
 
 _PLAN_LENGTHS = ("length", "segment", "arm", "shift")
-_LAST_WORD = re.compile(r"(.*\S)\s+(\S+)\Z")
-_QUANTITY = re.compile("[A-Za-zΑ-ωϕ]")
+_LAST_WORD = pattern(r"(.*\S)\s+(\S+)\Z")
+_QUANTITY = pattern("[A-Za-zΑ-ωϕ]")
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 TEXT_LIMIT = 80
 LARGEST = 1e30
@@ -30,7 +32,7 @@ class Number:
 DASHES = "−–—‒―﹣－‐‑"
 _DASHES = str.maketrans(dict.fromkeys(DASHES, "-"))
 _RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
-_NUMBER = re.compile(
+_NUMBER = pattern(
     r"(?P<sign>[+-]?) ?"
     r"(?P<digits>(?:[0-9]{1,3}(?:[ '][0-9]{3})+(?![0-9])|[0-9]+)?(?:[.,][0-9]+)*)[.,]?"
     r"(?: ?[·*×xх⋅∙•] ?10 ?(?:(?:\^|\*\*) ?[({]? ?(?P<power>[+-]? ?[0-9]+) ?[)}]?"

@@ -6,10 +6,11 @@ import math
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 from planmethod.check.model import Written
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 TEXT_LIMIT = 32
 
@@ -67,7 +68,7 @@ def _plain(text: str) -> str:
 
 
 _KNOWN = {_plain(name): unit for name, unit in _SYMBOLS.items()}
-_TOKEN = re.compile(r"([^\W\d_]+|°)(-?\d)?|([*/()])|(1)(?=/)")
+_TOKEN = pattern(r"([^\W\d_]+|°)(-?\d)?|([*/()])|(1)(?=/)")
 
 
 class _NoUnitError(Exception):

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import datetime
 import io
-import re
 import warnings
 import zipfile
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,8 @@ from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
 from planmethod.check.works.table import HEAD_ROWS, Row, read_table
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 
 ROW_LIMIT = 20_000
 COLUMN_LIMIT = 400
@@ -31,9 +32,9 @@ MERGED_LIMIT = 20_000
 META = "_meta"
 """Hidden sheet of the form."""
 
-_DECIMALS = re.compile(r"0\.(0+)")
-_PLACE = re.compile(r"([A-Z]{1,3})([0-9]{1,7})\Z")
-_SPAN = re.compile(r"([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})([0-9]{1,7})\Z")
+_DECIMALS = pattern(r"0\.(0+)")
+_PLACE = pattern(r"([A-Z]{1,3})([0-9]{1,7})\Z")
+_SPAN = pattern(r"([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})([0-9]{1,7})\Z")
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 

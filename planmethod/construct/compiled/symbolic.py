@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from planmethod.construct.arithmetic import Exact, Number, unit_vectors
@@ -21,6 +21,7 @@ from planmethod.construct.steps import (
     Step,
     operands,
 )
+from planmethod.record import dataclass
 
 
 class Symbol:

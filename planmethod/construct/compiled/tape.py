@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NamedTuple, TypeAlias
+
+from planmethod.record import dataclass
 
 Ref: TypeAlias = int | float
 """Operand: the number of a node (int), or a constant (float)."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
 from planmethod.gears.arrangement import Across, Arrangement, Part, Rim, Stub, Worm
 from planmethod.gears.model import PARALLEL, MeshKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label

@@ -6,13 +6,13 @@ where margins vanish; shifts are chosen among those that keep all of them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
 
 from planmethod.gears.involute.model import Reals
 from planmethod.gears.involute.sizes import Pair
+from planmethod.record import dataclass
 
 STEP = 0.01
 """Chosen shifts are multiples of it."""

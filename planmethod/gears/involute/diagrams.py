@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, floor
 
@@ -18,6 +17,7 @@ from planmethod.gears.involute.model import Reals
 from planmethod.gears.involute.quantities import Solved
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label

@@ -7,7 +7,6 @@ touches the other one in P. Lengths are millimetres of paper.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import cos, pi, sin
 
 import numpy as np
@@ -15,6 +14,7 @@ import numpy as np
 from planmethod.gears.involute.profile import Points, Tooth
 from planmethod.gears.involute.quantities import Solved
 from planmethod.note.wording import Language
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset

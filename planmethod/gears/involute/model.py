@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import cos, pi, sin, tan
 from typing import TypeAlias
 
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planmethod.problem.model import SheetSettings
+from planmethod.record import dataclass
 
 Reals: TypeAlias = NDArray[np.float64]
 

@@ -8,7 +8,6 @@ other flank is its mirror image.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.model import Reals
 from planmethod.gears.involute.sizes import Pair
+from planmethod.record import dataclass
 
 Points = NDArray[np.complex128]
 

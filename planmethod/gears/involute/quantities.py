@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
 import numpy as np
@@ -15,6 +15,7 @@ from planmethod.gears.involute.profile import Contact, Tooth
 from planmethod.gears.involute.sizes import Pair
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
+from planmethod.record import dataclass
 
 
 class Unit(Enum):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planmethod.errors import LayoutError
@@ -21,6 +20,7 @@ from planmethod.languages import LANGUAGES
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format, paper_format
+from planmethod.record import dataclass
 from planmethod.render.frame.frame import STAMP_WIDTH, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged

@@ -10,7 +10,6 @@ the shape (2, ...), those of the pair the shape (...). Lengths are millimetres, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 
@@ -18,6 +17,7 @@ import numpy as np
 
 from planmethod.gears.angles import angle_of_involute, involute
 from planmethod.gears.involute.model import MeshingProblem, Rack, Reals
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True)

@@ -124,8 +124,9 @@ MOST_LISTED = 6
 def _position(text: As, asked: Sequence[float]) -> str:
     """Return the position: as the output tells it, where the asked ones are those of the file."""
     drive = text.problem.drive
-    if drive.posed is not None and tuple(asked) == drive.positions:
-        return _posed(drive.posed, text)
+    of = [k for k, position in enumerate(drive.positions) if position in asked]
+    if drive.posed is not None and len(of) == len(asked):
+        return _posed(drive.posed, of, text)
     unit, key = drive.coordinate.unit, ""
     if len(asked) == 1 and tuple(asked) == drive.positions:
         key = f"driver.{drive.coordinate.name}"
@@ -145,12 +146,12 @@ def _position(text: As, asked: Sequence[float]) -> str:
     return f"{symbol} = {told(first)}…{told(last)}{count}"
 
 
-def _posed(posed: Posed, text: As) -> str:
-    """Return how the output tells the position."""
-    note, values = text.words.note, posed.values
+def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
+    """Return how the output tells some of the positions."""
+    note, values = text.words.note, [posed.values[k] for k in of]
     if posed.by is PosedBy.EXTREME:
         told = []
-        for where, after in zip(posed.extremes, values, strict=True):
+        for where, after in ((posed.extremes[k], posed.values[k]) for k in of):
             sign = f" {MINUS if after < 0 else '+'} {text.say.given(abs(after))}°"
             told.append(note.given_extremes[where] + (sign if after else ""))
         return note.given_position.format(position=", ".join(told))
@@ -158,7 +159,7 @@ def _posed(posed: Posed, text: As) -> str:
     def said(value: float) -> str:
         path = f"driver.{posed.key}"
         if path not in text.problem.stated:
-            path += f"[{values.index(value)}]"
+            path += f"[{posed.values.index(value)}]"
         if posed.by is PosedBy.STROKE:
             return text.plain(value, path)
         if posed.by is PosedBy.PHI:

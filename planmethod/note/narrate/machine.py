@@ -73,7 +73,7 @@ class MachineTeller:
         assert problem.dynamics is not None
         start = self.flywheel.turn.start_deg
         lines = given(problem, self.words, [start])
-        lines += mass_lines(problem.dynamics, self.say)
+        lines += mass_lines(problem, self.words)
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
             lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from planmethod.construct.steps import (
     AtAngle,
@@ -25,6 +23,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
+from planmethod.pattern import pattern
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import (
     FACTS,
@@ -39,9 +38,10 @@ from planmethod.plans.model import (
 )
 from planmethod.plans.motion.board import pole_letter
 from planmethod.problem.model import Convention
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
-_DIGITS = re.compile(r"\d+")
+_DIGITS = pattern(r"\d+")
 SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
 SCALE_SYMBOL = {kind: f"μ_{{{FACTS[kind].letter}}}" for kind in MOTION}
 

@@ -7,11 +7,12 @@ from collections.abc import Sequence
 
 from planmethod.note.plaintext import NO_BREAK, heading, plain_text, wrap
 from planmethod.note.wording import Wording
+from planmethod.pattern import pattern
 
 INDENT = " " * 5
 """What stands before the lines of a step, under its number."""
 
-_WORD = re.compile(r"^[^\W\d_]+")
+_WORD = pattern(r"^[^\W\d_]+")
 """Letters that a unit begins with: between a number and them no line is cut."""
 
 

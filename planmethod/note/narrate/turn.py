@@ -33,6 +33,34 @@ def output_name(output: Output) -> str:
     return point_name(output.point) if output.slide is not None else output.link
 
 
+def extremes_named(turn: Turn | None, names: str, words: Language) -> list[str]:
+    """Return what the letters of the extreme positions are, and stroke and phases of a turn."""
+    told = [words.sheets.extremes.format(names=names)]
+    found = [] if turn is None else [*stroke_facts(turn, words), *ratio_facts(turn, words)]
+    return [*told, "; ".join(found)] if found else told
+
+
+def stroke_facts(turn: Turn, words: Language) -> list[str]:
+    """Return the stroke or the swing, if there is one."""
+    if turn.stroke is None:
+        return []
+    unit = words.say.units[turn.output.unit]
+    is_angle = turn.output.slide is None
+    size = (
+        degrees(turn.stroke, words) if is_angle else with_unit(words.say.found(turn.stroke), unit)
+    )
+    return [words.cycle.stroke[turn.output.unit].format(stroke=size)]
+
+
+def ratio_facts(turn: Turn, words: Language) -> list[str]:
+    """Return the angles of the crank of the working and the idle stroke, if there are such."""
+    if turn.phases is None or turn.ratio is None:
+        return []
+    working, idle = (degrees(phase, words) for phase in turn.phases)
+    ratio = words.say.found(turn.ratio)
+    return [words.cycle.ratio.format(working=working, idle=idle, ratio=ratio)]
+
+
 def turn_facts(turn: Turn, words: Language) -> list[str]:
     """Return what is found of a turn, one fact each, as rich text."""
     said, say, output = words.cycle, words.say, turn.output
@@ -56,15 +84,12 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
     if turn.extremes:
         ends = (f"{place(one.phi)} ({size(one.value)})" for one in turn.extremes)
         facts.append(said.extremes.format(extremes=", ".join(ends)))
-    stroke = said.stroke[output.unit]
-    if turn.stroke is not None:
-        facts.append(stroke.format(stroke=size(turn.stroke)))
-    elif turn.why_no_stroke is not None:
+    facts += stroke_facts(turn, words)
+    if turn.stroke is None and turn.why_no_stroke is not None:
         facts.append(_none("H" if output.slide is not None else "ψ", turn.why_no_stroke, words))
-    if turn.phases is not None and turn.ratio is not None:
-        working, idle = (degrees(phase, words) for phase in turn.phases)
-        facts.append(said.ratio.format(working=working, idle=idle, ratio=say.found(turn.ratio)))
-    elif turn.why_no_ratio is not None:
+    ratio = ratio_facts(turn, words)
+    facts += ratio
+    if not ratio and turn.why_no_ratio is not None:
         facts.append(_none("K_{v}", turn.why_no_ratio, words))
     peak = turn.pressure
     if peak is not None:

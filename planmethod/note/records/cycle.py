@@ -9,10 +9,11 @@ import numpy as np
 from planmethod.note.columns import Column, listed, pairs, rows
 from planmethod.note.numbers import plain
 from planmethod.problem.model import Differentiation
+from planmethod.solved.analogues import analogues
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
-from planmethod.solved.turn.turn import TURN, Extreme, Turn, Why, analogues, turn_of
+from planmethod.solved.turn.turn import TURN, Extreme, Turn, Why, turn_of
 
 
 def analogue_records(solution: Solution) -> list[dict[str, Any]]:

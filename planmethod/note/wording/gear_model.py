@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from planmethod.note.wording.gear_sheet_model import GearSheetWording
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,6 +24,7 @@ class SheetWording:
     knots: tuple[str, ...]
     enlarged: str
     read_on: str
+    extremes: str
     of_position: str
     wanted: str
 

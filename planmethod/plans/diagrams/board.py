@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, NumberName, PointName
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

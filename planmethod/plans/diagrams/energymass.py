@@ -12,12 +12,12 @@ Source: курсовое проектирование по ТММ, section 3 of 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.diagrams.board import Axes, Board
 from planmethod.plans.diagrams.calculus import Integration, integrate
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

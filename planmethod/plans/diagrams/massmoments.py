@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.diagrams.board import Board
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

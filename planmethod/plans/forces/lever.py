@@ -9,12 +9,11 @@ of inertia is a point of its link: there the lever has it beside the centre of m
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Board, Given
 from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.loads import Shift
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

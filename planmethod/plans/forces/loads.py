@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy.typing as npt
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 
 DOWN = -90.0
 """Direction of the weights, degrees."""

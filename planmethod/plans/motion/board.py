@@ -7,7 +7,7 @@ links coincide at a place but move differently, the place of the second carries 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
@@ -24,6 +24,7 @@ from planmethod.plans.model import (
 )
 from planmethod.plans.segments import Segments
 from planmethod.problem.model import Convention, Problem
+from planmethod.record import dataclass
 
 UNKNOWN_KINDS = (VectorKind.RELATIVE, VectorKind.SLIDING)
 """Components that end in a middle joint: from the pole they are its absolute vector as well."""

@@ -11,7 +11,7 @@ Sources: the equations of plane motion and of compound motion, as in "Кинем
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
@@ -30,6 +30,7 @@ from planmethod.plans.model import (
 )
 from planmethod.plans.motion.board import Motion, Ray
 from planmethod.problem.model import Problem, Slide
+from planmethod.record import dataclass
 
 
 @dataclass(slots=True)

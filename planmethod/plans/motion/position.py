@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from planmethod.construct.steps import LineName, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.groups import AssurGroup, Lead
@@ -12,6 +10,7 @@ from planmethod.plans.closing import Closing
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.draft import Draft, side, way
 from planmethod.problem.model import Problem, Slide
+from planmethod.record import dataclass
 
 EQUAL = 1e-9
 """Share of a length by which the opposite sides of a parallelogram may differ."""

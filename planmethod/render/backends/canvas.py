@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from cmath import isfinite
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal, Protocol, assert_never
 
 from planmethod.errors import PlanMethodError
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 

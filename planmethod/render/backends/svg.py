@@ -8,7 +8,6 @@ letters are, printed with them, and read aloud; no eye sees in which font.
 
 from __future__ import annotations
 
-import re
 import sys
 from cmath import exp
 from collections.abc import Iterable, Sequence
@@ -19,6 +18,7 @@ from types import ModuleType
 from typing import Any
 from zlib import crc32
 
+from planmethod.pattern import pattern
 from planmethod.render.backends.canvas import Canvas, Options, draw
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
@@ -35,7 +35,7 @@ _LINES = {
 """What a group of pens does not say itself."""
 _HEADING, _LETTERS = 5.0, 8  # mm, and letters: an inscription larger and longer is a heading
 # XML 1.0 cannot hold these, not even as references.
-_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_NOT_XML = pattern("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 class _Later(ModuleType):

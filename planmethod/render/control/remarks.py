@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
@@ -12,6 +11,7 @@ from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import language
 from planmethod.note.wording.control_model import ControlWording
 from planmethod.paper import FORMATS
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Pen
 
 Segments: TypeAlias = tuple[tuple[str, float], ...]
@@ -53,6 +53,8 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
         "PM-D12": Remark(_WARNING, "mm"),
         "PM-D13": Remark(_ERROR, "mm"),
         "PM-D14": Remark(_WARNING, "mm"),
+        "PM-D15": Remark(_WARNING, "mm"),
+        "PM-D16": Remark(_WARNING, "mm"),
     }
 )
 """Every code."""

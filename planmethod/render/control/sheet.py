@@ -9,7 +9,8 @@ To the codes of `planmethod.render.control.texts`, which looks at texts, it adds
 ``PM-D11``  a dashed line does not begin and end with a stroke
 ``PM-D12``  a dashed line is too short to show its pattern
 ``PM-D13``  lines or inscriptions run into the title block or graph 26
-``PM-D14``  a letter is far from what it names, or nearer to another arrow than to its own
+
+and those of `planmethod.render.control.misleading`.
 """
 
 from __future__ import annotations
@@ -17,8 +18,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from math import inf, tau
+from math import tau
 
+from planmethod.render.control.misleading import misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of
 from planmethod.render.control.unused import ink_points, largest_empty
@@ -39,20 +41,14 @@ from planmethod.render.ink.drawing import (
     Ink,
     Item,
     Stroke,
-    Text,
     View,
 )
-from planmethod.render.ink.extent import arc_points, ink_bounds
+from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.lettering import using
 from planmethod.render.ink.style import PENS, arc_spans, stroke_lines, sweep
-from planmethod.render.ink.typeset import text_corners
-from planmethod.render.labels.model import LED
 
 SHORTEST = 5.0
 """Shortest segment of a plan, mm: half a division of the ruler is then a tenth of it."""
-
-LEADER = 60.0
-"""Longest leader line of a letter, mm: the eye does not follow it further."""
 
 UNUSED = 15.0
 """Largest empty rectangle, per cent of the field within the frame."""
@@ -88,7 +84,10 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         *scales_missing(drawing.items, drawing.views),
         *(() if drawing.goes_on else unused_paper(drawing.items, inner)),
         *(_attributed(finding, drawing.views, inner) for finding in dashes_unseen(drawing.items)),
-        *(_attributed(finding, drawing.views, inner) for finding in misleading(drawing.items)),
+        *(
+            _attributed(finding, drawing.views, inner)
+            for finding in misleading(drawing.items, writings_of(drawing.items), drawing.views)
+        ),
     ]
     return sorted(findings, key=lambda finding: finding.code)
 
@@ -245,36 +244,6 @@ def dashes_unseen(items: Iterable[Item]) -> Iterator[Finding]:
         elif pieces < 2:
             length = _length(item)
             yield Finding("PM-D12", where, length, length * _enlarged(item), facts)
-
-
-def misleading(items: Sequence[Item]) -> Iterator[Finding]:
-    """Find letters that may be taken for those of something else.
-
-    The letter of a turn arrow that stands nearer to another arrow of its scheme; a letter whose
-    leader line is longer than `LEADER`.
-    """
-    arrows: dict[str, list[Arc]] = {}
-    for item in items:
-        if isinstance(item, Arc) and item.tag[:2] in ("ω ", "ε "):
-            arrows.setdefault(item.tag, []).append(item)
-        elif isinstance(item, Stroke) and item.tag.startswith(LED):
-            far = abs(item.points[-1] - item.points[0])
-            if far > LEADER:
-                yield Finding(
-                    "PM-D14", item.points[-1], far, LEADER, {"name": item.tag[len(LED) :]}
-                )
-    for item in items:
-        if not isinstance(item, Text) or item.label not in arrows:
-            continue
-        place = sum(text_corners(item), 0j) / 4
-        near = {
-            tag: min(abs(place - p) for arc in arcs for p in arc_points(arc))
-            for tag, arcs in arrows.items()
-        }
-        other = min((far for tag, far in near.items() if tag != item.label), default=inf)
-        if near[item.label] > other + _TOUCH:
-            yield Finding("PM-D14", place, near[item.label], other, {"name": item.label})
-            del arrows[item.label]
 
 
 def _dashed(item: Stroke | Arc) -> tuple[int, float]:

@@ -16,11 +16,11 @@ Codes:
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from shapely import LineString, Point, Polygon, STRtree, union_all
 from shapely.geometry.base import BaseGeometry
 
+from planmethod.record import dataclass
 from planmethod.render.control.remarks import Finding
 from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text

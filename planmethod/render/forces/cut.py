@@ -6,7 +6,7 @@ A group is cut free at its outer joints: there the reactions stand for what was 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import combinations
 
 from planmethod.construct.steps import PointName
@@ -15,6 +15,7 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import CoupleOn, Edge, Moments, Share
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
 from planmethod.render.forces.arms import Arm, arm_items, arms_of
 from planmethod.render.forces.arrows import (
     Acting,
@@ -28,10 +29,10 @@ from planmethod.render.forces.arrows import (
 from planmethod.render.forces.guides import (
     FAR,
     Pressed,
-    dimension,
     drawn_length,
     point_items,
     pressed,
+    span_dimension,
 )
 from planmethod.render.forces.shifts import Shifted, shift_items, shifts_on
 from planmethod.render.ink.drawing import Disc, Ink, Item
@@ -169,7 +170,7 @@ def _loaded_picture(
     items += turns
     labels += sizes
     for span in (one.span for one in guided if one.span is not None):
-        drawn, letter = dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
+        drawn, letter = span_dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
         items += drawn
         labels.append(letter)
     return lettered(items, [*labels, *more, *letters, *_letters(scheme, prefix, links)])

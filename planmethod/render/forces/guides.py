@@ -7,15 +7,15 @@ from the joint; where a slider does not reach so far, as two forces at its edges
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass
 
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
 from planmethod.render.forces.arrows import Acting, Segment, distance
-from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.symbols import SIZES, arrowhead, unit
+from planmethod.render.symbols import SIZES, dimension, unit
 from planmethod.solved.forces.guides import Guided, guides
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
@@ -31,9 +31,6 @@ DIMENSION = "dimension"
 
 _SHORTEST = 8.0  # of a slider that is drawn to scale, mm
 _LEAST = 1.5  # mm: a distance below it is not dimensioned
-_HEAD = 2.5  # length of an arrowhead of a dimension, mm
-_BEYOND = 1.5  # of the extension lines beyond the dimension line, mm
-_TAIL = 5.0  # of a dimension line whose arrowheads are outside, mm
 _LEVELS = (9.0, 14.0, 19.0, 25.0, 31.0)  # from the guide to a dimension line, mm
 _CLEAR = 2.5  # mm: nearer a dimension line crowds a line of the drawing
 
@@ -160,7 +157,7 @@ def point_items(ones: Iterable[Pressed], factor: float) -> list[Item]:
     return [Disc(place, 0.7 * factor, Ink.BLACK, tag=POINT) for one in ones for place in one.points]
 
 
-def dimension(
+def span_dimension(
     span: Span, lines: Sequence[Segment], height: float, prefix: str
 ) -> tuple[list[Item], Label]:
     """Return a dimension along a guide on its freer side, and its letter (размер).
@@ -177,16 +174,7 @@ def dimension(
     )
     start, end = span.start + out, span.end + out
     tag = f"{DIMENSION} {span.symbol}"
-    is_wide = abs(end - start) >= 3 * _HEAD
-    items: list[Item] = []
-    for foot, corner in ((span.start, start), (span.end, end)):
-        beyond = corner + unit(out) * _BEYOND
-        items.append(Stroke((foot + unit(out) * _face(1.0), beyond), Pen.THIN, tag=tag))
-    tail = 0.0 if is_wide else _TAIL
-    items.append(Stroke((start - along * tail, end + along * tail), Pen.THIN, tag=tag))
-    outward = -along if is_wide else along
-    items += arrowhead(start, outward, length=_HEAD, tag=tag)
-    items += arrowhead(end, -outward, length=_HEAD, tag=tag)
+    items = dimension(span.start, span.end, out, gap=_face(1.0), tag=tag)
     label = Label(
         typeset(span.symbol, height),
         (start + end) / 2,

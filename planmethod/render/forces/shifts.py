@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from planmethod.note.narrate.forces.resultants import force_symbol, shift_symbol
 from planmethod.note.numbers import Notation, half_up
+from planmethod.record import dataclass
 from planmethod.render.forces.arrows import Acting, Segment
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset

@@ -7,11 +7,11 @@ of drawings, form 2 that of the first sheet of a text document, form 2a that of 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
 from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Align
 

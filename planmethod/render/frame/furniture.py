@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -11,6 +10,7 @@ from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.paper import FRAME_OTHER, Format
 from planmethod.problem.model import SheetSettings
+from planmethod.record import dataclass
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.ink.drawing import Bounds
 

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import Enum
 from math import radians
 from typing import TypeAlias
 
+from planmethod.record import dataclass
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 from bisect import bisect_right
 from cmath import phase
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from math import radians, tau
 from types import MappingProxyType
 from typing import Literal
 
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Pen, Stroke
 
 

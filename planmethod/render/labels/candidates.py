@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from math import tau
 from typing import TypeAlias
@@ -11,6 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.labels.model import ALONE, CLEAR, Label
 from planmethod.render.symbols import unit

@@ -10,13 +10,13 @@ on a line and the leader lines are short in all.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planmethod.record import dataclass
 from planmethod.render.labels.candidates import Candidates, Complexes, Floats, crossed
 from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import CROSSED, Paper

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import Inscription, typeset
 
@@ -46,7 +45,7 @@ class Manner:
 
     rings: tuple[float, ...] = (0.0, 1.2, 3.0, 5.5, 9.0)
     angles: int = 16
-    far_rings: tuple[float, ...] = (13.0, 18.0, 25.0, 34.0, 46.0, 62.0, 84.0, 112.0, 150.0)
+    far_rings: tuple[float, ...] = (13.0, 18.0, 25.0, 34.0, 46.0)
     far_angles: int = 32
     leader_from: float = 8.0
     leader: float = 25.0

@@ -29,6 +29,7 @@ _PER_MM = 20.0
 _BETWEEN = 7.0  # per thin line between a label and what it names
 _THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
 _ROUND_AREAS = 0.54  # white between a label and a filled area, mm
+_BESIDE = 0.6  # more of it at the sides of letters, mm: nearer they would read as one word
 _ALONG_LINE = 25.0  # a leader line along a line
 _ALONG = 0.2  # radians: less between them and they run along each other
 _AT = 0.3  # mm: a line nearer goes through the point
@@ -213,7 +214,11 @@ def _split(
             case Disc(centre=centre, radius=radius):
                 areas.append(points(centre.real, centre.imag).buffer(radius, quad_segs=4))
             case Text():
-                areas.append(polygons([(p.real, p.imag) for p in text_corners(item)]))
+                corners = text_corners(item)
+                sides = (-_BESIDE, _BESIDE, _BESIDE, -_BESIDE)
+                areas.append(
+                    polygons([(p.real + s, p.imag) for p, s in zip(corners, sides, strict=True)])
+                )
             case Fill():
                 pass  # no area
         if isinstance(item, (Stroke, Arc)):

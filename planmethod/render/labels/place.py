@@ -8,11 +8,12 @@ one or two others elsewhere. The same input gives the same places.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item
 from planmethod.render.labels.candidates import (
     Candidates,

@@ -5,11 +5,12 @@ Every block is placed by its **upper left** corner, since a sheet is filled from
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, Protocol, TypeAlias
 
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
@@ -21,7 +22,7 @@ from planmethod.render.ink.typeset import (
 )
 
 # What must not be taken apart when a word is broken: an escaped sign, a letter with its indices.
-_SIGNS = re.compile(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
+_SIGNS = pattern(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
 
 Align: TypeAlias = Literal["left", "centre", "right"]
 

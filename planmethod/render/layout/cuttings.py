@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, TypeAlias
 
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Block
 

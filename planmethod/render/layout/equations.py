@@ -12,10 +12,11 @@ below the lines the direction itself::
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from planmethod.note.narrate.letters import direction_text
 from planmethod.plans.model import Known, VectorEquation
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import (
     Inscription,

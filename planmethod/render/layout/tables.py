@@ -11,11 +11,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
@@ -27,7 +29,7 @@ UnitsAt: TypeAlias = Literal["above", "below", "none"]
 
 _PAD = 1.5  # white on both sides of a cell's text, mm
 _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
-_NUMBER = re.compile(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
+_NUMBER = pattern(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
 
 
 @dataclass(frozen=True, slots=True)

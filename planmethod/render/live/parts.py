@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.pictures.scheme import AXIS, Scheme
 from planmethod.render.symbols import SIZES, guide_line, slider, turn_arrow

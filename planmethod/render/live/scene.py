@@ -7,7 +7,7 @@ inscriptions hang on outputs. Lengths in millimetres are told at the scales of t
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import Fixed, Interpolation, Over, Table, Turning
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.parts import Part, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines

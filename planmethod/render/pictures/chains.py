@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from cmath import exp
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
 from math import radians
@@ -17,6 +16,7 @@ from planmethod.mechanism.describe import pairs
 from planmethod.mechanism.groups import AssurGroup, Joint, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
+from planmethod.record import dataclass
 from planmethod.render.pictures.embedding import Bar, Net, places
 
 

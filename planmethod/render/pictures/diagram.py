@@ -7,13 +7,13 @@ abscissae with their numbers, on the side that the curve leaves free.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
 from math import ceil, floor
 
 from planmethod.construct.scale import series_near
 from planmethod.note.numbers import Notation, trimmed
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
@@ -13,6 +12,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
 from planmethod.solved.errors.motion import drafting_of

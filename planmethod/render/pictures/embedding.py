@@ -8,13 +8,15 @@ length. Places are complex, in grid units, y up; the frame is the row y = 0.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import combinations
 from random import Random
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+from planmethod.record import dataclass
 
 Complexes: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]

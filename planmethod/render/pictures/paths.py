@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from math import tau
 
@@ -14,6 +13,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution

@@ -10,7 +10,7 @@ dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import combinations
 
 import numpy as np
@@ -18,6 +18,7 @@ import numpy as np
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
@@ -72,7 +73,7 @@ class Positions:
     def __post_init__(self) -> None:
         s = self.solution
         self.paths = Paths(s)
-        extremes = self.paths.extremes
+        extremes = self.paths.extremes if shows_extremes(s, self.overlay) else ()
         # The extreme positions behind the others, so that links have one length in all of them.
         at = [*s.positions.tolist(), *extremes]
         self.shown = Solution(s.problem, positions=at, scales=s.scales) if extremes else s
@@ -81,6 +82,16 @@ class Positions:
         self.numbers |= {
             first + k: prime for k, prime in zip(range(len(extremes)), PRIMES, strict=False)
         }
+
+    @property
+    def ends(self) -> tuple[complex, complex] | None:
+        """Places of the output's point in two extreme positions, where both are shown, mm."""
+        shown = [index for index, number in self.numbers.items() if number in PRIMES]
+        output = self.paths.output
+        if output is None or len(shown) < len(PRIMES):
+            return None
+        one, two = (self.at(output[1], index) for index in shown)
+        return one, two
 
     @property
     def points(self) -> list[str]:
@@ -193,6 +204,11 @@ class Positions:
             manner=CROWDED,
             series=point,
         )
+
+
+def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
+    """Tell whether the extreme positions are shown: among few they would be taken for two more."""
+    return len(indices) > FEW or solution.problem.cycle is not None
 
 
 def bold_position(solution: Solution, indices: Sequence[int]) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
@@ -117,9 +118,9 @@ class Scheme:
         """Join a point off the axis to the link: as a stiff triangle, or by a rigid arm."""
         inside = along[0][0].real < z.real < along[-1][0].real
         if len(along) > 1 and inside and abs(z.imag) > 0.15 * (along[-1][0] - along[0][0]).real:
-            self.lines += stiff_triangle(
-                along[0][1], along[-1][1], place, factor=self.factor, pen=self.pen
-            )
+            corners = (along[0][1], along[-1][1], place)
+            tag = f"link {link}"
+            self.lines += stiff_triangle(*corners, factor=self.factor, pen=self.pen, tag=tag)
             self.segments.setdefault(link, []).append((along[0][1], place))
             return
         nearest = min(along, key=lambda pair: abs(pair[0] - z))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import lru_cache
 from itertools import pairwise
 from math import radians
@@ -17,6 +17,7 @@ from math import radians
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.mechanism.structure import Structure
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset

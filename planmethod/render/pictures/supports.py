@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from math import pi, radians, sin
 from typing import TYPE_CHECKING
 
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Item, Stroke
 from planmethod.render.symbols import SIZES, fixed_pivots, foot_of
 

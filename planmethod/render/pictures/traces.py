@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from math import pi
 from typing import TypeAlias
 
@@ -27,6 +26,7 @@ from planmethod.construct.steps import (
 from planmethod.note.narrate.letters import direction_text, shown_letters
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import Plan, PlanKind, Relation, Vector
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label

@@ -49,7 +49,7 @@ def balancing_text(solution: Solution, indices: Sequence[int], manner: Manner) -
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     assert solution.problem.dynamics is not None
     facts = given(solution.problem, manner.words)
-    facts += mass_lines(solution.problem.dynamics, manner.words.say)
+    facts += mass_lines(solution.problem, manner.words)
     blocks: list[Block] = [
         stated(facts, tell.said.balancing_wanted, manner),
         heading(manner.entry.title or tell.said.balancing, height),

@@ -6,11 +6,11 @@ A new kind is one function and one line here.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from importlib import import_module
 from types import MappingProxyType
 from typing import TypeAlias
 
+from planmethod.record import dataclass
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import results_block

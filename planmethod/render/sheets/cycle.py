@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from planmethod.note.numbers import MINUS, Notation, half_up, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.model import Convention
+from planmethod.record import dataclass
 from planmethod.render.forces.hodograph import (
     hodograph_picture,
     hodograph_scale,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +13,7 @@ from planmethod.errors import LayoutError
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.problem.load_records import Load, Shape, Table
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Span, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset

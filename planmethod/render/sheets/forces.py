@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from planmethod.note.narrate.forces.common import ForceContext, lettered
 from planmethod.note.narrate.forces.lever import LeverNarrator
@@ -18,6 +17,7 @@ from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.forces.polygons import Share
 from planmethod.plans.model import Known, PlanKind
+from planmethod.record import dataclass
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.leverpicture import lever_picture

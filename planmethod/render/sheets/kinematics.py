@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -14,6 +14,7 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
 from planmethod.paper import Format
 from planmethod.problem.model import Problem, Scales
+from planmethod.record import dataclass
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations, groupby, pairwise
 from math import inf
 from typing import TypeAlias
 
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.render.frame.furniture import Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Item, View

@@ -7,7 +7,6 @@ of formation; on the right, above the title block, the tables of pairs and links
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from math import ceil
 
 from planmethod.errors import LayoutError
@@ -15,6 +14,7 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.render.frame.clearance import is_clear
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room

@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 
 from planmethod.construct.scale import Scale
 from planmethod.note.narrate.formulas import knot_letter, view_name
+from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.turn import extremes_named
 from planmethod.note.numbers import Notation, is_nothing, with_unit
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row
 from planmethod.render.pictures.ellipses import ellipse_inscription
 from planmethod.render.pictures.enlarged import ENLARGED
+from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
     knot_pictures,
     plan_picture,
     plan_places,
 )
-from planmethod.render.pictures.positions import bold_position
+from planmethod.render.pictures.positions import PRIMES, bold_position, shows_extremes
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.traces import shown_traces
 from planmethod.render.sheets.model import Manner
@@ -32,6 +35,7 @@ from planmethod.render.sheets.results import position_text
 from planmethod.solved.enlarging import least_shown
 from planmethod.solved.scaling import per_row
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import turn_of
 
 CAPTION = 3.5
 """Height of the letters of one of many plans, and of its caption, mm."""
@@ -152,7 +156,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
         traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
     )
     kind = PlanKind.POSITION
-    block = _with_scale(solution, kind, picture, manner, (bold,))
+    block = _with_scale(solution, kind, picture, manner, (bold,), indices)
     return Viewed(block, kind.value, solution.scales[kind])
 
 
@@ -215,9 +219,13 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
 
 
 def _with_scale(
-    solution: Solution, kind: PlanKind, picture: Block, manner: Manner, ellipses: Sequence[int]
-) -> Column:
-    """Return a picture with its name and scale; ``ellipses`` are the positions that have them."""
+    solution: Solution, kind: PlanKind, picture: Block, manner: Manner, ellipses: Sequence[int],
+    indices: Sequence[int] = (),
+) -> Column:  # fmt: skip
+    """Return a picture with its name and scale; ``ellipses`` are the positions that have them.
+
+    ``indices`` are those of a scheme.
+    """
     words = manner.words
     one, many = words.sheets.views[kind.value]
     chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
@@ -228,8 +236,23 @@ def _with_scale(
     own = [i for i in ellipses if plans and solution.own_scale(kind, i) != solution.scales[kind]]
     if own:
         said[0] += words.sheets.but_for.format(numbers=", ".join(map(str, own)))
+    if kind is PlanKind.POSITION and len(solution.positions) > 1:
+        said += _extremes(solution, indices, manner)
     said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
     return named(picture, title, said, manner)
+
+
+def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> list[str]:
+    """Return what is told of the extreme positions on a scheme, if it shows both."""
+    if not shows_extremes(solution, indices):
+        return []
+    paths = Paths(solution)
+    if paths.output is None or len(paths.extremes) < len(PRIMES):
+        return []
+    letter = point_name(paths.output[1])
+    names = ", ".join(f"{letter}{prime}" for prime in PRIMES)
+    whole = paths.course.closed and solution.problem.drive.is_crank and not manner.extras.turn
+    return extremes_named(turn_of(solution) if whole else None, names, manner.words)
 
 
 def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:

@@ -15,6 +15,7 @@ from planmethod.render.symbols.arrows import (
     turn_sign,
     vector_arrow,
 )
+from planmethod.render.symbols.dimensions import angle_dimension, dimension
 from planmethod.render.symbols.grounds import (
     bearing,
     fixed_pivot,
@@ -33,6 +34,7 @@ from planmethod.render.symbols.hatching import (
 )
 from planmethod.render.symbols.links import crank, link, rigid_corner, rocker, stiff_triangle
 from planmethod.render.symbols.pairs import (
+    SLIDER,
     offset_slider,
     revolute,
     revolute_on,
@@ -44,13 +46,16 @@ from planmethod.render.symbols.sizes import SIZES, Sizes, angle_of, unit
 __all__ = [
     "GROUND",
     "SIZES",
+    "SLIDER",
     "Sizes",
+    "angle_dimension",
     "angle_of",
     "arrowhead",
     "bearing",
     "before_links",
     "clipped",
     "crank",
+    "dimension",
     "drive_arrow",
     "fixed_pivot",
     "fixed_pivots",

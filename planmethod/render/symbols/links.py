@@ -38,6 +38,7 @@ def stiff_triangle(
     marked: bool = False,
     factor: float = 1.0,
     pen: Pen = Pen.MAIN,
+    tag: str = "",
 ) -> list[Item]:
     """Return a link with three or more points: its outline, rigid (трёхпарное звено).
 
@@ -51,7 +52,7 @@ def stiff_triangle(
         around = zip((corners[-1], *corners[:-1]), corners, (*corners[1:], corners[0]), strict=True)
         for before, vertex, after in around:
             items += rigid_corner(vertex, before, after, factor=factor)
-    return [*items, Stroke(corners, pen, closed=True)]
+    return [*items, Stroke(corners, pen, closed=True, tag=tag)]
 
 
 def crank(pivot: complex, pin: complex, *, path: bool = False, tag: str = "") -> list[Item]:

@@ -9,6 +9,9 @@ from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Strok
 from planmethod.render.ink.style import PENS
 from planmethod.render.symbols.sizes import SIZES, unit
 
+SLIDER = "slider"
+"""Tag of the outline of a slider."""
+
 
 def revolute(
     at: complex, *, count: int = 1, factor: float = 1.0, pen: Pen = Pen.MAIN
@@ -78,7 +81,7 @@ def slider(
         at + turn * corner
         for corner in (-half - 1j * tall, half - 1j * tall, half + 1j * tall, -half + 1j * tall)
     )
-    return [Fill(corners, Ink.WHITE), Stroke(corners, pen, closed=True)]
+    return [Fill(corners, Ink.WHITE), Stroke(corners, pen, closed=True, tag=SLIDER)]
 
 
 def offset_slider(foot: complex, pin: complex) -> list[Item]:

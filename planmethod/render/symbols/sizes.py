@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import cmath
-from dataclasses import dataclass
 from math import degrees
+
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -14,6 +13,7 @@ from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName
+from planmethod.record import dataclass
 from planmethod.solved.reading import Flags
 
 RADIAN = float(np.degrees(1.0))

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
@@ -17,6 +16,7 @@ from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Force, Reaction
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import (
     RADIAN,
     Drafted,

@@ -8,7 +8,6 @@ off to first order; where a step itself is as good as impossible, whole sheets a
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -32,6 +31,7 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.errors import PlanMethodError
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.reading import Flags, Reals
 

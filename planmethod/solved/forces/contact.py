@@ -11,7 +11,6 @@ Source: the homework guide's section 1, on the forces in lower pairs.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -22,6 +21,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Problem, Slide
+from planmethod.record import dataclass
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 

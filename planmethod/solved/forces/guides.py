@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
+from planmethod.record import dataclass
 from planmethod.solved.forces.contact import Contact, EdgeForce
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
 from planmethod.solved.reading import remembered

@@ -7,7 +7,6 @@ other way where the link goes counter-clockwise, for the segment then lies again
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isfinite
 from typing import TypeAlias
 
@@ -15,6 +14,7 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Given
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.board import letter
+from planmethod.record import dataclass
 from planmethod.solved.forces.reading import ForceReading
 
 _Own: TypeAlias = tuple[

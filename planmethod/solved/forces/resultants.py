@@ -8,7 +8,6 @@ position, and where its line stays on the paper.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 FAINT = 0.02

@@ -11,7 +11,6 @@ Source: Артоболевский, Теория механизмов и маш�
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import degrees
 
@@ -28,6 +27,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.diagrams.massmoments import MassMoments, build
 from planmethod.problem.load_records import Weighing
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution

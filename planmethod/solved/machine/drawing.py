@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import atan, degrees
 
@@ -16,6 +15,7 @@ from planmethod.construct.scale import choose_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, Given, Places, build
 from planmethod.problem.load_records import Method, Ordinates
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.machine.flywheel import Flywheel, Points

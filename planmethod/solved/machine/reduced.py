@@ -7,7 +7,6 @@ with the velocities of the plans. A moment is positive where it resists the turn
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from planmethod.problem.load_records import (
     Signs,
     Table,
 )
+from planmethod.record import dataclass
 from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.forces.loads import MotionValues, external

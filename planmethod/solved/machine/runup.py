@@ -9,7 +9,6 @@ jumps; what the cells need of M, J and dJ/dphi is read once, and a cell that err
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import inf, pi, sqrt
@@ -17,6 +16,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from planmethod.record import dataclass
 from planmethod.solved.course.curve import joined
 from planmethod.solved.machine.flywheel import Flywheel, hermite, turning_points
 from planmethod.solved.reading import Reals, Remembering, remembered

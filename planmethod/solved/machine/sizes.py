@@ -8,10 +8,10 @@ is what its greatest speed allows, and the width grows.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 
 from planmethod.problem.load_records import Shape, Wheel
+from planmethod.record import dataclass
 
 STEEL_FACTOR, STEEL = 0.38, 7800.0
 """D = 0.38·J^(1/5) of a steel disc, m and kg·m², and the density of a steel rim, kg/m³."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from planmethod.construct.compiled.symbolic import Symbol, Written
 from planmethod.construct.compiled.tape import Ref
 from planmethod.construct.steps import Name
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.record import dataclass
 
 FORCES = FACTS[PlanKind.FORCE].prefix
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from planmethod.construct.steps import LayOff, NumberName, PointName, Step
@@ -13,7 +12,8 @@ from planmethod.plans.legend import ZERO
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.plans.motion.board import Motion
 from planmethod.plans.segments import Segments
-from planmethod.problem.selector import POLE, Selector
+from planmethod.problem.selector import ANALOGUES, POLE, Selector
+from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 PLANS: Mapping[str, PlanKind] = {
@@ -142,6 +142,8 @@ class Asking:
             return Answer(self.compute((rates[link], power), *arm) if link in rates else self.zero)
         if kind in ("ak", "ar"):
             return Answer(self.relative(kind, *names))
+        if kind in ANALOGUES:
+            raise UnansweredError(NoAnswer.NO_WHAT)  # no plan has them
         (link,) = names
         if link not in self.solution.links:
             raise UnansweredError(NoAnswer.NO_LINK)

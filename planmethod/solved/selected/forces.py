@@ -7,7 +7,6 @@ those of the position plan, from the line on which a force acts.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 
 from planmethod.construct.arithmetic import Float64
@@ -20,6 +19,7 @@ from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
 from planmethod.plans.segments import Ends
 from planmethod.problem.selector import Selector
+from planmethod.record import dataclass
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Reading

@@ -12,7 +12,8 @@ from functools import cached_property
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import PlanKind
-from planmethod.problem.selector import FORCES, Selector
+from planmethod.problem.selector import ANALOGUES, FORCES, Selector
+from planmethod.solved.analogues import analogues
 from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
 from planmethod.solved.selected.forces import ForceQuantities
 from planmethod.solved.solution import Solution
@@ -63,10 +64,12 @@ class Quantities:
     def read(self, selector: Selector) -> float | None:
         """Return the value that follows from the segments read with the ruler.
 
-        None for an angle, which is taken with a protractor and not with the ruler.
+        None for an angle, which is taken with a protractor and not with the ruler, and for
+        analogues, which no plan has.
         """
-        if any(part is not None and is_angle(part) for part in (selector, selector.over)):
-            return None
+        for part in filter(None, (selector, selector.over)):
+            if is_angle(part) or part.kind in ANALOGUES:
+                return None
         return self._quotient(selector, by_hand=True)
 
     def _quotient(self, selector: Selector, *, by_hand: bool) -> float:
@@ -86,6 +89,8 @@ class Quantities:
             if selector.names[0] not in solution.links:
                 raise UnansweredError(NoAnswer.NO_LINK)
             return float(solution.links[selector.names[0]].phi_deg[self.position])
+        if selector.kind in ANALOGUES:
+            return self._analogue(selector.kind[:-1], selector.kind[-1] == "2", *selector.names)
         asking = Asking(solution, solution.construction.draft.copy())
         answer = asking.answer(selector)
         reading, hand = solution.si, Float64()
@@ -96,6 +101,17 @@ class Quantities:
         if answer.plan is not None and not by_hand:
             value /= solution.scales[answer.plan].per_mm
         return value if answer.signed else abs(value)
+
+    def _analogue(self, what: str, second: bool, name: str) -> float:
+        points, links = analogues(self.solution)
+        if what == "phi":
+            if name not in links:
+                raise UnansweredError(NoAnswer.NO_LINK)
+            return float(links[name][second][self.position])
+        if name not in points:
+            raise UnansweredError(NoAnswer.NO_POINT)
+        rate = points[name].acceleration if second else points[name].velocity
+        return float((rate.real if what == "x" else rate.imag)[self.position])
 
     def lever(self, selector: Selector) -> tuple[PlanKind, float] | None:
         """Return the plan that an angle or a rate is read off, and what a metre of it is worth.

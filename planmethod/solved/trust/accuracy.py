@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.languages import say
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Problem
+from planmethod.record import dataclass
 from planmethod.solved.impossible import failing
 from planmethod.solved.results import natural_size, results_of
 from planmethod.solved.solution import Solution

@@ -11,7 +11,6 @@ Source: Артоболевский, Теория механизмов и маш�
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 from math import atan2, degrees
@@ -27,6 +26,7 @@ from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Prismatic, Revolute
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Complexes, remembered

@@ -12,7 +12,6 @@ position zero; diagrams are over the angle of a crank that turns evenly.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import radians
@@ -28,6 +27,7 @@ from planmethod.errors import AssemblyError
 from planmethod.plans.diagrams.board import Axes, Board
 from planmethod.plans.diagrams.calculus import differentiate, integrate, repeated
 from planmethod.problem.model import Convention, Differentiation
+from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Reals, Remembering, remembered

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
+from planmethod.record import dataclass
 from planmethod.solved.reading import Complexes, Reading, Reals
 from planmethod.solved.solution import Solution
 

@@ -8,7 +8,7 @@ or a group just closes, are roots of what the program says there.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from functools import cached_property, partial
 
@@ -20,10 +20,11 @@ from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointN
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
-from planmethod.problem.model import CycleTask, Problem, Zero
+from planmethod.problem.model import CycleTask, Zero
+from planmethod.record import dataclass
 from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
-from planmethod.solved.solution import PointMotion, Solution
+from planmethod.solved.solution import Solution
 from planmethod.solved.turn.output import Output, find_output, pressure_on
 from planmethod.solved.turn.roots import crossings, root, top
 
@@ -463,28 +464,7 @@ class Turn(Remembering):
         return Peak(*found)
 
 
-def at_unit_rate(problem: Problem) -> Problem:
-    """Return a problem driven at one radian, or metre, a second: rates are analogues."""
-    drive = replace(problem.drive, rate=1.0, acceleration=0.0)
-    return replace(problem, drive=drive, dynamics=None)
-
-
 @remembered
 def turn_of(solution: Solution) -> Turn:
     """Return the cycle of a solution's mechanism; kept, since several views show it."""
     return Turn(solution)
-
-
-@remembered
-def analogues(solution: Solution) -> tuple[dict[str, PointMotion], dict[str, tuple[Reals, Reals]]]:
-    """Return first and second transfer functions in the positions of a solution (аналоги).
-
-    Returns
-    -------
-    points : dict
-        Motions at one radian (or metre) a second: velocity dx/dφ, acceleration d²x/dφ².
-    links : dict
-        dφ_i/dφ and d²φ_i/dφ², ndarrays of shape (n,).
-    """
-    unit = Solution(at_unit_rate(solution.problem), positions=solution.positions.tolist())
-    return unit.points, {name: (one.omega, one.epsilon) for name, one in unit.links.items()}

@@ -17,7 +17,7 @@ def cycle_statement(solution: Solution, words: Language) -> list[str]:
     problem = solution.problem
     assert problem.dynamics is not None
     lines = given(problem, words, [float(position) for position in solution.positions])
-    lines += mass_lines(problem.dynamics, words.say)
+    lines += mass_lines(problem, words)
     return [*lines, *(_load(solution, load, words) for load in problem.dynamics.loads)]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.numbers import significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverShift, OnLink
 from planmethod.solved.forces.reading import ForceReading

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments
+from planmethod.record import dataclass
 from planmethod.solved.forces.guides import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")

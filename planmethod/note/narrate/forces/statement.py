@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from planmethod.note.narrate.given import given
+from planmethod.note.narrate.given import As, given
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, reaction_symbol
-from planmethod.problem.load_records import Dynamics
+from planmethod.problem.load_records import Dynamics, Load, Table
+from planmethod.problem.model import Problem
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
 
 
@@ -25,33 +26,48 @@ def plan_title(reading: ForceReading, plan: ForcePlan, words: Language) -> str:
 
 def statement(reading: ForceReading, words: Language) -> list[str]:
     """Return what is given: the mechanism, masses, moments of inertia, external loads."""
-    problem, index, say = reading.solution.problem, reading.index, words.say
+    problem, index = reading.solution.problem, reading.index
     dynamics = problem.dynamics
     assert dynamics is not None
     lines = given(problem, words, [float(reading.solution.positions[index])])
-    lines += mass_lines(dynamics, say)
+    lines += mass_lines(problem, words)
+    text = As(problem, words)
     for contact in reading.statics.contacts.values():
         if contact.length is not None:
             letter = reaction_symbol(contact.joint.on, contact.joint.by, letter="a")
-            lines.append(f"{letter} = {say.given(contact.length)} {say.units['m']}")
+            lines.append(f"{letter} = {text.metres(contact.length)}")
+    paths = _paths(dynamics)
     for one in _external(reading):
         size = abs(complex(one.force[index])) if one.point else abs(float(one.couple[index]))
         if size:
-            unit = say.units["N" if one.point else "N·m"]
-            lines.append(f"{one.name} = {say.short(size)} {unit}")
+            unit = "N" if one.point else "N·m"
+            if one.name in paths:
+                said = text.number(size, unit, paths[one.name])
+            else:
+                said = f"{words.say.short(size)} {words.say.units[unit]}"
+            lines.append(f"{one.name} = {said}")
     return lines
 
 
-def mass_lines(dynamics: Dynamics, say: Notation) -> list[str]:
-    """Return the masses, the moments of inertia and the acceleration of free fall."""
-    masses, units = dynamics.masses.items(), say.units
-    lines = [
-        f"m_{{{link}}} = {say.given(mass.mass)} {units['kg']}" for link, mass in masses if mass.mass
-    ]
-    for link, mass in masses:
-        if mass.inertia:
-            lines.append(f"J_{{S{link}}} = {say.short(mass.inertia)} {units['kg·m²']}")
-    return [*lines, f"g = {say.given(dynamics.gravity)} {units['m/s²']}"]
+def mass_lines(problem: Problem, words: Language) -> list[str]:
+    """Return the masses, moments of inertia and the acceleration of free fall as the file has."""
+    dynamics, text, lines = problem.dynamics, As(problem, words), []
+    assert dynamics is not None
+    for symbol, key, unit in (("m_{%s}", "mass", "kg"), ("J_{S%s}", "inertia", "kg·m²")):
+        for link, mass in dynamics.masses.items():
+            if value := getattr(mass, key):
+                said = text.number(value, unit, f"dynamics.links.{link}.{key}")
+                lines.append(f"{symbol % link} = {said}")
+    return [*lines, f"g = {text.number(dynamics.gravity, 'm/s²', 'dynamics.gravity')}"]
+
+
+def _paths(dynamics: Dynamics) -> dict[str, str]:
+    """Return where the file has the size of each load that does not change, by its letter."""
+    return {
+        load.name: f"loads[{k}].{'force' if isinstance(load, Load) else 'couple'}"
+        for k, load in enumerate(dynamics.loads)
+        if not isinstance(load.size, Table)
+    }
 
 
 def _external(reading: ForceReading) -> list[Applied]:

@@ -112,6 +112,21 @@ CONTROL = ControlWording(
                 "": "Take a larger scale or format, so that the letter stands at its own arrow.",
             },
         ),
+        "PM-D15": Said(
+            "arrow of a turn in the way",
+            "the arrow {name} lies on {thing} or nearer than {limit} mm, {place}",
+            {
+                "": "Take a larger scale or format, so that the arrows have room.",
+            },
+        ),
+        "PM-D16": Said(
+            "inscriptions read as one",
+            "'{one}' and '{two}' stand together and read as one, {place}",
+            {
+                "": "Take a larger scale or format, so that there are {limit} mm between them.",
+                "bar": "Take a larger scale or format: a line makes a fraction of them now.",
+            },
+        ),
     },
     severities={
         "error": "error",

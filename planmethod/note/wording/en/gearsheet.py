@@ -43,6 +43,8 @@ GEAR_SHEET = GearSheetWording(
         "foot": "Mark the point {point} on yy: {what}, at the height {height} mm.",
         "pitch": "the pitch point {name}",
         "own": "the axis of {name}",
+        "of pitch": "the pitch point {name}",
+        "of own": "the axis of {name}",
         "laid": "Lay off ({foot}{point}) = {length} mm from {foot}, the velocity of {what}; scale "
         "μ_v = {mu_v} (m/s)/mm.",
         "calculated": "The picture does not close from the inputs; the speed of {body} is taken "
@@ -51,7 +53,7 @@ GEAR_SHEET = GearSheetWording(
         "follows from the ray of the input {input}.",
         "line": "Join {one} and {other}: the line {body} is the picture of velocities of {body}.",
         "meet": "Draw a level line through {foot} to the line {body}; the point {point}: "
-        "({foot}{point}) is the velocity of ({what}).",
+        "({foot}{point}) is the velocity of {what}.",
         "rays": "The picture of angular velocities",
         "pole": "Lay off (po) = {pole} mm down from p parallel to yy, and draw the line xx through "
         "o perpendicular to yy.",

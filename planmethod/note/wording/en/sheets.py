@@ -20,6 +20,7 @@ SHEETS = SheetWording(
     enlarged="{letter} ({ratio}:1)",
     read_on="read on view {view}",
     but_for=" (but for positions: {numbers})",
+    extremes="{names}: extreme positions",
     of_position="{title} (position {number})",
     wanted="Find: {wanted}.",
     results="Results",

@@ -20,6 +20,7 @@ SHEETS = SheetWording(
     enlarged="{letter} ({ratio}:1)",
     read_on="по виду {view}",
     but_for=" (кроме положений: {numbers})",
+    extremes="{names} — крайние положения",
     of_position="{title} (положение {number})",
     wanted="Определить: {wanted}.",
     results="Результаты",

@@ -7,11 +7,9 @@ output formats a `Drawing` brings it along.
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import accumulate
 from pathlib import Path
@@ -19,11 +17,13 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from planmethod.errors import LayoutError
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
 
 FONTS = Path(__file__).parent.parent / "fonts"
 
-_NUMBER = re.compile(r"-?\d+")
+_NUMBER = pattern(r"-?\d+")
 
 
 @dataclass(frozen=True, slots=True)

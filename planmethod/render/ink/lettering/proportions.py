@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import radians, tan
 from types import MappingProxyType
+
+from planmethod.record import dataclass
 
 
 @dataclass(frozen=True, slots=True)

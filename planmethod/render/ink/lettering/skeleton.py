@@ -6,15 +6,15 @@ on the base line at the left end of the letter's room, y up.
 
 from __future__ import annotations
 
-import re
 from cmath import exp, phase
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, radians, tan, tau
 from typing import TypeAlias
 
+from planmethod.pattern import pattern
+from planmethod.record import dataclass
 from planmethod.render.ink.lettering import shapes
 from planmethod.render.ink.lettering.proportions import TYPES, Proportions
 
@@ -181,7 +181,7 @@ def _moved(strokes: Strokes, by: complex) -> Strokes:
 
 # The notation of the shapes ---------------------------------------------------------------------
 
-_POINT = re.compile(r"(-?[\d.]+),(-?[\d.]+)(?:~([\d.]+))?$")
+_POINT = pattern(r"(-?[\d.]+),(-?[\d.]+)(?:~([\d.]+))?$")
 
 
 @lru_cache(maxsize=1024)

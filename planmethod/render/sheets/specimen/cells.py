@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from planmethod.note.wording.specimen_model import SpecimenWording
+from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label

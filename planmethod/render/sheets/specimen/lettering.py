@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
 
 from planmethod.note.wording import Language
+from planmethod.record import dataclass
 from planmethod.render.control.texts import GRID
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import accumulate
 from math import radians
 
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language
+from planmethod.record import dataclass
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke

@@ -1,0 +1,213 @@
+"""Data classes whose methods are written when they are first called.
+
+`dataclasses.dataclass` writes the source of six methods for every class and compiles it when the
+class is made: half a millisecond a class, and a command meets two hundred of them before it begins.
+Here a class gets its slots at once and the rest at the first call: what is never made an instance
+of costs nothing. To a reader and to a type checker it is `dataclasses.dataclass`, with those of its
+options that are used here (ADR 0026); `replace`, `fields`, `asdict` and `match` work as on any.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from dataclasses import MISSING, Field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass as dataclass
+else:
+
+    def dataclass(
+        cls: type | None = None,
+        /,
+        *,
+        frozen: bool = False,
+        slots: bool = False,
+        eq: bool = True,
+        kw_only: bool = False,
+    ) -> Any:
+        """Return a class as `dataclasses.dataclass` makes it, its methods to be written later."""
+
+        def made(cls: type) -> type:
+            return _made(cls, frozen=frozen, slots=slots, eq=eq, kw_only=kw_only)
+
+        return made if cls is None else made(cls)
+
+
+class Told:
+    """What is told of one field: its default and whether it is an argument by name only."""
+
+    __slots__ = ("by_name", "default", "factory", "init", "name")
+
+    def __init__(self, name: str, value: Any, by_name: bool) -> None:
+        """Read the value that stands in the class's body."""
+        given = value if isinstance(value, Field) else None
+        self.name = name
+        self.by_name = by_name
+        self.default = value if given is None else given.default
+        self.factory = MISSING if given is None else given.default_factory
+        self.init = given is None or given.init
+
+
+def _made(cls: type, *, frozen: bool, slots: bool, eq: bool, kw_only: bool) -> type:
+    """Return the class with slots and with methods that write themselves."""
+    told = {
+        name: Told(name, cls.__dict__.get(name, MISSING), kw_only)
+        for name, kind in vars(cls).get("__annotations__", {}).items()
+        if not kind.startswith("ClassVar")
+    }
+    inherited: dict[str, Told] = {}
+    for base in cls.__mro__[:0:-1]:
+        inherited |= base.__dict__.get("__told__", {})
+    everything = inherited | told
+    body: dict[str, Any] = {
+        "__told__": told,
+        "__match_args__": tuple(t.name for t in everything.values() if t.init and not t.by_name),
+        "__dataclass_fields__": _Fields(),
+        "__init__": _WRITTEN["__init__"],
+        "__repr__": cls.__dict__.get("__repr__", _shown),
+    }
+    if eq:
+        body["__eq__"] = cls.__dict__.get("__eq__", _WRITTEN["__eq__"])
+        body["__hash__"] = cls.__dict__.get("__hash__") or (
+            _WRITTEN["__hash__"] if frozen else None
+        )
+    if frozen:
+        body |= {"__setattr__": _kept, "__delattr__": _kept}
+    if not slots:
+        for name, value in body.items():
+            setattr(cls, name, value)
+        for one in told.values():
+            if one.default is not MISSING:
+                setattr(cls, one.name, one.default)
+            elif one.name in cls.__dict__:
+                delattr(cls, one.name)
+        return cls
+    if frozen:
+        body |= {"__getstate__": _state, "__setstate__": _set_state}
+    # Slots are a matter of the class's making: it is made again, without the defaults in its body.
+    rest = {k: v for k, v in cls.__dict__.items() if k not in {*told, "__dict__", "__weakref__"}}
+    body["__slots__"] = tuple(name for name in told if name not in inherited)
+    again = type(cls)(cls.__name__, cls.__bases__, rest | body)
+    again.__qualname__ = cls.__qualname__
+    return again
+
+
+def _all_of(cls: type) -> dict[str, Told]:
+    """Return what is told of all fields, the bases' first."""
+    found: dict[str, Told] = {}
+    for base in cls.__mro__[::-1]:
+        found |= base.__dict__.get("__told__", {})
+    return found
+
+
+def _written_later(name: str, lines: Callable[[type, dict[str, Any]], Iterator[str]]) -> Any:
+    """Return a method that, called first, puts the compiled one in its place and calls that."""
+
+    def method(self: Any, *args: Any, **kwargs: Any) -> Any:
+        owner = next(c for c in type(self).__mro__ if c.__dict__.get(name) is method)
+        names: dict[str, Any] = {"_set": object.__setattr__, "_none": MISSING}
+        exec("\n ".join(lines(owner, names)), names)
+        compiled = names[name]
+        compiled.__qualname__ = f"{owner.__qualname__}.{name}"
+        setattr(owner, name, compiled)
+        return compiled(self, *args, **kwargs)
+
+    method.__name__ = name
+    return method
+
+
+def _initial(cls: type, names: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines of ``__init__``; defaults go into its names."""
+    told = _all_of(cls).values()
+    arguments = []
+    for one in sorted((t for t in told if t.init), key=lambda t: t.by_name):
+        if one.by_name and "*" not in arguments:
+            arguments.append("*")
+        if one.default is not MISSING:
+            names[f"_of_{one.name}"] = one.default
+            arguments.append(f"{one.name}=_of_{one.name}")
+        else:
+            arguments.append(one.name if one.factory is MISSING else f"{one.name}=_none")
+    yield f"def __init__({', '.join(['self', *arguments])}):"
+    for one in told:
+        value = one.name
+        if one.factory is not MISSING:
+            names[f"_new_{one.name}"] = one.factory
+            new = f"_new_{one.name}()"
+            value = f"{new} if {one.name} is _none else {one.name}" if one.init else new
+        elif not one.init:
+            continue
+        yield f"_set(self, {one.name!r}, {value})"
+    yield "self.__post_init__()" if hasattr(cls, "__post_init__") else "pass"
+
+
+def _key(of: str, cls: type) -> str:
+    """Return the source of the tuple of all fields."""
+    return "(" + "".join(f"{of}.{name}, " for name in _all_of(cls)) + ")"
+
+
+def _equal(cls: type, _: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines of ``__eq__``."""
+    yield "def __eq__(self, other):"
+    yield "if other.__class__ is not self.__class__: return NotImplemented"
+    yield f"return {_key('self', cls)} == {_key('other', cls)}"
+
+
+def _hashed(cls: type, _: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines of ``__hash__``."""
+    yield "def __hash__(self):"
+    yield f"return hash({_key('self', cls)})"
+
+
+_WRITTEN = {
+    "__init__": _written_later("__init__", _initial),
+    "__eq__": _written_later("__eq__", _equal),
+    "__hash__": _written_later("__hash__", _hashed),
+}
+
+
+class _Fields:
+    """Fields as `dataclasses` knows them, made when they are asked for."""
+
+    def __get__(self, instance: Any, cls: type) -> dict[str, Field[Any]]:
+        """Return the fields of the class and of its bases by name."""
+        body: dict[str, Any] = {"__annotations__": {}, "__module__": cls.__module__}
+        for base in cls.__mro__[::-1]:
+            for one in base.__dict__.get("__told__", {}).values():
+                body["__annotations__"][one.name] = base.__annotations__[one.name]
+                body[one.name] = dataclasses.field(
+                    **({"default": one.default} if one.default is not MISSING else {}),
+                    **({"default_factory": one.factory} if one.factory is not MISSING else {}),
+                    init=one.init,
+                    kw_only=one.by_name,
+                )
+        plain: Any = dataclasses.dataclass(init=False, repr=False, eq=False)(
+            type(cls.__name__, (), body)
+        )
+        fields: dict[str, Field[Any]] = plain.__dataclass_fields__
+        type.__setattr__(cls, "__dataclass_fields__", fields)
+        return fields
+
+
+def _shown(self: Any) -> str:
+    """Return the class's name and its fields."""
+    fields = (f"{name}={getattr(self, name)!r}" for name in _all_of(type(self)))
+    return f"{type(self).__qualname__}({', '.join(fields)})"
+
+
+def _kept(self: Any, name: str, *_: Any) -> None:
+    """Refuse to set or to delete a field of a frozen record."""
+    raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
+
+
+def _state(self: Any) -> list[Any]:
+    """Return the values of the fields, for other processes."""
+    return [getattr(self, name) for name in _all_of(type(self))]
+
+
+def _set_state(self: Any, state: list[Any]) -> None:
+    """Take the values of the fields."""
+    for name, value in zip(_all_of(type(self)), state, strict=True):
+        object.__setattr__(self, name, value)

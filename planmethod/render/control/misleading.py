@@ -1,0 +1,140 @@
+"""Inscriptions and arrows that mislead (обозначения, вводящие в заблуждение).
+
+``PM-D14``  a letter is far from what it names, or nearer to another arrow than to its own
+``PM-D15``  an arrow of a turn touches another one or runs through a slider
+``PM-D16``  two inscriptions read as one: side by side as a word, over a short line as a fraction
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from math import inf
+
+from shapely import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
+
+from planmethod.render.control.remarks import Finding
+from planmethod.render.control.texts import Writing, called
+from planmethod.render.ink.drawing import Arc, Bounds, Item, Pen, Stroke, View
+from planmethod.render.ink.extent import arc_points
+from planmethod.render.ink.typeset import PART_OF
+from planmethod.render.labels.model import LED
+from planmethod.render.symbols import SLIDER
+
+LEADER = 50.0
+"""Longest leader line of a letter, mm: the eye does not follow it further."""
+
+ARROWS_APART = 1.0
+"""Least white between two arrows of turns, mm."""
+
+WORDS_APART = 1.0
+"""Least white between two inscriptions on one level, mm: a word gap of letters of 2.5 mm."""
+
+_BAR = 25.0  # mm: a longer line is no fraction's
+_OVER = 3.5  # mm: a letter further from a line than this does not stand on it
+_TOUCH = 0.05  # mm: what is not yet nearer
+
+Arrows = dict[str, BaseGeometry]
+"""Arcs of the arrows of ω and ε by their tags."""
+
+
+def misleading(
+    items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
+) -> Iterator[Finding]:
+    """Find letters and arrows that may be taken for something else.
+
+    ``writings`` are the inscriptions of the items; only those of views read as a word or fraction,
+    for equations and calculations are set as such.
+    """
+    arrows: Arrows = {}
+    for item in items:
+        if isinstance(item, Arc) and item.tag[:2] in ("ω ", "ε "):
+            arc = LineString([(p.real, p.imag) for p in arc_points(item, step=0.1)])
+            arrows[item.tag] = arrows[item.tag].union(arc) if item.tag in arrows else arc
+    yield from _long_leaders(items)
+    yield from _nearer_to_others(writings, arrows)
+    yield from _run_into(items, arrows)
+    inside = [one for one in writings if any(_holds(view.box, one.where) for view in views)]
+    yield from _words(inside)
+    yield from _fractions(items, inside)
+
+
+def _holds(box: Bounds, place: complex) -> bool:
+    return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
+
+
+def _long_leaders(items: Sequence[Item]) -> Iterator[Finding]:
+    for item in items:
+        if isinstance(item, Stroke) and item.tag.startswith(LED):
+            far = abs(item.points[-1] - item.points[0])
+            if far > LEADER:
+                facts = {"name": item.tag[len(LED) :]}
+                yield Finding("PM-D14", item.points[-1], far, LEADER, facts)
+
+
+def _nearer_to_others(writings: Sequence[Writing], arrows: Arrows) -> Iterator[Finding]:
+    for writing in writings:
+        if writing.name not in arrows:
+            continue
+        middle = writing.ink.centroid
+        near = {tag: middle.distance(arc) for tag, arc in arrows.items()}
+        own = near.pop(writing.name)
+        other = min(near.values(), default=inf)
+        if own > other + _TOUCH:
+            place = complex(middle.x, middle.y)
+            yield Finding("PM-D14", place, own, other, {"name": writing.name})
+
+
+def _run_into(items: Sequence[Item], arrows: Arrows) -> Iterator[Finding]:
+    """Find arrows that touch one another, or lie on a slider."""
+    things = [(arc, f"arc {Pen.THIN.value} {tag}", ARROWS_APART) for tag, arc in arrows.items()]
+    things += [
+        (Polygon([(p.real, p.imag) for p in item.points]), called(item), _TOUCH)
+        for item in items
+        if isinstance(item, Stroke) and item.tag == SLIDER
+    ]
+    for k, (tag, arc) in enumerate(arrows.items()):
+        for other, called_so, apart in things[k + 1 :]:
+            if (room := arc.distance(other)) < apart:
+                middle = complex(arc.centroid.x, arc.centroid.y)
+                facts = {"name": tag, "thing": called_so}
+                yield Finding("PM-D15", middle, room, ARROWS_APART, facts)
+
+
+def _words(writings: Sequence[Writing]) -> Iterator[Finding]:
+    """Find inscriptions side by side on one level that read as one word."""
+    boxes = [writing.ink.bounds for writing in writings]
+    for (one, a), (two, b) in combinations(zip(writings, boxes, strict=True), 2):
+        if max(b[0] - a[2], a[0] - b[2]) >= WORDS_APART:
+            continue
+        level = min(a[3], b[3]) - max(a[1], b[1])
+        gap = one.ink.distance(two.ink)
+        if 0.0 < gap < WORDS_APART and level > 0.6 * min(a[3] - a[1], b[3] - b[1]):
+            facts = {"one": one.shown, "two": two.shown}
+            yield Finding("PM-D16", one.where, gap, WORDS_APART, facts)
+
+
+def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[Finding]:
+    """Find short level lines with a letter standing on them and another one hanging under them."""
+    for item in items:
+        if not (isinstance(item, Stroke) and item.pen is Pen.THIN and len(item.points) == 2):
+            continue
+        if item.tag.startswith(PART_OF):
+            continue  # an overbar
+        (left, right) = sorted(item.points, key=lambda p: p.real)
+        if not 2.0 < right.real - left.real < _BAR or abs(right.imag - left.imag) > 0.5:
+            continue
+        level = (left.imag + right.imag) / 2
+        over, under = [], []
+        for writing in writings:
+            x0, y0, x1, y1 = writing.ink.bounds
+            if min(x1, right.real) - max(x0, left.real) < 0.5 * (x1 - x0):
+                continue
+            if 0.0 <= y0 - level < _OVER:
+                over.append(writing)
+            elif 0.0 <= level - y1 < _OVER:
+                under.append(writing)
+        for one, two in zip(over, under, strict=False):
+            facts = {"one": one.shown, "two": two.shown, "advice": "bar"}
+            yield Finding("PM-D16", left, 0.0, WORDS_APART, facts)

@@ -1,0 +1,264 @@
+"""Arrows of ω and ε on a scheme, and the angle of its crank: who draws them, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import field
+from itertools import pairwise
+
+import numpy as np
+
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.given import solution_peak
+from planmethod.note.numbers import is_nothing
+from planmethod.plans.draft import cis
+from planmethod.plans.legend import QuantityKind
+from planmethod.record import dataclass
+from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
+from planmethod.render.ink.extent import arc_points
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
+from planmethod.render.pictures.scheme import Scheme
+from planmethod.render.symbols import SIZES, angle_of, turn_arrow
+from planmethod.solved.reading import Complexes, Reals
+
+SMALL = 3.5
+"""Height of the smaller letters of a scheme, mm."""
+
+SWEEP, ARC = 70.0, 24.0
+"""Most that an arrow of ω or ε turns by, degrees, and its length before ``factor``, mm."""
+
+_LEAST, _BETWEEN = 14.0, 11.0
+"""Least radius about a pivot, and between two arrows there, before ``factor``, mm."""
+
+_RADIUS = 8.0
+"""Radius of both arrows of a link without a pivot, before ``factor``, mm."""
+
+_CLEAR, _APART = 4.0, 7.0
+"""White to lines, joints and sliders, and to other arrows, before ``factor``, mm."""
+
+_FURTHER = 0.03  # cost of a mm of radius: one place of an arc on a line costs 1
+_TURNED = 0.8  # cost of half a turn from the link
+_LETTER = 4.0  # cost of a letter on a line
+_NO_ROOM = 2.5  # cost from which an arrow is left out: the table of results tells the sense
+_OFF_BAR = (2.0, 3.6, 8.0)  # mm from the zero line of φ: no letter stands there on its other side
+_BAR = 8.0  # mm further than the line itself
+
+
+@dataclass(slots=True)
+class Senses:
+    """Arrows of turns on a scheme (направления угловых скоростей и ускорений).
+
+    An arrow is about the pivot of its link, that of ε well outside that of ω; on a link without
+    a pivot the two have one centre on the link and cross it on both sides. Of the places there it
+    takes the one that is most clear of lines, joints, sliders and other arrows; that of a crank
+    may stand all round the pivot. Its letter goes on behind its tail. Where there is no room at
+    all it is left out. ``others`` are the lines of other positions, among which the letters are
+    small and ε, which the statement tells, is left out.
+    """
+
+    scheme: Scheme
+    others: Sequence[Item] = ()
+    arrows: list[Item] = field(default_factory=list)
+    labels: list[Label] = field(default_factory=list)
+    clear: list[Item] = field(default_factory=list)
+
+    @property
+    def _height(self) -> float:
+        return SMALL if self.others else self.scheme.letter_height
+
+    def of(self, link: str) -> None:
+        """Draw the arrows of a link: none where it has no length, or turns as its guide does."""
+        scheme, problem = self.scheme, self.scheme.solution.problem
+        motion, body = scheme.solution.links[link], problem.bodies[link].points
+        part = scheme.longest(link)
+        if part is None or (link in problem.slides and len(body) == 1):
+            return
+        values = {
+            QuantityKind.OMEGA: float(motion.omega[scheme.index]),
+            **({} if self.others else {QuantityKind.EPSILON: float(motion.epsilon[scheme.index])}),
+        }
+        senses = {
+            kind: 1 if value > 0 else -1
+            for kind, value in values.items()
+            if not is_nothing(value, solution_peak(scheme.solution, kind))
+        }
+        pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
+        if pivot is None:
+            self._across(link, part, senses)
+        else:
+            self._about(link, part, scheme.at(pivot), senses)
+
+    def _about(
+        self, link: str, part: tuple[complex, complex], pivot: complex,
+        senses: dict[QuantityKind, int],
+    ) -> None:  # fmt: skip
+        """Draw the arrows of a link about its pivot, on the link or, of the driver, beside it."""
+        far = max(part, key=lambda end: abs(end - pivot))
+        along, f = angle_of(far - pivot), self.scheme.factor
+        least, most = _LEAST * f, max(abs(far - pivot), (_LEAST + _BETWEEN) * f)
+        is_driver = link == self.scheme.solution.problem.drive.link
+        for kind, sense in senses.items():
+            ways = np.arange(least, max(most, least + 7.0 * f), 2.0 * f)
+            sweeps = np.minimum(SWEEP, np.degrees(ARC * f / ways))
+            offs = np.arange(-180.0, 180.0, 15.0) if is_driver else np.linspace(-0.25, 0.25, 5)
+            turns = along + offs[None, :] * (np.ones_like(ways) if is_driver else sweeps)[:, None]
+            radii = np.broadcast_to(ways[:, None], turns.shape)
+            costs = self._costs(np.full(turns.shape, pivot), radii, turns, sense, link)
+            costs += _FURTHER * (radii - least) + _TURNED * np.abs(turns - along) / 180.0
+            best = np.unravel_index(int(np.argmin(costs)), costs.shape)
+            if costs[best] > _NO_ROOM:
+                continue
+            self._draw(link, kind, pivot, float(radii[best]), float(turns[best]), sense)
+            least = float(radii[best]) + _BETWEEN * f
+
+    def _across(
+        self, link: str, part: tuple[complex, complex], senses: dict[QuantityKind, int]
+    ) -> None:
+        """Draw the arrows of a link without a pivot on both sides of a place of it."""
+        start, end = part
+        length, along, radius = (
+            abs(end - start),
+            angle_of(end - start),
+            _RADIUS * self.scheme.factor,
+        )
+        ways = np.linspace(0.0, length, max(12, int(length / 2)))
+        inside = ways[(ways >= radius) & (ways <= length - radius)]
+        ways = inside if len(inside) else np.array([length / 2])
+        centres = (start + (end - start) / length * ways)[:, None]
+        offs = np.linspace(-0.25, 0.25, 5)[None, :] * SWEEP
+        whole = 0.01 * np.abs(ways - 0.45 * length)
+        found = {}
+        for side, (kind, sense) in enumerate(senses.items()):
+            turns = np.broadcast_to(along + 180.0 * side + offs, (len(ways), offs.size))
+            shape = turns.shape
+            costs = self._costs(
+                np.broadcast_to(centres, shape), np.full(shape, radius), turns, sense, link
+            ) + _TURNED * np.abs(offs) / 180.0  # fmt: skip
+            found[kind] = turns[np.arange(len(ways)), np.argmin(costs, axis=1)]
+            whole = whole + costs.min(axis=1)
+        best = int(np.argmin(whole))
+        if whole[best] > _NO_ROOM * len(senses):
+            return
+        for kind, sense in senses.items():
+            centre = complex(centres[best, 0])
+            self._draw(link, kind, centre, radius, float(found[kind][best]), sense)
+
+    def _draw(
+        self, link: str, kind: QuantityKind, centre: complex, radius: float, middle: float,
+        sense: int,
+    ) -> None:  # fmt: skip
+        """Draw an arrow, and ask for its letter behind its tail."""
+        sweep, name = self._sweep(radius), f"{kind.sign} {link}"
+        size = 3.5 * self.scheme.factor
+        self.arrows += turn_arrow(
+            centre, radius, sense, middle=middle, sweep=sweep, length=size, tag=name
+        )
+        aim = cis(middle - sense * sweep / 2)
+        self.labels.append(
+            Label(
+                typeset(f"{kind.sign}_{{{link}}}", self._height),
+                centre + radius * aim,
+                prefer=-1j * sense * aim,
+                gap=0.8,
+                priority=2,
+                name=name,
+            )
+        )
+
+    def _sweep(self, radius: float) -> float:
+        return min(SWEEP, float(np.degrees(ARC * self.scheme.factor / radius)))
+
+    # Room ------------------------------------------------------------------------------------
+
+    def _costs(
+        self, centres: Complexes, radii: Reals, turns: Reals, sense: int, link: str
+    ) -> Reals:
+        """Return what places of an arrow cost, by what is near its arc and its letter.
+
+        ``turns`` are the directions of the arc's middle, degrees; all have one shape, as the costs.
+        """
+        scheme, f, own = self.scheme, self.scheme.factor, f"link {link}"
+        firm = [*scheme.bodies, *scheme.lines, *scheme.joints]
+        joints: list[Item] = [Stroke((p, p + 1e-6)) for p in map(scheme.at, scheme.named)]
+        strange = ends_of([*(item for item in firm if item.tag != own), *joints])
+        half = np.minimum(SWEEP, np.degrees(ARC * f / radii)) / 2
+        steps = np.linspace(-1.0, 1.0, 9)
+        arcs = centres[..., None] + radii[..., None] * _cis(
+            turns[..., None] + half[..., None] * steps
+        )
+        height = self._height
+        beyond = half + np.degrees(height / radii)
+        letters = centres + radii * _cis(turns - sense * beyond)
+        everything = ends_of([*firm, *joints, *self.arrows, *self.others, *self.clear])
+        costs: Reals = (
+            nearness(arcs, strange, _CLEAR * f).sum(axis=-1)
+            + 2.0 * nearness(arcs, ends_of(self.arrows), _APART * f).sum(axis=-1)
+            + _LETTER * nearness(letters, everything, 1.2 * height)
+        )
+        return costs
+
+    # The crank's angle -----------------------------------------------------------------------
+
+    def angle(self) -> None:
+        """Show the crank's angle phi from the horizontal; what stands there keeps clear of it."""
+        scheme = self.scheme
+        drive = scheme.solution.problem.drive
+        if drive.pivot is None:
+            return
+        phi = float(scheme.solution.positions[scheme.index]) % 360.0
+        if phi < 8 or phi > 352:
+            return
+        centre, radius = scheme.at(drive.pivot), 6.0 * scheme.factor + 2
+        support = angle_of(scheme.free_direction(centre)) % 360.0
+        if support < phi:
+            radius = (SIZES.support_height + SIZES.hatch_stroke + 4.0) * scheme.factor
+            pins = [scheme.at(p) for p in scheme.solution.problem.bodies[drive.link].points]
+            if max(abs(pin - centre) for pin in pins) < radius + 4.0:
+                return  # no room for an arc around the support: the statement tells the angle
+        end = centre + radius + 6
+        drawn = [
+            Stroke((centre, end), Pen.THIN, tag="phi"),
+            *turn_arrow(centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, tag="phi"),
+        ]
+        scheme.guides += drawn
+        # Over the line and under it letters would read as a fraction.
+        offs = [-1j * off * (1 if phi < 180.0 else -1) for off in _OFF_BAR]
+        bars: list[Item] = [Stroke((centre + off, end + _BAR + off), Pen.THIN) for off in offs]
+        reach = radius + 1.0 + 1.4 * SMALL
+        letter = Stroke((centre + (radius + 1.0) * cis(phi / 2), centre + reach * cis(phi / 2)))
+        self.clear += [*drawn, *bars, letter]
+        self.labels.append(
+            Label(
+                typeset(f"φ_{{{drive.link}}}", SMALL),
+                centre + radius * cis(phi / 2),
+                prefer=cis(phi / 2),
+                gap=1.0,
+                name="phi",
+            )
+        )
+
+
+def _cis(degrees: Reals) -> Complexes:
+    return np.asarray(np.exp(1j * np.radians(degrees)))
+
+
+def ends_of(items: Iterable[Item]) -> Complexes:
+    """Return the ends of the straight parts of items, shape (n, 2), mm."""
+    pairs: list[tuple[complex, complex]] = []
+    for item in items:
+        if isinstance(item, Stroke):
+            pairs += pairwise([*item.points, *item.points[: 1 if item.closed else 0]])
+        elif isinstance(item, Arc):
+            pairs += pairwise(arc_points(item))
+    return np.asarray(pairs, dtype=complex).reshape(-1, 2)
+
+
+def nearness(places: Complexes, ends: Complexes, clear: float) -> Reals:
+    """Return how near places are to lines: 1 on one, 0 from ``clear`` mm on; the places' shape."""
+    if not len(ends):
+        return np.zeros(places.shape)
+    ways = ends[:, 1] - ends[:, 0] + 1e-9
+    part = np.clip(((places[..., None] - ends[:, 0]) / ways).real, 0.0, 1.0)
+    room = np.abs(places[..., None] - ends[:, 0] - ways * part).min(axis=-1)
+    return np.asarray(np.maximum(0.0, 1.0 - room / clear))
