@@ -114,7 +114,8 @@ def test_records_of_several_and_their_exit_code() -> None:
     done = run(VARIANTS, "--all-variants", "--json")
     assert done.exit_code == ExitCode.DONE
     assert [found["variant"] for found in json.loads(done.stdout)] == list("АБВГДЕ")
-    assert run(VARIANTS, "--variant", "Д", "--json", "--strict").exit_code == ExitCode.FINDINGS
+    strict = run(VARIANTS, "--variant", "Д", "--phi", "30,60", "--json", "--strict")
+    assert strict.exit_code == ExitCode.FINDINGS
     assert record(VARIANTS, "--variant", "Б")["variant"] == "Б"
 
 
