@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
     from planmethod.note.audit.audit import Audited
     from planmethod.problem.fields import Faults
     from planmethod.problem.figures import Figures
-    from planmethod.problem.model import AskedAnswer, Geared, Problem, SheetSettings
+    from planmethod.problem.head import KindProblem
+    from planmethod.problem.model import Geared, Problem
     from planmethod.render.ink.drawing import Drawing
     from planmethod.solved.part import Part
     from planmethod.solved.scaling import Views
@@ -77,7 +79,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
 
 
 def _driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
-    geared: Geared | None = _of("planmethod.gears", "driven")(faults, table, label)
+    geared: Geared | None = _of("planmethod.gears.driving", "driven")(faults, table, label)
     return geared
 
 
@@ -86,36 +88,26 @@ def _of(package: str, name: str) -> Any:
     return getattr(import_module(package), name)
 
 
-class KindProblem(Protocol):
-    """A problem of such a kind; its package knows more of it."""
+ROOMS: Mapping[str, str] = {
+    "load": "reader",
+    "record": "record",
+    "structure_record": "record",
+    "solved_text": "text",
+    "structure_text": "text",
+    "protocol_text": "protocol",
+    "drawings": "sheet",
+    "audited": "audit",
+    "asked_of": "figures",
+}
+"""Modules of a kind's package that its functions are in."""
 
-    @property
-    def name(self) -> str:
-        """Name of the problem."""
-
-    @property
-    def variant(self) -> str | None:
-        """Which variant it is; None for the main part."""
-
-    @property
-    def title(self) -> str:
-        """Title of the problem."""
-
-    @property
-    def source(self) -> str:
-        """Where it is from."""
-
-    @property
-    def stamp(self) -> Mapping[str, str]:
-        """Texts of the title block."""
-
-    @property
-    def answers(self) -> tuple[AskedAnswer, ...]:
-        """What students are asked for."""
-
-    @property
-    def sheet(self) -> SheetSettings:
-        """Paper, lettering and language of its sheets."""
+CALLED: Mapping[str, str] = {
+    "drawings": "sheets",
+    "protocol_text": "protocol",
+    "audited": "audit",
+    "asked_of": "checking of answers",
+}
+"""What a kind may go without, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,13 +119,7 @@ class Kind:
     table : str
         The table of the problem file that tells it.
     package : str
-        Where its functions are: ``load(path, *, variant)``, ``record(problem, lang)``,
-        ``solved_text(problem, lang)``; of mechanisms ``structure_record(problem)``,
-        ``structure_text(problem, lang)``; of what is drawn ``drawings(problem, *, fields, profile,
-        before, total)`` and ``protocol_text(problem, lang, profile)``; of printed values
-        ``audited(problem, ruler)``;
-        of what students are asked for ``asked_of(problem)``. It is imported when one of them is
-        called.
+        Where its functions are, in the modules of `ROOMS`: each is imported when it is called.
     scales : str
         Where its file has the scales.
     """
@@ -144,30 +130,27 @@ class Kind:
 
     def load(self, path: Path, variant: str | None) -> KindProblem:
         """Read a problem file."""
-        problem: KindProblem = self._function("load")(path, variant=variant)
+        problem: KindProblem = self._call("load", path, variant=variant)
         return problem
 
     def record(self, problem: KindProblem, lang: str) -> dict[str, Any]:
         """Return what ``solve --json`` prints."""
-        told: dict[str, Any] = self._function("record")(problem, lang)
+        told: dict[str, Any] = self._call("record", problem, lang)
         return told
 
     def solved_text(self, problem: KindProblem, lang: str) -> str:
         """Return what ``solve`` prints."""
-        return str(self._function("solved_text")(problem, lang))
+        return str(self._call("solved_text", problem, lang))
 
     def structure_record(self, problem: KindProblem) -> dict[str, Any] | None:
         """Return what ``structure --json`` prints; None for what has no structure."""
-        told: dict[str, Any] | None = None
-        if hasattr(import_module(self.package), "structure_record"):
-            told = self._function("structure_record")(problem)
-        return told
+        record = self._function("structure_record")
+        return None if record is None else dict(record(problem))
 
     def structure_text(self, problem: KindProblem, lang: str) -> str | None:
         """Return what ``structure`` prints; None for what has no structure."""
-        if not hasattr(import_module(self.package), "structure_text"):
-            return None
-        return str(self._function("structure_text")(problem, lang))
+        tell = self._function("structure_text")
+        return None if tell is None else str(tell(problem, lang))
 
     def drawings(
         self,
@@ -185,8 +168,8 @@ class Kind:
         ProblemError
             Such problems have no sheets, or these cannot be drawn.
         """
-        drawn: list[Drawing] = self._asked("drawings", problem)(
-            problem, fields=fields, profile=profile, before=before, total=total
+        drawn: list[Drawing] = self._call(
+            "drawings", problem, fields=fields, profile=profile, before=before, total=total
         )
         return drawn
 
@@ -198,7 +181,7 @@ class Kind:
         ProblemError
             Such problems have no protocol.
         """
-        return str(self._asked("protocol_text", problem)(problem, lang, profile))
+        return str(self._call("protocol_text", problem, lang, profile))
 
     def audited(self, problem: KindProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler.
@@ -208,7 +191,7 @@ class Kind:
         ProblemError
             Such problems have no audit.
         """
-        told: list[Audited] = self._asked("audited", problem)(problem, ruler)
+        told: list[Audited] = self._call("audited", problem, ruler)
         return told
 
     def figures(self, problem: KindProblem) -> Figures:
@@ -219,22 +202,20 @@ class Kind:
         ProblemError
             Answers to such problems are not checked.
         """
-        asked: Figures = self._asked("asked_of", problem)(problem)
+        asked: Figures = self._call("asked_of", problem)
         return asked
 
-    def _asked(self, name: str, problem: KindProblem) -> Any:
-        """Return a function that not every kind has."""
-        if not hasattr(import_module(self.package), name):
-            called = {"drawings": "sheets", "protocol_text": "protocol", "audited": "audit"}
-            what = called.get(name, "checking of answers")
-            fault = Fault(
-                self.table, say("such a problem has no {}; its numbers: planmethod solve", what)
-            )
-            raise ProblemError(problem.name, [fault])
-        return self._function(name)
+    def _call(self, name: str, problem: Any, *args: Any, **options: Any) -> Any:
+        """Call a function of the package; not every kind has every one."""
+        function = self._function(name)
+        if function is None:
+            told = say("such a problem has no {}; its numbers: planmethod solve", CALLED[name])
+            raise ProblemError(problem.name, [Fault(self.table, told)])
+        return function(problem, *args, **options)
 
-    def _function(self, name: str) -> Any:
-        return _of(self.package, name)
+    def _function(self, name: str) -> Callable[..., Any] | None:
+        module = f"{self.package}.{ROOMS[name]}"
+        return None if find_spec(module) is None else getattr(import_module(module), name, None)
 
 
 KINDS = (

@@ -26,11 +26,11 @@ from planmethod.check.works.units import ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
-from planmethod.kinds import Kind, KindProblem
+from planmethod.kinds import Kind
 from planmethod.languages import say
 from planmethod.plans.model import Plan
 from planmethod.problem.figures import Figure, Figures
-from planmethod.problem.model import AnswerForm, AskedAnswer
+from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 

@@ -16,11 +16,10 @@ from planmethod.check.model import KeyEntry
 from planmethod.check.works.gather import is_of
 from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.check.works.xlsx_file import META
-from planmethod.kinds import KindProblem
 from planmethod.note.wording import language
 from planmethod.note.wording.form_model import FormWording
 from planmethod.pattern import pattern
-from planmethod.problem.model import Problem
+from planmethod.problem.head import KindProblem
 
 SCHEMA = 1
 
@@ -37,7 +36,7 @@ _AGREE = 0.01
 """Share of the value by which mm × μ may differ from it before the form says so."""
 
 
-def fingerprint_of(problem: Problem | KindProblem) -> str:
+def fingerprint_of(problem: KindProblem) -> str:
     """Return what tells problems apart: SHA-256 of all of it that the answers depend on.
 
     Comments and the order of the file, its titles and published values make no difference.

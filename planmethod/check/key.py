@@ -12,9 +12,8 @@ from planmethod.check.sense import sense_of
 from planmethod.check.sheet import Sheet, scalar
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
-from planmethod.kinds import KindProblem
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.problem.model import Problem
+from planmethod.problem.head import KindProblem
 from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
@@ -34,7 +33,7 @@ class Key:
         Mistakes that none of the answers can show, and the places where they can be made.
     """
 
-    problem: Problem | KindProblem
+    problem: KindProblem
     variant: str | None
     entries: tuple[KeyEntry, ...]
     scales: Mapping[str, float]

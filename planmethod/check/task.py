@@ -16,10 +16,9 @@ from planmethod.check.sheet import Sheet
 from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import Fault, ProblemError
-from planmethod.kinds import KindProblem
 from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
-from planmethod.problem.model import AskedAnswer, AskedSense, Problem
+from planmethod.problem.head import AskedAnswer, AskedSense, KindProblem
 from planmethod.problem.selector import is_force, parse_selector
 from planmethod.record import dataclass
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
@@ -86,7 +85,7 @@ class Task:
         others: Callable[[], Iterable[Task]] | None = None,
     ) -> None:
         self.solution, self.settings = solution, settings
-        self.problem: Problem | KindProblem = solution.problem
+        self.problem: KindProblem = solution.problem
         self.variant = solution.problem.variant
         self._others = others
         self._questions: dict[int, Questions] = {}

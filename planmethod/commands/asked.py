@@ -14,12 +14,11 @@ from planmethod.languages import say
 from planmethod.record import dataclass
 
 if TYPE_CHECKING:
-    from planmethod.kinds import KindProblem
     from planmethod.problem.config import Config
-    from planmethod.problem.model import Problem, SheetSettings
+    from planmethod.problem.head import KindProblem, SheetSettings
 
 F = TypeVar("F", bound=Callable[..., Any])
-P = TypeVar("P", bound="Problem | KindProblem")
+P = TypeVar("P", bound="KindProblem")
 
 
 class Settled(Protocol):
@@ -62,7 +61,7 @@ class Asked:
         LayoutError
             A field of the options is unknown.
         """
-        from planmethod.problem.model import SheetSettings
+        from planmethod.problem.head import SheetSettings
         from planmethod.render.frame.titleblock import check_fields
 
         check_fields(self.fields)
@@ -83,7 +82,7 @@ class Asked:
         path = self.config or find_config()
         return Config() if path is None else load_config(path)
 
-    def author(self, problem: Problem | KindProblem) -> str | None:
+    def author(self, problem: KindProblem) -> str | None:
         """Return whom the files of a problem name as their author."""
         return self.fields.get("author", problem.stamp.get("author")) or None
 

@@ -14,7 +14,8 @@ from planmethod.languages import say
 from planmethod.options import lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
 
 
@@ -46,7 +47,7 @@ def audit(
         raise click.UsageError(
             say("-o would write over the problem file {}; name another one", file)
         )
-    audits: list[tuple[Problem | KindProblem, Any]] = []
+    audits: list[tuple[KindProblem, Any]] = []
 
     def compare(problem: Problem) -> None:
         audits.append((problem, examine(problem, ruler=ruler)))

@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from planmethod.check.marks import Settings
     from planmethod.check.model import Checked, Work
     from planmethod.commands.processes import Part
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
     from planmethod.note.wording import Language
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
 
 POLICIES = ("construction", "department", "wider", "stricter")
@@ -276,7 +277,7 @@ def _write_keys(
     finish(code)
 
 
-def key_of_problem(kind: Kind | None, problem: Problem | KindProblem, settings: Settings) -> Key:
+def key_of_problem(kind: Kind | None, problem: KindProblem, settings: Settings) -> Key:
     """Return the key of a problem of any kind; None for a linkage."""
     if kind is None:
         from planmethod.check.key import key_of

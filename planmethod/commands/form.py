@@ -13,7 +13,8 @@ from planmethod.languages import say
 from planmethod.options import lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
 
 MOST_STUDENTS = 500
@@ -68,7 +69,7 @@ def form(
     def make(problem: Problem) -> None:
         write_forms(problem, key_of(Solution(problem)))
 
-    def write_forms(problem: Problem | KindProblem, key: Key) -> None:
+    def write_forms(problem: KindProblem, key: Key) -> None:
         fingerprint = fingerprint_of(problem)
         for number, student in enumerate(who or [""], 1):
             tail = f"-{number:0{len(str(len(who)))}}" if who else ""

@@ -23,7 +23,8 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.render.sheets.controlled import Controlled
 
@@ -121,7 +122,7 @@ def lint(
         )
 
     def tell(
-        problem: Problem | KindProblem, kind: str, sheets: list[Controlled], lang: str
+        problem: KindProblem, kind: str, sheets: list[Controlled], lang: str
     ) -> tuple[dict[str, Any] | None, int]:
         marked = counted(sheets, Severity.ERROR)
         if strict:

@@ -21,8 +21,9 @@ from planmethod.record import dataclass
 if TYPE_CHECKING:
     from planmethod.commands.processes import Part
     from planmethod.construct.drafting import Profile
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
     from planmethod.options import Positions
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.solved.solution import Solution
 
@@ -36,7 +37,7 @@ class Todo:
 
     path: Path
     kind: Kind | None
-    problem: Problem | KindProblem
+    problem: KindProblem
 
 
 MANY = 6
@@ -273,7 +274,7 @@ def watched(steps: Iterable[T], length: int) -> Iterator[T]:
         yield from bar
 
 
-def stem(problem: Problem | KindProblem) -> str:
+def stem(problem: KindProblem) -> str:
     """Return what the files of a problem are called."""
     return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
 

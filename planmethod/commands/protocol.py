@@ -20,7 +20,8 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
 
 
@@ -62,7 +63,7 @@ def protocol(
         refuse_plans(kind, phi=phi is not None, position=position > 1)
         written(problem, kind.protocol_text(problem, lang, drawn_by(profile, ruler)))
 
-    def written(problem: Problem | KindProblem, text: str) -> None:
+    def written(problem: KindProblem, text: str) -> None:
         put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
 
     finish(each(problems, variant, all_variants, tell, tell_other))

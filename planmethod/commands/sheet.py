@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from planmethod.construct.drafting import Profile
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.render.ink.drawing import Drawing
 
@@ -126,7 +127,7 @@ def sheet(
         return kind.drawings(problem, fields=asked.fields, profile=hand, before=before, total=total)
 
     def written(
-        problem: Problem | KindProblem,
+        problem: KindProblem,
         draw: _Draw,
         formats: Iterable[str],
         drawings: list[Drawing] | None = None,
@@ -154,9 +155,9 @@ def sheet(
         finish(each(problems, variant, all_variants, draw, draw_other, jobs=jobs))
         return
 
-    whole: list[tuple[Problem | KindProblem, _Draw, list[Drawing]]] = []
+    whole: list[tuple[KindProblem, _Draw, list[Drawing]]] = []
 
-    def gather(problem: Problem | KindProblem, draw: _Draw) -> None:
+    def gather(problem: KindProblem, draw: _Draw) -> None:
         draw = partial(draw, before=sum(len(some) for *_, some in whole))
         whole.append((problem, draw, draw()))
 

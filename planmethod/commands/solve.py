@@ -37,8 +37,9 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
     from planmethod.note.records.spreadsheet import Table
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.positions import Gaps

@@ -20,7 +20,8 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind, KindProblem
+    from planmethod.kinds import Kind
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
 
 

@@ -13,7 +13,7 @@ from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import read_train
 from planmethod.languages import say
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import Geared, SheetSettings
+from planmethod.problem.model import Geared
 
 
 def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
@@ -41,7 +41,7 @@ def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | 
         faults.add("driver.train", say("{} is a rack, it does not turn", body))
         return None
     try:
-        motion = solve_motion(GearProblem("", "", "", "", {}, SheetSettings(), train, ()))
+        motion = solve_motion(GearProblem(name="", train=train))
     except ProblemError as error:
         for fault in error.faults:
             faults.add(fault.path, fault.message, fault.hint)

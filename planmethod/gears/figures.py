@@ -211,3 +211,7 @@ class TrainFigures:
 
 def _value(motion: Motion, name: str, position: int) -> float | None:
     return answer(motion, name).value
+
+
+asked_of = TrainFigures
+"""What such a kind of problem is asked by."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from enum import Enum
 from fractions import Fraction
 
-from planmethod.problem.model import AskedAnswer, Published, SheetSettings
+from planmethod.problem.head import KindProblem
 from planmethod.record import dataclass
 
 
@@ -171,17 +171,9 @@ class Train:
         return None if mesh.carrier is None else self.body_of[mesh.carrier]
 
 
-@dataclass(frozen=True, slots=True)
-class GearProblem:
-    """A problem of a gear train, with what all kinds of problem have (задача о передаче)."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GearProblem(KindProblem):
+    """A problem of a gear train (задача о передаче)."""
 
-    name: str
-    source_file: str
-    title: str
-    source: str
-    stamp: Mapping[str, str]
-    sheet: SheetSettings
     train: Train
-    published: tuple[Published, ...]
-    answers: tuple[AskedAnswer, ...] = ()
-    variant: str | None = None
+    source_file: str = ""

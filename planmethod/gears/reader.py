@@ -21,7 +21,7 @@ from planmethod.gears.model import GearProblem, PictureSettings, Train
 from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.answers import Plain, read_answers
-from planmethod.problem.extras import NOTE_LIMIT, read_heading
+from planmethod.problem.extras import read_published
 from planmethod.problem.fields import (
     Faults,
     read_keys,
@@ -31,15 +31,16 @@ from planmethod.problem.fields import (
     read_whole,
     report_unknown,
 )
-from planmethod.problem.model import Published
+from planmethod.problem.head import Published
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
-from planmethod.problem.sheet import read_sheet, read_stamp
+from planmethod.problem.sheet import read_head
 
 ASK_LIMIT = 100
 TURNS = ("n", "omega")
 _NAMES = "For example: W, U_1_5, U_1_4^H, n_5, omega_H, z_5, a_w_1_2."
 GROUP_LIMIT = 60
+PUBLISHED = ("value", "unit", "what", "note")
 TOP = ("title", "source", "stamp", "sheet", "published", "answers", "compare", "variants", "gears")
 """Tables of the file that a gear train may have."""
 
@@ -55,9 +56,7 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     path = Path(path)
     table, faults = varied(path, variant)
     given = read_keys(faults, "", table, TOP)
-    title, source = (read_heading(faults, given, key) for key in ("title", "source"))
-    stamp = read_stamp(faults, given.get("stamp", {}))
-    sheet = read_sheet(faults, given.get("sheet", {}))
+    head = read_head(faults, given)
     body = read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
     train = None if body is None else read_train(faults, body)
     published = _read_published(faults, given.get("published", {}), train)
@@ -65,8 +64,9 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     if faults or train is None:
         raise ProblemError(str(path), faults.found)
     return GearProblem(
-        path.stem, str(path), title, source, stamp, sheet, train, published, answers, variant
-    )
+        name=path.stem, source_file=str(path), variant=variant, train=train, **head,
+        published=published, answers=answers,
+    )  # fmt: skip
 
 
 def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
@@ -242,29 +242,11 @@ def _scene(train: Train | None) -> Plain:
 
 def _read_published(faults: Faults, value: object, train: Train | None) -> tuple[Published, ...]:
     """Read what the source prints; ``what`` is a name that can be asked."""
-    entries = read_table(faults, "published", value, '[published."n_5"] value = -375') or {}
-    if len(entries) > keys.PUBLISHED_LIMIT:
-        faults.add(
-            "published", say("{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT)
-        )
-        return ()
-    found: list[Published] = []
-    for name, entry in entries.items():
-        path = f"published.{segment(name)}"
-        body = read_table(faults, path, entry, 'value = -375, what = "n_5"')
-        if read_text(faults, path, name, limit=80) is None or body is None:
-            continue
-        given = read_keys(faults, path, body, ("value", "unit", "what", "note"))
-        number = read_number(
-            faults, f"{path}.value", given.get("value"), "a number", low=-1e12, high=1e12
-        )
-        unit, what, note = (
-            read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
-            for key in ("unit", "what", "note")
-        )
-        what = what or name
+
+    def check(path: str, what: str, name: str) -> str:
         if train is not None:
-            _can_be_asked(faults, f"{path}.what", what, tuple(train.body_of))
-        if number is not None:
-            found.append(Published(name, number, unit=unit, what=what, note=note))
-    return tuple(found)
+            _can_be_asked(faults, path, what or name, tuple(train.body_of))
+        return what or name
+
+    example = 'value = -375, what = "n_5"'
+    return read_published(faults, value, check, example=example, known=PUBLISHED)

@@ -13,6 +13,7 @@ from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import Motion, analyse, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.note.wording import language
+from planmethod.problem.head import KindProblem
 
 
 def record(problem: GearProblem, lang: str) -> dict[str, Any]:
@@ -54,7 +55,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         | _answer(answer(motion, one.what), words.reasons)
         for one in problem.published
     ]
-    return {**_head(problem), "gears": told}
+    return {**head(problem), "gears": told}
 
 
 def structure_record(problem: GearProblem) -> dict[str, Any]:
@@ -83,10 +84,11 @@ def structure_record(problem: GearProblem) -> dict[str, Any]:
         },
         "across": sorted(roles.across),
     }
-    return {**_head(problem), "structure": told}
+    return {**head(problem), "structure": told}
 
 
-def _head(problem: GearProblem) -> dict[str, Any]:
+def head(problem: KindProblem) -> dict[str, Any]:
+    """Return what an object begins with: which problem it is of."""
     return {
         "schema": 1,
         "problem": problem.name,

@@ -122,3 +122,7 @@ class PointFigures:
 def _value(motion: Motion, name: str, position: int) -> float | None:
     value = float(motion.columns[WHAT.get(name) or column_of(name) or name][position])
     return value if math.isfinite(value) else None
+
+
+asked_of = PointFigures
+"""What such a kind of problem is asked by."""

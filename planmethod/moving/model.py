@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from enum import Enum
 
 from planmethod.moving.formula import Formula
-from planmethod.problem.model import AskedAnswer, Published, Scales, SheetSettings
+from planmethod.problem.head import KindProblem
+from planmethod.problem.model import Scales
 from planmethod.record import dataclass
 
 
@@ -55,8 +56,8 @@ class Wheel:
     arm: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class PointProblem:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointProblem(KindProblem):
     """A moving point (движущаяся точка).
 
     Attributes
@@ -76,9 +77,6 @@ class PointProblem:
         The interval that is drawn.
     """
 
-    name: str
-    title: str
-    source: str
     law: Law
     formulas: Mapping[str, Formula]
     radius: float | None
@@ -87,9 +85,3 @@ class PointProblem:
     blur: tuple[float, ...]
     show: tuple[float, float] | None
     scales: Scales
-    stamp: Mapping[str, str]
-    sheet: SheetSettings
-    published: tuple[Published, ...]
-    answers: tuple[AskedAnswer, ...] = ()
-    variants: tuple[str, ...] = ()
-    variant: str | None = None

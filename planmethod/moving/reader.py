@@ -19,7 +19,7 @@ from planmethod.moving.series import evaluate
 from planmethod.problem import keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.drive import read_scales, spread, too_many
-from planmethod.problem.extras import read_heading, read_published
+from planmethod.problem.extras import read_published
 from planmethod.problem.fields import (
     Faults,
     is_number,
@@ -31,12 +31,11 @@ from planmethod.problem.fields import (
     unmask,
 )
 from planmethod.problem.formula import is_exact
-from planmethod.problem.model import Published
-from planmethod.problem.names import listed, near, segment, short
-from planmethod.problem.reader import unknown_variant
-from planmethod.problem.sheet import read_sheet, read_stamp
+from planmethod.problem.head import Published
+from planmethod.problem.names import listed, near_hint, segment, short
+from planmethod.problem.reader import laid_over
+from planmethod.problem.sheet import read_head
 from planmethod.problem.source import parse, read_source
-from planmethod.problem.variants import apply_variant, read_variants
 
 TOP = (
     "title", "source", "point", "scales", "stamp", "sheet", "published", "answers", "compare",
@@ -80,17 +79,12 @@ def loads(
 ) -> PointProblem:
     """Read a moving point from a text; messages call it ``source``."""
     called = name if source is None else source
-    table = parse(text, name=called)
     faults = Faults()
-    variants = read_variants(faults, table)
-    if variant is not None:
-        if variant not in variants:
-            raise ProblemError(called, [*faults.found, unknown_variant(variant, variants)])
-        table = apply_variant(table, variants[variant])
+    table, variants = laid_over(faults, parse(text, name=called), called, variant)
     problem = _read(faults, table, name)
     if faults or problem is None:
         raise ProblemError(called, faults.found)
-    return replace(problem, variants=tuple(variants), variant=variant)
+    return replace(problem, variants=variants, variant=variant)
 
 
 def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem | None:
@@ -128,8 +122,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         faults.add("point.t", "missing", "Give the moment, s: t = 0; or { from, to, step }.")
     problem = PointProblem(
         name=name,
-        title=read_heading(faults, given, "title"),
-        source=read_heading(faults, given, "source"),
+        **read_head(faults, given),
         law=law or Law.COORDINATES,
         formulas=formulas,
         radius=radius,
@@ -138,8 +131,6 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
         blur=_blur(times, rounded=_has_formula(point.get("t"))),
         show=show,
         scales=read_scales(faults, given.get("scales", {})),
-        stamp=read_stamp(faults, given.get("stamp", {})),
-        sheet=read_sheet(faults, given.get("sheet", {})),
         published=_read_published(faults, given.get("published", {}), len(times)),
         answers=read_answers(faults, given, _scene(len(times))),
     )
@@ -282,27 +273,16 @@ def _number_of(formula: Formula) -> float:
 
 def _read_published(faults: Faults, table: object, moments: int) -> tuple[Published, ...]:
     """Read ``[published]``; what stands in ``what`` are columns of the record."""
-    bare, whats = table, {}
-    if isinstance(table, Mapping):
-        bodies = {key: body for key, body in table.items() if isinstance(body, Mapping)}
-        whats = {key: body["what"] for key, body in bodies.items() if "what" in body}
-        bare = {
-            **table,
-            **{k: {n: v for n, v in body.items() if n != "what"} for k, body in bodies.items()},
-        }
-    found = read_published(faults, bare, (), (), None, moments)
-    told: list[Published] = []
+
+    def check(path: str, what: str, _: str) -> str:
+        return _column(faults, path, what) if what else ""
+
+    found = read_published(faults, table, check, positions=moments)
     for item in found:
-        path = f"published.{segment(item.name)}"
-        what = ""
-        if item.name in whats:
-            what = _read_what(faults, f"{path}.what", whats[item.name])
-            if moments > 1 and item.position is None:
-                faults.add(
-                    f"{path}.position", "missing", say("There are {} moments: from 0.", moments)
-                )
-        told.append(replace(item, what=what))
-    return tuple(told)
+        if item.what and moments > 1 and item.position is None:
+            path = f"published.{segment(item.name)}.position"
+            faults.add(path, "missing", say("There are {} moments: from 0.", moments))
+    return found
 
 
 def _scene(moments: int) -> Plain:
@@ -312,17 +292,9 @@ def _scene(moments: int) -> Plain:
     return Plain(fault, lambda name: False, say("Known here: {}.", listed(WHAT, limit=20)), moments)
 
 
-def _read_what(faults: Faults, path: str, value: object) -> str:
-    if not isinstance(value, str):
-        faults.expected(path, "the name of a quantity", value)
-        return ""
-    name = unmask(faults, path, value)
+def _column(faults: Faults, path: str, what: str) -> str:
+    name = unmask(faults, path, what)
     if name not in WHAT:
-        guess = near(name, WHAT)
-        hint = (
-            say("Did you mean '{}'?", guess)
-            if guess
-            else say("Known here: {}.", listed(WHAT, limit=20))
-        )
+        hint = near_hint(name, WHAT, say("Known here: {}.", listed(WHAT, limit=20)))
         faults.add(path, say("a moving point has no '{}'", short(name)), hint)
     return WHAT.get(name, "")

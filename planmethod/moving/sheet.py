@@ -332,7 +332,7 @@ def _finer(per_mm: float, *, inverse: bool) -> float:
     return series_near(0.99 * per_mm, up=False)
 
 
-def point_sheets(
+def drawings(
     problem: PointProblem,
     *,
     fields: Mapping[str, str] | None = None,
@@ -359,7 +359,7 @@ def point_sheets(
         When everything fits no format, or not the asked one.
     """
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    drawings = []
+    made = []
     with using(lettering(problem.sheet.lettering or "B")):
         fmt, laid = _laid_out(problem, course_of(problem), profile, furniture)
         for number, blocks in enumerate(laid.pages, 1):
@@ -376,8 +376,8 @@ def point_sheets(
                 drawing.extend(items)
                 if isinstance(part.block, Viewed):
                     drawing.views.append(part.block.view(items, corner))
-            drawings.append(drawing)
-    return drawings
+            made.append(drawing)
+    return made
 
 
 def sheet_scales(problem: PointProblem, course: Course, profile: Profile) -> dict[str, Scale]:

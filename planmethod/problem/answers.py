@@ -21,7 +21,8 @@ from planmethod.problem.fields import (
     read_whole,
     unmask,
 )
-from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense, Drive, Slide
+from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
+from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
 from planmethod.problem.selector import ANALOGUES, MACHINE, Selector
 from planmethod.record import dataclass

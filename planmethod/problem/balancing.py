@@ -10,7 +10,7 @@ from planmethod.problem import keys
 from planmethod.problem.fields import Faults, read_keys, read_member, read_number, read_table
 from planmethod.problem.load_records import CounterweightTask, Dynamics, Weighing
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed, near, segment
+from planmethod.problem.names import listed, near_hint, segment
 
 _EXAMPLE = '[balancing] method = "full", radii = { 1 = 0.1, 3 = 0.08 }'
 
@@ -61,12 +61,7 @@ def read_balancing(
     for link, value in (read_table(faults, path, body.get("radii", {}), _EXAMPLE) or {}).items():
         where = f"{path}.{segment(link)}"
         if link not in links:
-            guess = near(link, links)
-            hint = (
-                say("Did you mean '{}'?", guess)
-                if guess
-                else say("There are {}.", listed(list(links)))
-            )
+            hint = near_hint(link, links, say("There are {}.", listed(list(links))))
             faults.add(where, say("there is no link '{}'", link), hint)
             continue
         found = read_number(faults, where, value, "a distance in metres", low=1e-6, high=1e4)

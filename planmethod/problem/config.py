@@ -15,7 +15,7 @@ from planmethod.errors import ConfigError, Fault, ProblemError
 from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, read_keys
-from planmethod.problem.model import SheetSettings
+from planmethod.problem.head import SheetSettings
 from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.source import parse, read_source
 from planmethod.record import dataclass

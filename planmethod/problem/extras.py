@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from planmethod.languages import say
@@ -14,8 +15,8 @@ from planmethod.problem.fields import (
     read_table,
     read_text,
 )
-from planmethod.problem.model import Published
-from planmethod.problem.names import TITLE_LIMIT, listed, near, segment, short
+from planmethod.problem.head import Published
+from planmethod.problem.names import listed, near_hint, segment, short
 from planmethod.problem.selector import (
     Selector,
     SelectorError,
@@ -31,34 +32,28 @@ NOTE_LIMIT = 1000
 TABLE_KEYS = ("gears", "point", "meshing")
 
 
-def read_heading(faults: Faults, table: Mapping[str, Any], key: str) -> str:
-    """Read ``title`` or ``source``."""
-    if key not in table:
-        return ""
-    return read_text(faults, key, table[key], limit=TITLE_LIMIT) or ""
-
-
 def read_published(
     faults: Faults,
     table: object,
-    points: Collection[str],
-    links: Collection[str],
-    dynamics: Dynamics | None,
-    positions: int,
+    check: Callable[[str, str, str], str],
+    *,
+    positions: int = 0,
+    example: str = 'value = 3, unit = "м/с", what = "v B"',
+    known: Sequence[str] = keys.PUBLISHED,
 ) -> tuple[Published, ...]:
     """Read ``[published."name"]``.
 
     Parameters
     ----------
-    points, links : collection of str
-        Names that ``what`` may use (coincident points included); both empty when they are not
-        known because of other faults, and then the names are not checked.
-    dynamics : Dynamics or None
-        Masses and loads, which the quantities of the force analysis need.
+    check : callable
+        Gets the path, ``what`` (empty where it is absent) and the name, notes faults of the
+        quantity, and returns ``what`` as outputs have it.
     positions : int
-        Number of positions of the driver; 0 when it is not known.
+        How many there are; 0 when not known.
+    example, known
+        An entry, and the keys that one may have.
     """
-    entries = read_table(faults, "published", table, '[published."v_B"] value = 3') or {}
+    entries = read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
     if len(entries) > keys.PUBLISHED_LIMIT:
         faults.add(
             "published", say("{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT)
@@ -67,37 +62,28 @@ def read_published(
     found: list[Published] = []
     for name, entry in entries.items():
         path = f"published.{segment(name)}"
-        body = read_table(faults, path, entry, 'value = 3, unit = "м/с", what = "v B"')
+        body = read_table(faults, path, entry, example)
         if read_text(faults, path, name, limit=80) is None or body is None:
             continue
         before = len(faults)
-        given = read_keys(faults, path, body, keys.PUBLISHED)
+        given = read_keys(faults, path, body, known)
+        number = partial(read_number, faults, high=1e12)
         value = per_mm = None
         if "value" in given:
-            value = read_number(
-                faults, f"{path}.value", given["value"], "a number", low=-1e12, high=1e12
-            )
+            value = number(f"{path}.value", given["value"], "a number", low=-1e12)
         elif len(faults) == before:
             faults.add(f"{path}.value", "missing")
         if "per_mm" in given:
-            per_mm = read_number(
-                faults,
-                f"{path}.per_mm",
-                given["per_mm"],
-                "a scale, unit per millimetre,",
-                low=1e-12,
-                high=1e12,
-                positive=True,
-            )
-        texts = {
-            key: read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
+            scale = "a scale, unit per millimetre,"
+            per_mm = number(f"{path}.per_mm", given["per_mm"], scale, low=1e-12, positive=True)
+        unit, what, note = (
+            read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
             for key in ("unit", "what", "note")
-        }
+        )
         position = read_position(faults, f"{path}.position", given.get("position"), positions)
-        if texts["what"]:
-            check_what(faults, f"{path}.what", texts["what"], points, links, dynamics)
+        what = check(f"{path}.what", what, name)
         if value is not None:
-            found.append(Published(name, value, per_mm=per_mm, position=position, **texts))
+            found.append(Published(name, value, unit, per_mm, what, note, position))
     return tuple(found)
 
 
@@ -122,7 +108,13 @@ def check_what(
     links: Collection[str],
     dynamics: Dynamics | None,
 ) -> Selector | None:
-    """Parse ``what`` and check its names; None where it cannot be parsed."""
+    """Parse ``what`` and check its names; None where it cannot be parsed.
+
+    Parameters
+    ----------
+    points, links : collections of str
+        Names of the mechanism, with those of coincident points; empty when it could not be read.
+    """
     try:
         selector = parse_selector(what)
     except SelectorError as error:
@@ -142,12 +134,11 @@ def check_what(
         return selector
     loads = [load.name for load in dynamics.loads] if dynamics else []
     for name in unknown_names(selector, points, links, loads):
-        guess = near(name, [*points, *links, *loads])
         known = [say("Points: {}", listed(points))]
         if is_force(selector):
             known += [say("links: {}", listed(links))]
             known += [say("loads: {}", listed(loads))] if loads else []
-        hint = say("Did you mean '{}'?", guess) if guess else f"{'; '.join(known)}."
+        hint = near_hint(name, [*points, *links, *loads], f"{'; '.join(known)}.")
         faults.add(path, say("the mechanism has no '{}'", name), hint)
     return selector
 

@@ -21,6 +21,7 @@ from planmethod.problem.names import (
     listed,
     lookalikes,
     near,
+    near_hint,
     segment,
     short,
     split_pair,
@@ -312,9 +313,7 @@ def read_word(faults: Faults, path: str, value: object, known: Iterable[str]) ->
         return None
     word = unmask(faults, path, value)
     if word not in words:
-        guess = near(word, words)
-        hint = say("Did you mean '{}'?", guess) if guess else ""
-        faults.expected(path, _either(words), value, hint)
+        faults.expected(path, _either(words), value, near_hint(word, words))
         return None
     return word
 
@@ -357,10 +356,7 @@ def read_known_point(
         return None
     points = tuple(known)
     if name not in points:
-        guess = near(name, points)
-        hint = (
-            say("Did you mean '{}'?", guess) if guess else say("Its points are {}.", listed(points))
-        )
+        hint = near_hint(name, points, say("Its points are {}.", listed(points)))
         faults.add(path, say("{} has no point '{}'", of, name), hint if points else "")
         return None
     return name

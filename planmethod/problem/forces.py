@@ -23,7 +23,7 @@ from planmethod.problem.fields import (
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed, near
+from planmethod.problem.names import listed, near_hint
 from planmethod.problem.sizes import TURN, read_phase, read_size
 from planmethod.record import dataclass
 
@@ -82,10 +82,7 @@ class Scene:
         elif name in self.fixed:
             hint = say("{} is a point of the frame; {}.", name, points)
         else:
-            guess = near(name, link.points)
-            hint = (
-                say("Did you mean '{}'?", guess) if guess else f"{points[:1].upper()}{points[1:]}."
-            )
+            hint = near_hint(name, link.points, f"{points[:1].upper()}{points[1:]}.")
         faults.add(path, say("link {} has no point '{}'", link.name, name), hint)
         return None
 

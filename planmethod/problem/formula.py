@@ -23,7 +23,7 @@ from types import MappingProxyType
 
 from planmethod.languages import say
 from planmethod.pattern import pattern
-from planmethod.problem.names import listed, near, short
+from planmethod.problem.names import listed, near_hint, short
 from planmethod.record import dataclass
 
 LENGTH_LIMIT = 500
@@ -254,12 +254,7 @@ class Parser:
     def _name(self, text: str, where: int) -> None:
         self.at += 1
         if text not in self.names:
-            guess = near(text, self.names)
-            hint = (
-                say("Did you mean '{}'?", guess)
-                if guess
-                else say("Known: {}.", listed(self.names, limit=30))
-            )
+            hint = near_hint(text, self.names, say("Known: {}.", listed(self.names, limit=30)))
             raise FormulaError(say("character {}: unknown name '{}'", where, short(text)), hint)
         if text == TIME:
             self.made.append(Operation(Kind.TIME))

@@ -7,13 +7,14 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, fields, replace
+from dataclasses import field
 from enum import Enum
 from math import inf
 from typing import TYPE_CHECKING, Any
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
 from planmethod.record import dataclass
 
@@ -373,130 +374,17 @@ class Scales:
     mu_F: float | None = None  # noqa: N815 - the letter of the textbook
 
 
-@dataclass(frozen=True, slots=True)
-class Published:
-    """One value that the source prints (напечатанное значение)."""
-
-    name: str
-    value: float
-    unit: str = ""
-    per_mm: float | None = None
-    what: str = ""
-    note: str = ""
-    position: int | None = None
-
-
-class AnswerForm(Enum):
-    """In what an answer is given (вид ответа)."""
-
-    VALUE = "value"
-    MM = "mm"  # millimetres of the student's own plan
-    BOTH = "both"  # either is taken
-
-
-class AskedSense(Enum):
-    """As what the sense of an answer is asked (направление)."""
-
-    TURN = "turn"  # ↺ or ↻
-    DIRECTION = "direction"  # left, right, up or down
-    ANGLE = "angle"  # degrees from +x
-
-
-@dataclass(frozen=True, slots=True)
-class AskedAnswer:
-    """What students are asked for (вопрос).
-
-    Attributes
-    ----------
-    id : str
-        How it is called in every output; each has its own.
-    what : str
-        The quantity in the words of ``[published]``, also where the file has a name of ``--ask``.
-    letters : tuple of str
-        How the department writes it: ``VB₃``, ``v_B3``.
-    unit : str
-        As the file has it; empty for SI.
-    points : float
-    form : AnswerForm
-    sense : AskedSense or None
-        None where the sense is not asked.
-    position : int or None
-        Position of the driver, from 0; None where the file says none.
-    digits : int or None
-        Significant digits asked for.
-    segment : str
-        Letters of its segment: ``p-b3``; empty for that of the quantity.
-    tolerance : float or None
-        The department's own, as a share of the value: 0.05.
-    """
-
-    id: str
-    what: str
-    letters: tuple[str, ...] = ()
-    unit: str = ""
-    points: float = 1.0
-    form: AnswerForm = AnswerForm.BOTH
-    sense: AskedSense | None = None
-    position: int | None = None
-    digits: int | None = None
-    segment: str = ""
-    tolerance: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class SheetSettings:
-    """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not said.
-
-    Attributes
-    ----------
-    paper : str, optional
-        Format, as `planmethod.paper.paper_format` reads it.
-    form : str, optional
-        Form of the title block: ``1``, ``1+2a``, ``2`` or ``2a``.
-    graph_26, graphs_27_30, side_columns : bool, optional
-        Which of the additional graphs there are.
-    lettering : str, optional
-        Type of the lettering: ``A``, ``A-upright``, ``B`` or ``B-upright``.
-    lang : str, optional
-        Language of the sheets: ``ru`` or ``en``.
-    traces : bool, optional
-        Whether the traces of the construction are drawn.
-    """
-
-    paper: str | None = None
-    form: str | None = None
-    graph_26: bool | None = None
-    graphs_27_30: bool | None = None
-    side_columns: bool | None = None
-    lettering: str | None = None
-    lang: str | None = None
-    traces: bool | None = None
-
-    def over(self, lower: SheetSettings) -> SheetSettings:
-        """Return these settings, and those of ``lower`` where these say nothing."""
-        told = {
-            part.name: getattr(self, part.name)
-            for part in fields(self)
-            if getattr(self, part.name) is not None
-        }
-        return replace(lower, **told)
-
-
-@dataclass(frozen=True, slots=True)
-class Problem:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Problem(KindProblem):
     """Task as read (задача).
 
     Attributes
     ----------
-    name : str
-        Stem of the file.
     lengths : tuple of (str, str, float)
         (link, name, metres) of every length as written, in file order: the sheet's "Дано".
     guides : mapping of str to (str or None, complex, float)
         Frame guides by name: fixed point's name if so given, base in m, angle in degrees.
     assembly : tuple of Rule
-    answers : tuple of AskedAnswer
-        What students are asked for, in the order of the file; empty where it does not say.
     dynamics : Dynamics or None
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     cycle : CycleTask or None
@@ -513,9 +401,6 @@ class Problem:
         Arithmetic that the file has for a number (``0.25/3``), by path.
     """
 
-    name: str
-    title: str
-    source: str
     mechanism: Mechanism
     bodies: Mapping[str, Body]
     slides: Mapping[str, Slide]
@@ -524,12 +409,6 @@ class Problem:
     guides: Mapping[str, tuple[str | None, complex, float]] = field(default_factory=dict)
     assembly: tuple[Rule, ...] = ()
     scales: Scales = Scales()
-    stamp: Mapping[str, str] = field(default_factory=dict)
-    sheet: SheetSettings = SheetSettings()
-    published: tuple[Published, ...] = ()
-    answers: tuple[AskedAnswer, ...] = ()
-    variants: tuple[str, ...] = ()
-    variant: str | None = None
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
     machine: Machine | None = None

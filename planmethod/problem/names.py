@@ -135,6 +135,12 @@ def near(name: str, known: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
+def near_hint(name: str, known: Iterable[str], otherwise: str = "") -> str:
+    """Return the hint that names the nearest of the known names, else another one."""
+    guess = near(name, known)
+    return say("Did you mean '{}'?", guess) if guess else otherwise
+
+
 def listed(names: Iterable[str], *, limit: int = 12) -> str:
     """Names in one line for a message, cut when there are many."""
     every = list(names)

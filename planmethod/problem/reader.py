@@ -15,13 +15,13 @@ from planmethod.problem.answers import Scene, read_answers
 from planmethod.problem.bodies import place_points
 from planmethod.problem.cycle import read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.extras import read_heading, read_published, read_tables
+from planmethod.problem.extras import check_what, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import fold, listed, near
-from planmethod.problem.sheet import read_sheet, read_stamp
+from planmethod.problem.sheet import read_head
 from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.table import with_table
@@ -70,12 +70,25 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
         The file cannot be read, or has no such variant.
     """
     table, faults = _from_file(path)
+    return laid_over(faults, table, str(path), variant)[0], faults
+
+
+def laid_over(
+    faults: Faults, table: Mapping[str, Any], source: str, variant: str | None
+) -> tuple[Mapping[str, Any], tuple[str, ...]]:
+    """Return a table with a variant laid over it, and the names of all variants.
+
+    Raises
+    ------
+    ProblemError
+        No such variant.
+    """
     variants = read_variants(faults, table)
     if variant is None:
-        return table, faults
+        return table, tuple(variants)
     if variant not in variants:
-        raise ProblemError(str(path), [*faults.found, unknown_variant(variant, variants)])
-    return apply_variant(table, variants[variant]), faults
+        raise ProblemError(source, [*faults.found, unknown_variant(variant, variants)])
+    return apply_variant(table, variants[variant]), tuple(variants)
 
 
 def loads(
@@ -138,15 +151,11 @@ def _read_parsed(
     variant: str | None,
     train: TrainReader | None,
 ) -> Problem:
-    variants = read_variants(faults, table)
-    if variant is not None:
-        if variant not in variants:
-            raise ProblemError(source, [*faults.found, unknown_variant(variant, variants)])
-        table = apply_variant(table, variants[variant])
+    table, variants = laid_over(faults, table, source, variant)
     problem = _read_parts(faults, table, name, train)
     if faults or problem is None:
         raise ProblemError(source, faults.found)
-    return replace(problem, variants=tuple(variants), variant=variant)
+    return replace(problem, variants=variants, variant=variant)
 
 
 def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
@@ -168,10 +177,7 @@ def _read_parts(
     given = read_keys(faults, "", table, keys.TOP)
     if "units" in given:
         faults.unit = read_word(faults, "units", given["units"], keys.UNITS) or faults.unit
-    title = read_heading(faults, given, "title")
-    source = read_heading(faults, given, "source")
-    stamp = read_stamp(faults, given.get("stamp", {}))
-    sheet = read_sheet(faults, given.get("sheet", {}))
+    head = read_head(faults, given)
     scales = read_scales(faults, given.get("scales", {}))
     tables = read_tables(faults, given)
     if "links" not in given:
@@ -231,14 +237,15 @@ def _read_parts(
     if "cycle" in given:
         cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
     points = [*frame.points, *moving, *coincident_points(slides.values())]
-    published = read_published(
-        faults,
-        given.get("published", {}),
-        () if faults else points,
-        () if faults else tuple(links),
-        dynamics,
-        len(drive.positions) if drive else 0,
-    )
+    named: tuple[Sequence[str], Sequence[str]] = ((), ()) if faults else (points, tuple(links))
+
+    def checked(path: str, what: str, _: str) -> str:
+        if what:
+            check_what(faults, path, what, *named, dynamics)
+        return what
+
+    count = len(drive.positions) if drive else 0
+    published = read_published(faults, given.get("published", {}), checked, positions=count)
     scene = Scene(
         () if faults else points,
         () if faults else tuple(links),
@@ -253,8 +260,7 @@ def _read_parts(
         return None
     return Problem(
         name=name,
-        title=title,
-        source=source,
+        **head,
         unit=faults.unit,
         stated=dict(faults.stated),
         mechanism=mechanism,
@@ -269,8 +275,6 @@ def _read_parts(
         guides=frame.guides,
         assembly=assembly,
         scales=scales,
-        stamp=stamp,
-        sheet=sheet,
         published=published,
         answers=answers,
         dynamics=dynamics,

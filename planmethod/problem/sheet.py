@@ -5,7 +5,7 @@ A problem file has these tables, and so does a config file.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from planmethod.errors import LayoutError
@@ -13,11 +13,24 @@ from planmethod.languages import say
 from planmethod.paper import paper_format
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, read_flag, read_keys, read_table, read_text
-from planmethod.problem.model import SheetSettings
-from planmethod.problem.names import fold, joined, near, segment
+from planmethod.problem.head import SheetSettings
+from planmethod.problem.names import TITLE_LIMIT, fold, joined, near_hint, segment
 
 STAMP_LIMIT = 200
 _WORD_LIMIT = 40
+
+
+def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Read what files of every kind begin with: title, source, title block, make-up of sheets."""
+    return {
+        **{key: _read_heading(faults, given, key) for key in ("title", "source")},
+        "stamp": read_stamp(faults, given.get("stamp", {})),
+        "sheet": read_sheet(faults, given.get("sheet", {})),
+    }
+
+
+def _read_heading(faults: Faults, given: Mapping[str, Any], key: str) -> str:
+    return read_text(faults, key, given.get(key, ""), limit=TITLE_LIMIT) or ""
 
 
 def read_stamp(faults: Faults, table: object) -> dict[str, str]:
@@ -82,9 +95,7 @@ def _read_choice(faults: Faults, path: str, value: object, known: Collection[str
         return None
     word = chosen(text, known)
     if word is None:
-        guess = near(text, known)
-        hint = say("Did you mean '{}'?", guess) if guess else ""
-        faults.expected(path, say("one of {}", ", ".join(known)), value, hint)
+        faults.expected(path, say("one of {}", ", ".join(known)), value, near_hint(text, known))
     return word
 
 

@@ -12,7 +12,7 @@ from planmethod.languages import say
 from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, is_number
-from planmethod.problem.names import fold, listed, near, short, split_names
+from planmethod.problem.names import fold, listed, near_hint, short, split_names
 from planmethod.problem.source import SIZE_LIMIT, table_text
 
 _UNITS = {"м": "m", "см": "cm", "мм": "mm", "m": "m", "cm": "cm", "mm": "mm"}
@@ -129,12 +129,7 @@ def _column(
     else:
         key = names.get(_plain(written)) or names.get(_plain(written).removeprefix("l"))
     if key is None:
-        guess = near(_plain(written), names)
-        hint = (
-            say("Did you mean '{}'?", guess)
-            if guess
-            else say("Known: {}, and dotted keys.", listed(names))
-        )
+        hint = near_hint(_plain(written), names, say("Known: {}, and dotted keys.", listed(names)))
         faults.add("variants", say("{}: no column is called '{}'", name, short(head)), hint)
         return None
     unit = (match["unit"] or "").strip() if match else ""

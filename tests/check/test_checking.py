@@ -27,7 +27,7 @@ from planmethod.errors import ProblemError
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
-from planmethod.problem.model import AskedAnswer, AskedSense
+from planmethod.problem.head import AskedAnswer, AskedSense
 from planmethod.solved.solution import Solution
 
 RANDOM = tuple(f"random-{seed}" for seed in range(some(60, 2)))

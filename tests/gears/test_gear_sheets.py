@@ -17,10 +17,10 @@ from worked import PROBLEMS
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode, LayoutError
-from planmethod.gears import drawings
 from planmethod.gears.arrangement import Arrangement, Part, Scheme, arrange
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import load
+from planmethod.gears.sheet import drawings
 from planmethod.render.backends import render
 from planmethod.render.control.remarks import Severity
 from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text

@@ -23,7 +23,7 @@ from planmethod.moving.construction import construct, read_hodograph
 from planmethod.moving.course import course_of
 from planmethod.moving.motion import Why, move
 from planmethod.moving.reader import load, loads
-from planmethod.moving.sheet import point_sheets
+from planmethod.moving.sheet import drawings
 from planmethod.moving.told import textbook
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Disc, Stroke
@@ -162,7 +162,7 @@ def test_an_interval_of_our_own_is_one_where_everything_exists() -> None:
 @each("path", thinned(FILES, 12))
 def test_sheets_leave_the_norm_inspector_nothing_to_mark(path: Path) -> None:
     problem = load(path)
-    (drawing,) = point_sheets(problem, profile=BOARD)
+    (drawing,) = drawings(problem, profile=BOARD)
     assert inspect(drawing) == []
     assert [view.kind for view in drawing.views] == ["trajectory", "hodograph", "hodograph"]
     for view in drawing.views:
@@ -179,7 +179,7 @@ def test_sheets_leave_the_norm_inspector_nothing_to_mark(path: Path) -> None:
 def test_curves_are_splines_in_dxf(tmp_path: Path) -> None:
     run = CliRunner().invoke(cli, ["sheet", str(K11), "--format", "dxf", "-o", str(tmp_path)])
     assert run.exit_code == ExitCode.DONE, run.output
-    (drawing,) = point_sheets(load(K11), profile=BOARD)
+    (drawing,) = drawings(load(K11), profile=BOARD)
     curves = [item for item in drawing.items if isinstance(item, Stroke) and item.smooth]
     splines = readfile(next(tmp_path.iterdir())).modelspace().query("SPLINE")
     assert len(splines) == len(curves) == 3
@@ -199,7 +199,7 @@ def test_the_protocol_reads_what_the_sheet_shows() -> None:
     run = CliRunner().invoke(cli, ["protocol", str(path), "--lang", "en"])
     assert run.exit_code == ExitCode.DONE, run.output
     assert max(map(len, run.output.splitlines())) <= 100
-    (drawing,) = point_sheets(load(path), profile=BOARD)
+    (drawing,) = drawings(load(path), profile=BOARD)
     (span,) = drawing.views[1].spans
     measured = re.search(r"pv = ([0-9.]+)", run.output)
     assert measured is not None

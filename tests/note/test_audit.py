@@ -23,7 +23,8 @@ from planmethod.note.audit.audit import (
 from planmethod.note.audit.table import Document
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
-from planmethod.problem.model import Problem, Published
+from planmethod.problem.head import Published
+from planmethod.problem.model import Problem
 from planmethod.solved.selected.asking import NoAnswer
 
 ROOT = Path(__file__).parents[2]

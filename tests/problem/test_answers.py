@@ -14,7 +14,7 @@ from worked import PROBLEMS, every_file
 from planmethod.errors import ProblemError
 from planmethod.problem import Problem, load, loads
 from planmethod.problem.answers import words_of
-from planmethod.problem.model import AnswerForm, AskedAnswer, AskedSense
+from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
 from planmethod.problem.selector import parse_selector
 from planmethod.solved.asked import results_for
 from planmethod.solved.selected.quantities import Quantities

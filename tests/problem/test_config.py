@@ -8,7 +8,7 @@ import pytest
 
 from planmethod.errors import ConfigError, ExitCode
 from planmethod.problem.config import VARIABLE, find_config, load_config, usual_place
-from planmethod.problem.model import SheetSettings
+from planmethod.problem.head import SheetSettings
 
 
 def written(folder: Path, text: str) -> Path:

@@ -153,7 +153,9 @@ MADE = {
 
 def _problem(mechanism: Mechanism, rate: float = 10.0) -> Problem:
     drive = Drive(mechanism.driver, "A", (0.0,), rate, 0.0)
-    return Problem("made", "Механизм", "", mechanism, {}, {}, drive)
+    return Problem(
+        name="made", title="Механизм", mechanism=mechanism, bodies={}, slides={}, drive=drive
+    )
 
 
 def _case(name: str) -> tuple[Problem, Structure]:

@@ -17,9 +17,9 @@ from planmethod.check.pages.pdfpage import pdf_page
 from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.run import run_json, run_record, settings_rows
 from planmethod.check.pages.student import student_page
-from planmethod.kinds import KindProblem
 from planmethod.note.wording import language
 from planmethod.pattern import pattern
+from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.render.backends.output import write
 from planmethod.solved.solution import Solution

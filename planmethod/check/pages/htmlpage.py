@@ -8,9 +8,9 @@ from itertools import chain
 from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.check.pages.speech import tagged
 from planmethod.check.pages.student import Page
-from planmethod.kinds import KindProblem
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import PlanKind
+from planmethod.problem.head import KindProblem
 from planmethod.render.backends import render
 from planmethod.render.ink.drawing import Fill, Stroke
 from planmethod.solved.reading import remembered

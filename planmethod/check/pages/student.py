@@ -8,9 +8,9 @@ from planmethod.check.model import Checked, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
 from planmethod.check.pages.remarks import Remarks, what_stands
 from planmethod.check.pages.speech import Speech, quoted
-from planmethod.kinds import KindProblem
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
+from planmethod.problem.head import KindProblem
 from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import cos, pi, sin, tan
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planmethod.problem.model import SheetSettings
+from planmethod.problem.head import KindProblem
 from planmethod.record import dataclass
 
 Reals: TypeAlias = NDArray[np.float64]
@@ -57,8 +56,8 @@ class Rack:
         return complex(pi / 4 - depth * tan(self.alpha) - self.rho / cos(self.alpha), -depth)
 
 
-@dataclass(frozen=True, slots=True)
-class MeshingProblem:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshingProblem(KindProblem):
     """A pair of wheels to be drawn in mesh (лист «Синтез эвольвентного зацепления»).
 
     Attributes
@@ -81,9 +80,6 @@ class MeshingProblem:
         Least contact ratio.
     """
 
-    name: str
-    title: str
-    source: str
     z: tuple[int, int]
     m: float
     rack: Rack
@@ -92,7 +88,4 @@ class MeshingProblem:
     a_w: float | None
     tip: float
     overlap: float
-    stamp: Mapping[str, str]
-    sheet: SheetSettings
     cutter: int = 0
-    variant: str | None = None

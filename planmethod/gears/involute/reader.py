@@ -17,7 +17,6 @@ from planmethod.gears.involute.profile import Tooth
 from planmethod.gears.involute.sizes import Pair
 from planmethod.languages import say
 from planmethod.problem import keys
-from planmethod.problem.extras import read_heading
 from planmethod.problem.fields import (
     Faults,
     read_keys,
@@ -26,7 +25,7 @@ from planmethod.problem.fields import (
     read_whole,
 )
 from planmethod.problem.reader import varied
-from planmethod.problem.sheet import read_sheet, read_stamp
+from planmethod.problem.sheet import read_head
 
 TOP = ("title", "source", "stamp", "sheet", "variants", "meshing")
 """Tables of the file that a meshing may have."""
@@ -64,22 +63,12 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
     path = Path(path)
     table, faults = varied(path, variant)
     given = read_keys(faults, "", table, TOP)
-    title, source = (read_heading(faults, given, key) for key in ("title", "source"))
-    stamp = read_stamp(faults, given.get("stamp", {}))
-    sheet = read_sheet(faults, given.get("sheet", {}))
+    head = read_head(faults, given)
     body = read_table(faults, "meshing", given.get("meshing", {}), _EXAMPLE)
     told = None if body is None else _read(faults, body)
     if faults or told is None:
         raise ProblemError(str(path), faults.found)
-    problem = MeshingProblem(
-        name=path.stem,
-        title=title,
-        source=source,
-        stamp=stamp,
-        sheet=sheet,
-        variant=variant,
-        **told,
-    )
+    problem = MeshingProblem(name=path.stem, variant=variant, **head, **told)
     _check_teeth(faults, Pair.of(problem))
     if faults:
         raise ProblemError(str(path), faults.found)

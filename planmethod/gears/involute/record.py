@@ -6,6 +6,7 @@ from typing import Any
 
 from planmethod.gears.involute.model import MeshingProblem
 from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.record import head
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import language
@@ -42,11 +43,4 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
     missing = [k for k, value in enumerate(told["theta_p"]) if value is None]
     if missing:
         told["theta_reason"] = words.meshing.missing.format(wheel=missing[0] + 1)
-    return {
-        "schema": 1,
-        "problem": problem.name,
-        "variant": problem.variant,
-        "title": problem.title,
-        "source": problem.source,
-        "meshing": told,
-    }
+    return {**head(problem), "meshing": told}

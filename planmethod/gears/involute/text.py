@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from planmethod.gears.involute.model import MeshingProblem
 from planmethod.gears.involute.quantities import Solved, Told, Unit
 from planmethod.note.plaintext import heading, plain_text, table, wrap
 from planmethod.note.wording import Language, language
-
-if TYPE_CHECKING:
-    from planmethod.construct.drafting import Profile
 
 
 def solved_text(problem: MeshingProblem, lang: str) -> str:
@@ -18,26 +13,10 @@ def solved_text(problem: MeshingProblem, lang: str) -> str:
     solved, words = Solved(problem), language(lang)
     say = words.meshing
     pair, wheels, contact = solved.told()
-    lines = _head(solved, words)
+    lines = head(solved, words)
     lines += ["", say.pair, *_table([*pair, *contact], words, say.columns[:2])]
     lines += ["", say.wheels, *_table(wheels, words, say.columns)]
-    return "\n".join([*lines, *_limits(solved, words)])
-
-
-def protocol_text(problem: MeshingProblem, lang: str, profile: Profile) -> str:
-    """Tell the calculation formula by formula, as the note has it; no hand draws in it."""
-    solved, words = Solved(problem), language(lang)
-    say, fields = words.meshing, solved.fields(words.say)
-    lines, number, before = _head(solved, words), 0, ""
-    for key, formula in solved.formulas(words):
-        if key != before and key in say.steps:
-            number += 1
-            lines += ["", f"{number}. {say.steps[key]}"]
-        if key != before and key in say.beside:
-            lines += _plain(say.beside[key].format(**fields))
-        lines += _plain(formula)
-        before = key
-    return "\n".join([*lines, *_limits(solved, words)])
+    return "\n".join([*lines, *limits_text(solved, words)])
 
 
 def given_text(solved: Solved, words: Language) -> list[str]:
@@ -72,15 +51,17 @@ def remarks(solved: Solved, words: Language) -> list[str]:
     return found
 
 
-def _head(solved: Solved, words: Language) -> list[str]:
+def head(solved: Solved, words: Language) -> list[str]:
+    """Return the title and what is given."""
     title = solved.problem.title or solved.problem.name
     lines = heading(words.meshing.title.format(title=title), "═")
     for text in given_text(solved, words):
-        lines += _plain(text, "")
+        lines += plainly(text, "")
     return lines
 
 
-def _plain(rich: str, first: str = "  ") -> list[str]:
+def plainly(rich: str, first: str = "  ") -> list[str]:
+    """Return rich text as lines of plain text."""
     return wrap(plain_text(rich), first=first, rest="    " if first else "")
 
 
@@ -105,11 +86,12 @@ def _table(told: list[Told], words: Language, columns: tuple[str, ...]) -> list[
     return table(head, rows, left=2)
 
 
-def _limits(solved: Solved, words: Language) -> list[str]:
+def limits_text(solved: Solved, words: Language) -> list[str]:
+    """Return what the limits say, and what undercut takes away."""
     say = words.meshing
     lines = ["", say.checked]
     for _, holds, text in solved.sentences(words):
-        lines += _plain(f"{text}: {say.holds[holds]}")
+        lines += plainly(f"{text}: {say.holds[holds]}")
     for text in remarks(solved, words):
-        lines += _plain(text)
+        lines += plainly(text)
     return lines

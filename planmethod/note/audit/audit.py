@@ -11,7 +11,8 @@ from enum import Enum
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import wording
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.model import Problem, Published, Scales
+from planmethod.problem.head import Published
+from planmethod.problem.model import Problem, Scales
 from planmethod.problem.selector import FORCES, MACHINE, Selector, parse_selector
 from planmethod.record import dataclass
 from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError

@@ -10,6 +10,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
+from numpy.typing import NDArray
+
 from planmethod.plans.draft import cis
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
@@ -104,17 +107,26 @@ def lay_forces(
     return placed
 
 
-def _crowded(segment: Segment, arrows: Iterable[Segment], bars: Iterable[Segment]) -> float:
+def _crowded(segment: Segment, arrows: Sequence[Segment], bars: Sequence[Segment]) -> float:
     """Return what an arrow costs among others and on links."""
-    places = [segment[0] + (segment[1] - segment[0]) * k / 10 for k in range(1, 11)]
-    cost = 0.0
-    for other in arrows:
-        near = sum(distance(place, other) < _NEAR for place in places)
-        cost += 8.0 * near if near > 2 else 1.0 * near
-    for bar in bars:
-        on = sum(distance(place, bar) < _ON for place in places)
-        cost += 1.5 * on if on > 2 else 0.5 * on
-    return cost
+    near, on = _beside(segment, arrows, _NEAR), _beside(segment, bars, _ON)
+    return float(
+        np.where(near > 2, 8.0 * near, near).sum() + np.where(on > 2, 1.5 * on, 0.5 * on).sum()
+    )
+
+
+def _beside(segment: Segment, others: Sequence[Segment], white: float) -> NDArray[np.intp]:
+    """Return how many of ten places along a segment are nearer than ``white`` to each other one."""
+    if not others:
+        return np.zeros(0, dtype=np.intp)
+    tail, head = segment
+    places = tail + (head - tail) * np.arange(1, 11)[:, None] / 10
+    ends = np.asarray(others)
+    ways = ends[:, 1] - ends[:, 0]
+    reach = places - ends[:, 0]
+    part = (reach * ways.conj()).real / np.maximum(np.abs(ways) ** 2, 1e-18)
+    off = np.abs(reach - ways * np.clip(part, 0.0, 1.0))
+    return np.asarray((off < white).sum(axis=0))
 
 
 def force_items(

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.paper import FRAME_OTHER, Format
-from planmethod.problem.model import SheetSettings
+from planmethod.problem.head import SheetSettings
 from planmethod.record import dataclass
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.ink.drawing import Bounds

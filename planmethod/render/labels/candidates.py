@@ -17,6 +17,7 @@ from planmethod.render.symbols import unit
 
 Floats: TypeAlias = NDArray[np.float64]
 Complexes: TypeAlias = NDArray[np.complex128]
+Place: TypeAlias = tuple[Floats, Floats]
 
 _ALONG = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
 _BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
@@ -166,35 +167,36 @@ def inside(segments: Floats, boxes: Floats) -> Floats:
     Clipping after Liang and Barsky, for arrays of segments (..., 2, 2) and boxes (..., 4) that
     broadcast together. A segment of NaN meets nothing.
     """
-    start, low, high = segments[..., 0, :], boxes[..., :2], boxes[..., 2:]
-    way = segments[..., 1, :] - start
+    first, last = np.asarray(0.0), np.asarray(1.0)
+    ways = []
     with np.errstate(divide="ignore", invalid="ignore"):
-        one, two = (low - start) / way, (high - start) / way
-        enter, leave = np.minimum(one, two), np.maximum(one, two)
-        still = way == 0
-        if still.any():
-            between = (start >= low) & (start <= high)
-            enter = np.where(still, np.where(between, -np.inf, np.inf), enter)
-            leave = np.where(still, np.where(between, np.inf, -np.inf), leave)
-        first = np.maximum(np.maximum(enter[..., 0], enter[..., 1]), 0.0)
-        last = np.minimum(np.minimum(leave[..., 0], leave[..., 1]), 1.0)
-        length = np.hypot(way[..., 0], way[..., 1])
+        for axis in (0, 1):  # one after the other: rows of two numbers are slow
+            start, low, high = segments[..., 0, axis], boxes[..., axis], boxes[..., axis + 2]
+            way = segments[..., 1, axis] - start
+            one, two = (low - start) / way, (high - start) / way
+            enter, leave = np.minimum(one, two), np.maximum(one, two)
+            still = way == 0
+            if still.any():
+                between = (start >= low) & (start <= high)
+                enter = np.where(still, np.where(between, -np.inf, np.inf), enter)
+                leave = np.where(still, np.where(between, np.inf, -np.inf), leave)
+            first, last = np.maximum(first, enter), np.minimum(last, leave)
+            ways.append(way)
+        length = np.hypot(*ways)
         return np.where(last >= first, np.maximum(last - first, 0.0) * length, -1.0)
 
 
 def crossing(one: Floats, two: Floats) -> NDArray[np.bool_]:
     """Tell which segments (..., 2, 2) cross each other; NaN crosses nothing."""
-    a, b = one[..., 0, :], one[..., 1, :]
-    c, d = two[..., 0, :], two[..., 1, :]
+    a, b, c, d = ((line[..., k, 0], line[..., k, 1]) for line in (one, two) for k in (0, 1))
 
-    def side(p: Floats, q: Floats, r: Floats) -> Floats:
-        u, v = q - p, r - p
-        return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+    def side(p: Place, q: Place, r: Place) -> Floats:
+        return np.asarray((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
 
     with np.errstate(invalid="ignore"):
         apart = np.asarray(side(a, b, c) * side(a, b, d) < 0)
-        if a.shape == c.shape and a.ndim == 2:  # of many pairs few get so far
-            a, b, c, d = a[apart], b[apart], c[apart], d[apart]
+        if one.shape == two.shape and one.ndim == 3:  # of many pairs few get so far
+            a, b, c, d = ((x[apart], y[apart]) for x, y in (a, b, c, d))
             apart[apart] = side(c, d, a) * side(c, d, b) < 0
             return apart
         return apart & (side(c, d, a) * side(c, d, b) < 0)

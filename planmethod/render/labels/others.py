@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planmethod.record import dataclass
 from planmethod.render.labels.candidates import Candidates, Floats, crossing, inside
 from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import FORBIDDEN
@@ -14,7 +16,23 @@ from planmethod.render.labels.paper import FORBIDDEN
 LEADERS_CROSS = 300.0
 """Cost of two leader lines that cross."""
 
+Numbers: TypeAlias = NDArray[np.intp]
+
 _OFF_LEADERS = 0.5  # white between a label and another one's leader line, mm
+
+
+@dataclass(slots=True)
+class Met:
+    """What the labels cost the places of one: shape (n, labels), and with which of their places."""
+
+    candidates: Candidates
+    costs: Floats
+    stamps: Numbers
+
+    @classmethod
+    def of(cls, candidates: Candidates, labels: int) -> Met:
+        """Return that of a number of labels, none of them asked for yet."""
+        return cls(candidates, np.zeros((len(candidates.boxes), labels)), np.full(labels, -1))
 
 
 class Others:
@@ -27,33 +45,41 @@ class Others:
         self._leaders = np.full((len(labels), 2, 2), np.nan)
         self._around = np.full((len(labels), 4), np.nan)
         self._there: dict[int, None] = {}
+        self._stamps = np.full(len(labels), -1)
 
-    def put(self, k: int, candidates: Candidates, row: int) -> None:
-        """Note the place that a label takes."""
+    def put(self, k: int, candidates: Candidates, row: int, stamp: int) -> None:
+        """Note the place that a label takes; no other place has its ``stamp``."""
         self._boxes[k] = candidates.boxes[row]
         self._leaders[k] = candidates.leaders[row]
         self._around[k] = candidates.around[row]
         self._there[k] = None
+        self._stamps[k] = stamp
 
     def lift(self, k: int) -> None:
         """Forget the place of a label."""
         self._there.pop(k, None)
 
-    def but(self, k: int) -> list[int]:
+    def but(self, k: int) -> Numbers:
         """Return the numbers of the labels that are there, but for one."""
-        return [other for other in self._there if other != k]
+        return np.array([other for other in self._there if other != k], dtype=np.intp)
 
-    def costs(self, k: int, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
+    def costs(self, k: int, candidates: Candidates, rows: Numbers) -> Floats:
         """Return what all labels but ``k`` cost some places, shape (n,)."""
         there = self.but(k)
-        if not there:
-            return np.zeros(len(rows))
         return np.asarray(self.each(candidates, rows, there).sum(axis=1))
 
-    def each(self, candidates: Candidates, rows: NDArray[np.intp], there: list[int]) -> Floats:
-        """Return what each label costs each place, shape (n, len(there))."""
-        costs = np.zeros((len(rows), len(there)))
-        others = np.asarray(there)
+    def met(self, choice: Met, rows: Numbers, there: Numbers) -> Floats:
+        """Return what `each` does of certain places: of labels that stand as they did, as then."""
+        moved = there[choice.stamps[there] != self._stamps[there]]
+        if len(moved):
+            every = np.arange(len(choice.costs))
+            choice.costs[:, moved] = self.each(choice.candidates, every, moved)
+            choice.stamps[moved] = self._stamps[moved]
+        return np.asarray(choice.costs[rows[:, None], there])
+
+    def each(self, candidates: Candidates, rows: Numbers, others: Numbers) -> Floats:
+        """Return what each of some labels costs each place, shape (n, len(others))."""
+        costs = np.zeros((len(rows), len(others)))
         # Only a label near a place can meet it.
         mine, theirs, white = candidates.around[rows], self._around[others], self._widest
         (row, other) = np.nonzero(

@@ -7,8 +7,10 @@ one or two others elsewhere. The same input gives the same places.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
+from functools import lru_cache
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +26,7 @@ from planmethod.render.labels.candidates import (
 )
 from planmethod.render.labels.ladder import dense, ladder
 from planmethod.render.labels.model import ALONE, Label, Placed
-from planmethod.render.labels.others import LEADERS_CROSS, Others
+from planmethod.render.labels.others import LEADERS_CROSS, Met, Others
 from planmethod.render.labels.paper import CROSSED, FORBIDDEN, Paper
 
 _FAR_IF = 200.0  # cost from which one of a crowd looks at its far places
@@ -59,8 +61,16 @@ def place_labels(
         In the order of ``labels``. Where there is no room at all a label overlaps or leaves the
         bounds, and is not ``free``.
     """
+    return list(_placed(tuple(labels), tuple(obstacles), bounds, breaking=breaking))
+
+
+@lru_cache(maxsize=64)
+def _placed(
+    labels: tuple[Label, ...], obstacles: tuple[Item, ...], bounds: Bounds, *, breaking: bool
+) -> tuple[Placed, ...]:
+    """Return the labels with their places: of a picture that was tried on other paper, as there."""
     if not labels:
-        return []
+        return ()
     places = _Places(Paper(obstacles, bounds), labels)
     places.fill([k for k, label in enumerate(labels) if not label.series])
     places.line_up()
@@ -82,10 +92,12 @@ class _Choice:
     candidates: Candidates
     costs: Floats
     order: NDArray[np.intp]
+    met: Met
 
     @classmethod
-    def of(cls, candidates: Candidates, costs: Floats) -> _Choice:
-        return cls(candidates, costs, np.argsort(np.round(costs, 9), kind="stable"))
+    def of(cls, candidates: Candidates, costs: Floats, labels: int) -> _Choice:
+        order = np.argsort(np.round(costs, 9), kind="stable")
+        return cls(candidates, costs, order, Met.of(candidates, labels))
 
 
 @dataclass(slots=True)
@@ -95,6 +107,7 @@ class _Taken:
     choice: _Choice
     row: int
     cost: float
+    stamp: int
     ground: bool = False
 
 
@@ -105,6 +118,7 @@ class _Places:
     paper: Paper
     labels: Sequence[Label]
     taken: dict[int, _Taken] = field(default_factory=dict)
+    stamps: Iterator[int] = field(default_factory=count)
 
     def __post_init__(self) -> None:
         self.strangers = list(
@@ -112,7 +126,7 @@ class _Places:
         )
         sets = [near(label) for label in self.labels]
         costs = self.paper.costs(sets, self.strangers)
-        self.choices = [[_Choice.of(c, cost)] for c, cost in zip(sets, costs, strict=True)]
+        self.choices = [[self._choice(c, cost)] for c, cost in zip(sets, costs, strict=True)]
         self.others = Others(self.labels)
         self.lined: set[int] = set()
 
@@ -131,7 +145,7 @@ class _Places:
                     if place is not None:
                         k = numbers[id(label)]
                         if self._standing(place, np.zeros(1, dtype=np.intp))[0] < LEADERS_CROSS:
-                            self._take(k, _Taken(_Choice.of(place, place.dislike), 0, 0.0))
+                            self._take(k, self._taken(self._choice(place, place.dislike), 0, 0.0))
                             self.lined.add(k)
 
     def _standing(self, candidates: Candidates, rows: NDArray[np.intp]) -> Floats:
@@ -150,7 +164,10 @@ class _Places:
 
     def _take(self, k: int, taken: _Taken) -> None:
         self.taken[k] = taken
-        self.others.put(k, taken.choice.candidates, taken.row)
+        self.others.put(k, taken.choice.candidates, taken.row, taken.stamp)
+
+    def _taken(self, choice: _Choice, row: int, cost: float) -> _Taken:
+        return _Taken(choice, row, cost, next(self.stamps))
 
     def _leave(self, k: int) -> None:
         self.taken.pop(k, None)
@@ -176,7 +193,7 @@ class _Places:
             label = self.labels[k]
             more = far(label) if len(self.choices[k]) == 1 else everywhere(label, self.paper.bounds)
             (costs,) = self.paper.costs([more], self.strangers)
-            self.choices[k].append(_Choice.of(more, costs))
+            self.choices[k].append(self._choice(more, costs))
         return self.choices[k][number]
 
     def _cheapest(self, k: int, choice: _Choice) -> _Taken:
@@ -187,12 +204,19 @@ class _Places:
             rows = choice.order[first : first + count]
             if choice.costs[rows[0]] >= (min(cost, FORBIDDEN) if first else cost):
                 break
-            costs = np.round(choice.costs[rows] + self.others.costs(k, choice.candidates, rows), 9)
+            costs = np.round(choice.costs[rows] + self._met(k, choice, rows), 9)
             least = int(np.argmin(costs))
             if costs[least] < cost:
                 best, cost = int(rows[least]), float(costs[least])
             first, count = first + count, 2 * count
-        return _Taken(choice, best, cost)
+        return self._taken(choice, best, cost)
+
+    def _choice(self, candidates: Candidates, costs: Floats) -> _Choice:
+        return _Choice.of(candidates, costs, len(self.labels))
+
+    def _met(self, k: int, choice: _Choice, rows: NDArray[np.intp]) -> Floats:
+        """Return what the other labels cost some places of a label, shape (n,)."""
+        return np.asarray(self.others.met(choice.met, rows, self.others.but(k)).sum(axis=1))
 
     # Mending ---------------------------------------------------------------------------------
 
@@ -202,10 +226,8 @@ class _Places:
 
     def _cost(self, k: int) -> float:
         """Return what the place of a label costs with all others where they are now."""
-        taken = self.taken[k]
-        rows = np.asarray([taken.row])
-        others = self.others.costs(k, taken.choice.candidates, rows)
-        return float(taken.choice.costs[taken.row] + others[0])
+        choice, row = self.taken[k].choice, self.taken[k].row
+        return float(choice.costs[row] + self._met(k, choice, np.array([row]))[0])
 
     def look_again(self) -> None:
         """Let every label look for a better place now that all are there."""
@@ -239,11 +261,11 @@ class _Places:
             if not len(rows):
                 continue
             there = self.others.but(k)
-            meets = self.others.each(choice.candidates, rows, there) >= LEADERS_CROSS
+            meets = self.others.met(choice.met, rows, there) >= LEADERS_CROSS
             for row, met in zip(rows, meets, strict=True):
-                sent = [there[j] for j in np.flatnonzero(met)]
+                sent = there[met].tolist()
                 if self.lined.isdisjoint(sent) and len(sent) <= _SENT_AWAY:
-                    taken = _Taken(choice, int(row), 0.0)
+                    taken = self._taken(choice, int(row), 0.0)
                     if self._moved(k, taken, sent):
                         return
 
@@ -278,7 +300,7 @@ class _Places:
         for number in (0, 1):
             candidates = self._wider(k, number).candidates
             (costs,) = self.paper.costs([candidates], self.strangers, breaking=True)
-            best = self._cheapest(k, _Choice.of(candidates, costs))
+            best = self._cheapest(k, self._choice(candidates, costs))
             if best.cost < CROSSED:
                 best.ground = True
                 self._take(k, best)
@@ -287,9 +309,9 @@ class _Places:
         if best.cost < self._cost(k):
             self._take(k, best)
 
-    def result(self) -> list[Placed]:
+    def result(self) -> tuple[Placed, ...]:
         """Return the labels with their places."""
-        return [self._placed(k) for k in range(len(self.labels))]
+        return tuple(self._placed(k) for k in range(len(self.labels)))
 
     def _placed(self, k: int) -> Placed:
         label, taken = self.labels[k], self.taken[k]

@@ -11,8 +11,10 @@ below the lines the direction itself::
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import field
+from functools import partial
 
 from planmethod.note.narrate.letters import direction_text
 from planmethod.plans.model import Known, VectorEquation
@@ -294,15 +296,18 @@ def formula_block(markup: str, height: float = 3.5, *, width: float | None = Non
     return Lines(set_lines, line_step(height), indent=INDENT)
 
 
+def _width(words: Sequence[str], height: float, count: int) -> float:
+    return typeset(" ".join(words[:count]), height).width
+
+
 def _broken_formula(words: Sequence[str], height: float, width: float) -> list[str]:
     """Fill lines greedily, breaking after an operator; the next line starts with it again."""
     lines: list[str] = []
     rest = list(words)
     while rest:
         room = width - (INDENT if lines else 0.0)
-        full = len(rest)
-        while full > 1 and typeset(" ".join(rest[:full]), height).width > room:
-            full -= 1
+        every = range(len(rest) + 1)
+        full = bisect_right(every, room, lo=2, key=partial(_width, rest, height)) - 1
         if full == len(rest):
             lines.append(" ".join(rest))
             break

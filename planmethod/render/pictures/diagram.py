@@ -11,6 +11,8 @@ from enum import Enum
 from itertools import pairwise
 from math import ceil, floor
 
+import numpy as np
+
 from planmethod.construct.scale import series_near
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.record import dataclass
@@ -202,24 +204,22 @@ def _letters(curves: Sequence[Curve], height: float, name: str) -> list[Label]:
     """Return the letters of the curves, each where its curve is furthest from the others."""
     labels = []
     for k, curve in enumerate(curves):
-        places = [place for part in curve.parts for place in part]
-        if not places or not curve.symbol:
+        places = np.array([place for part in curve.parts for place in part])
+        if not len(places) or not curve.symbol:
             continue
-        others = [
-            place for other in curves if other is not curve for p in other.parts for place in p
-        ]
-
-        def alone(place: complex, others: Sequence[complex] = others) -> float:
-            gaps = [abs(other.imag - place.imag) for other in others
-                    if abs(other.real - place.real) < 6.0]  # fmt: skip
-            near_axis = max(0.0, _BESIDE_AXIS - place.real)  # the axis has a name of its own there
-            return min(gaps, default=99.0) + 0.2 * abs(place.imag) - near_axis
-
-        at = max(places, key=alone)
-        above = sum(o.imag < at.imag for o in others if abs(o.real - at.real) < 6.0)
-        below = sum(o.imag >= at.imag for o in others if abs(o.real - at.real) < 6.0)
+        others = np.array(
+            [place for other in curves if other is not curve for p in other.parts for place in p],
+            dtype=complex,
+        )
+        off = others - places[:, None]
+        gaps = np.where(np.abs(off.real) < 6.0, np.abs(off.imag), np.inf).min(1, initial=np.inf)
+        near_axis = np.maximum(0.0, _BESIDE_AXIS - places.real)  # which has a name of its own there
+        alone = np.where(gaps < np.inf, gaps, 99.0) + 0.2 * np.abs(places.imag) - near_axis
+        at = complex(places[np.argmax(alone)])
+        beside = others[np.abs(others.real - at.real) < 6.0].imag
+        above, below = np.sum(beside < at.imag), np.sum(beside >= at.imag)
         # Along the axis stand the numbers of the positions.
-        up = (above >= below if others else at.imag >= 0) or 0.0 <= at.imag < _BESIDE_NUMBERS
+        up = (above >= below if len(others) else at.imag >= 0) or 0.0 <= at.imag < _BESIDE_NUMBERS
         labels.append(
             Label(
                 typeset(curve.symbol, height),

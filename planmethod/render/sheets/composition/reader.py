@@ -14,7 +14,7 @@ from planmethod.problem.fields import (
     read_keys,
     read_table,
 )
-from planmethod.problem.names import joined, near, segment, short
+from planmethod.problem.names import joined, near_hint, segment, short
 from planmethod.problem.source import parse, read_source
 from planmethod.render.frame.frame import paper_format
 from planmethod.render.layout.cuttings import Arrange
@@ -70,12 +70,7 @@ def composition(asked: str | Path, lang: str = LANGUAGES[0]) -> Composition:
         return shipped(str(asked), lang)
     path = Path(asked)
     if path.suffix != ".toml" and not path.exists():
-        guess = near(str(asked), SHIPPED)
-        hint = (
-            say("Did you mean '{}'?", guess)
-            if guess
-            else say("Shipped are {}.", ", ".join(SHIPPED))
-        )
+        hint = near_hint(str(asked), SHIPPED, say("Shipped are {}.", ", ".join(SHIPPED)))
         faults = Faults()
         faults.add("", "there is no such layout and no such file", hint)
         raise CompositionError(str(asked), faults.found)

@@ -7,7 +7,7 @@ from typing import Any
 from planmethod.errors import LayoutError
 from planmethod.languages import say
 from planmethod.problem.fields import Faults, read_number, read_text
-from planmethod.problem.names import near
+from planmethod.problem.names import near_hint
 from planmethod.render.ink.style import HEIGHTS
 from planmethod.render.ink.typeset import SMALLEST, typeset
 
@@ -85,12 +85,11 @@ def read_choice(faults: Faults, path: str, value: object, known: tuple[str, ...]
     """Read one of the known words."""
     if isinstance(value, str) and value in known:
         return value
-    guess = near(value, known) if isinstance(value, str) else None
     faults.expected(
         path,
         say("one of {}", ", ".join(known)),
         value,
-        say("Did you mean '{}'?", guess) if guess else "",
+        near_hint(value, known) if isinstance(value, str) else "",
     )
     return None
 
