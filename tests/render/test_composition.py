@@ -82,7 +82,10 @@ def test_the_shipped_are_the_files_that_lie_there() -> None:
             assert (russian is not None) is (lang == "ru")
 
 
-OTHERS = ("forces", "forces-cycle", "flywheel", "run-up", "balancing", "coursework")
+OTHERS = (
+    *("forces", "forces-cycle", "flywheel", "run-up", "balancing", "coursework"),
+    "compact",  # at other scales than the files': test_sheet_options
+)
 KINEMATIC = tuple(name for name in SHIPPED if name not in OTHERS)
 """The sheet of the turn, ``coursework``, has its own tests: ``test_turn_sheet``."""
 
