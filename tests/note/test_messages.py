@@ -50,6 +50,7 @@ NO_MESSAGES = (
     "note/",  # the words of notes, and mistakes of ours
     "plans/diagrams/",
     "problem/keys.py",  # the table of the title block's fields in the documents
+    "record.py",  # source of methods, and mistakes of ours
     "render/control/remarks.py",  # mistakes of ours
     "render/forces/",
     "render/ink/lettering/",
