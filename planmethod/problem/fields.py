@@ -52,6 +52,13 @@ class Faults:
         self._found: list[Fault] = []
         self.count = 0
 
+    def copy(self) -> Faults:
+        """Return the same, to be gone on with."""
+        other = Faults()
+        other.unit, other.stated = self.unit, dict(self.stated)
+        other._found, other.count = list(self._found), self.count
+        return other
+
     def __len__(self) -> int:
         return self.count
 
