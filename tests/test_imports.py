@@ -93,7 +93,12 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES}
             | {"urllib.request", "svgwrite.data.svgparser"},
         ),
-        ((("--help",),), {"click"}, {*ALL, *FONTS, "fractions", "planmethod.problem.model"}),
+        (
+            (("--help",),),
+            {"click"},
+            {*ALL, *FONTS, "fractions", "hashlib", "importlib.metadata", "logging"}
+            | {"multiprocessing", "planmethod.problem.model"},
+        ),
         ((("solve", EX3),), {"numpy"}, {*FORCES, "fractions", *OTHER_WORDS}),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
         (

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import json
-import logging
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -22,7 +18,6 @@ from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import settle_process
 from planmethod.commands.problems import Todo, begin, finish, guarded, stem, through
-from planmethod.commands.processes import Part, heard
 from planmethod.errors import PlanMethodError
 from planmethod.languages import LANGUAGES, say, speaking, spoken
 from planmethod.options import (
@@ -41,6 +36,7 @@ if TYPE_CHECKING:
     from distributed import Client, Future
 
     from planmethod.check.marks import Settings
+    from planmethod.commands.processes import Part
 
 NEEDS = "batch needs dask: pip install 'planmethod[batch]'"
 
@@ -85,6 +81,10 @@ class Order:
 
 def made(order: Order) -> Part[dict[str, bytes]]:
     """Make the files of an order: called on the machines of the cluster."""
+    from tempfile import TemporaryDirectory
+
+    from planmethod.commands.processes import heard
+
     settle_process()
     with _ONE, speaking(order.lang), TemporaryDirectory(prefix="planmethod-") as name:
         return heard(partial(_files, order, Path(name)))
@@ -114,6 +114,8 @@ def _files(order: Order, folder: Path) -> dict[str, bytes]:
 
 def installed() -> str:
     """Return the version of the package: asked of the machines of the cluster."""
+    from importlib.metadata import version
+
     return version("planmethod")
 
 
@@ -225,7 +227,7 @@ def _hash(order: Order, phi: Positions | None) -> str:
         installed(), read_source(one.path), repr(problem),  # with a table of variants beside it
         order.sheets is None, sorted(options.items()), order.layout, order.settings,
     )  # fmt: skip
-    return hashlib.sha256(repr(parts).encode()).hexdigest()
+    return _digest(repr(parts).encode())
 
 
 # Files there are ---------------------------------------------------------------------------------
@@ -289,6 +291,8 @@ def _line(told: Mapping[str, Any]) -> str:
 
 
 def _digest(data: bytes) -> str:
+    import hashlib
+
     return hashlib.sha256(data).hexdigest()
 
 
@@ -298,6 +302,8 @@ def _digest(data: bytes) -> str:
 @contextlib.contextmanager
 def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
     """Give a cluster with workers of this version."""
+    import logging
+
     from distributed import Client, LocalCluster
 
     quiet = logging.CRITICAL  # what matters is said here

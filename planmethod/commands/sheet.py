@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
@@ -13,6 +14,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import write_drawings, write_set
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem, tell_changes
 from planmethod.commands.watch import watch_option
+from planmethod.errors import LayoutError
 from planmethod.languages import say
 from planmethod.options import (
     Positions,
@@ -27,7 +29,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from planmethod.construct.drafting import Profile
     from planmethod.kinds import Kind
@@ -51,6 +53,29 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     return value
 
 
+def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
+    """Return a problem without its scales, which are for larger paper.
+
+    Raises
+    ------
+    LayoutError
+        More positions are asked than small paper has room for.
+    """
+    from planmethod.problem.model import Scales
+    from planmethod.solved.scaling import FEW
+
+    asked = problem.drive.positions if positions is None else positions
+    if len(asked) > FEW:
+        raise LayoutError(
+            "{}: --compact is for at most {} positions, {} are asked. Ask fewer (--phi 30,150), or "
+            "leave --compact out.",
+            problem.name,
+            FEW,
+            len(asked),
+        )
+    return replace(problem, scales=Scales(convention=problem.scales.convention))
+
+
 @click.command(cls=Spoken)
 @problem_options
 @reading_options
@@ -58,6 +83,12 @@ def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 @format_option("svg,pdf")
 @sheet_options
 @layout_option
+@click.option(
+    "--compact",
+    is_flag=True,
+    help="For a printer at home: several sheets of A4 (A3 with --paper), up to five positions, at "
+    "scales of their own.",
+)
 @click.option(
     "--one-file",
     callback=read_name,
@@ -80,6 +111,7 @@ def sheet(
     formats: tuple[str, ...],
     asked: Asked,
     layout: str | None,
+    compact: bool,
     one_file: str | None,
     errors: bool,
     sigma: bool | None,
@@ -92,6 +124,10 @@ def sheet(
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
+    if compact:
+        if layout is not None:
+            raise click.UsageError(say("give --compact or --layout, not both"))
+        layout = "compact"
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn
     positions = None if phi is None else phi.tolist()
@@ -105,7 +141,7 @@ def sheet(
         problem: Problem, *, before: int = 0, total: int | None = None, hand: Profile = hand
     ) -> list[Drawing]:
         return kinematics_sheets(
-            problem,
+            compacted(problem, positions) if compact else problem,
             positions=positions,
             profile=hand,
             fields=asked.fields,

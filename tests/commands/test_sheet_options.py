@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from worked import path_of
+from worked import path_of, problem_of
 
 from planmethod.cli import cli
+from planmethod.commands.sheet import compacted
 from planmethod.paper import FORMATS
 
 EX1, EX2 = str(path_of("linkages/ex1")), str(path_of("linkages/ex2"))
@@ -37,6 +38,26 @@ def drawn(*args: str) -> str:
     done = run("sheet", EX1, "--format", "svg", *args)
     assert done.exit_code == 0, done.output
     return Path("out/ex1.svg").read_text("utf-8")
+
+
+# Small paper -------------------------------------------------------------------------------------
+
+
+def test_a_printer_at_home_has_sheets_of_a4(desk: Path) -> None:
+    """The scales of the file are for larger paper: they are left out."""
+    assert compacted(problem_of("linkages/ex1"), [20.0]).scales.mu_v is None
+    done = run("sheet", EX1, "--compact", "--format", "svg")
+    assert done.exit_code == 0, done.output
+    sheets = [path.read_text("utf-8") for path in sorted(desk.glob("out/ex1*.svg"))]
+    assert len(sheets) > 1
+    assert all('width="210mm"' in sheet and 'height="297mm"' in sheet for sheet in sheets)
+
+
+def test_small_paper_is_for_a_few_positions_and_not_with_a_layout() -> None:
+    done = run("sheet", EX1, "--compact", "--phi", "0:360:30")
+    assert done.exit_code == 2
+    assert "--compact is for at most 5 positions, 12 are asked" in done.output
+    assert run("sheet", EX1, "--compact", "--layout", "homework").exit_code == 2
 
 
 # Paper and forms ---------------------------------------------------------------------------------
@@ -135,7 +156,8 @@ def test_texts_have_the_language_of_their_sheets() -> None:
     structure = run("structure", EX1, "--config", name)
     assert "Kinematic pairs" in structure.output
     assert "Structural formulas" in Path("out/ex1-structure.svg").read_text("utf-8")
-    assert "short segments" in run("lint", EX1, "--config", name, "--json").output
+    three = ("--phi", "30,60,90")
+    assert "short segments" in run("lint", EX1, *three, "--config", name, "--json").output
     assert "замечан" in run("lint", EX1, "--structure", "--config", name, "--lang", "ru").output
     for command in (("layouts",), ("layouts", "homework"), ("new", "--list")):
         english = run(*command, "--lang", "en")

@@ -82,7 +82,10 @@ def test_the_shipped_are_the_files_that_lie_there() -> None:
             assert (russian is not None) is (lang == "ru")
 
 
-OTHERS = ("forces", "forces-cycle", "flywheel", "run-up", "balancing", "coursework")
+OTHERS = (
+    *("forces", "forces-cycle", "flywheel", "run-up", "balancing", "coursework"),
+    "compact",  # at other scales than the files': test_sheet_options
+)
 KINEMATIC = tuple(name for name in SHIPPED if name not in OTHERS)
 """The sheet of the turn, ``coursework``, has its own tests: ``test_turn_sheet``."""
 
@@ -124,7 +127,7 @@ def test_what_is_taken_when_nothing_is_asked() -> None:
 
 def test_the_order_of_the_textbook() -> None:
     """The scheme upper left, Дано under it; the velocity plan right of it, the next one below."""
-    (sheet,) = drawn_sheets("levers/task12", layout="homework")
+    (sheet,) = drawn_sheets("linkages/ex1", layout="homework")
     scheme, velocity, acceleration = (
         view(sheet, kind).box for kind in ("position", "velocity", "acceleration")
     )

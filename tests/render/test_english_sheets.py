@@ -34,6 +34,7 @@ CASES = [
     ("coursework-12", "linkages/ex1", TURN),
     *(("forces", name, None) for name in ("levers/six-link", "levers/task12", "press/press")),
     ("few-positions", "linkages/ex3", TURN[:2]),
+    ("compact", "linkages/ex1", (60.0,)),
     ("forces-cycle", "levers/task12", TURN),
     ("forces-cycle", "press/press", TURN),
     ("flywheel", "press/flywheel", None),

@@ -194,7 +194,7 @@ class Senses:
         costs: Reals = (
             nearness(arcs, strange, _CLEAR * f).sum(axis=-1)
             + 2.0 * nearness(arcs, ends_of(self.arrows), _APART * f).sum(axis=-1)
-            + _LETTER * nearness(letters, everything, 1.2 * height)
+            + _LETTER * nearness(letters[..., None], everything, 1.2 * height)[..., 0]
         )
         return costs
 
@@ -255,10 +255,23 @@ def ends_of(items: Iterable[Item]) -> Complexes:
 
 
 def nearness(places: Complexes, ends: Complexes, clear: float) -> Reals:
-    """Return how near places are to lines: 1 on one, 0 from ``clear`` mm on; the places' shape."""
-    if not len(ends):
-        return np.zeros(places.shape)
-    ways = ends[:, 1] - ends[:, 0] + 1e-9
-    part = np.clip(((places[..., None] - ends[:, 0]) / ways).real, 0.0, 1.0)
-    room = np.abs(places[..., None] - ends[:, 0] - ways * part).min(axis=-1)
-    return np.asarray(np.maximum(0.0, 1.0 - room / clear))
+    """Return how near places are to lines: 1 on one, 0 from ``clear`` mm on; the places' shape.
+
+    Places along the last axis lie together; lines too far from all of them are not measured.
+    """
+    groups = places.reshape(-1, places.shape[-1])
+    middles, centres = groups.mean(axis=-1), ends.mean(axis=-1)
+    reach = np.abs(groups - middles[:, None]).max(axis=-1)[:, None] + clear + 1e-6
+    near, line = np.nonzero(
+        np.abs(middles[:, None] - centres) < reach + np.abs(ends[:, 1] - centres)
+    )
+    found = np.zeros(groups.shape)
+    if len(near):
+        starts = ends[line, :1]
+        ways = ends[line, 1:] - starts + 1e-9
+        offs = groups[near] - starts
+        room = np.abs(offs - ways * np.clip((offs / ways).real, 0.0, 1.0))
+        first = np.flatnonzero(np.diff(near, prepend=-1))
+        least = np.minimum.reduceat(room, first, axis=0)
+        found[near[first]] = np.maximum(0.0, 1.0 - least / clear)
+    return found.reshape(places.shape)

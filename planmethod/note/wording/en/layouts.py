@@ -4,6 +4,12 @@ from types import MappingProxyType
 
 LAYOUTS = MappingProxyType(
     {
+        "compact_head": "For a printer at home, up to five positions: several sheets of A4 in "
+        "place of a large one. So planmethod sheet --compact draws.\n# What each key means: "
+        "docs/layout.md.",
+        "compact_about": "for a printer at home: sheets of A4 with the scheme, the velocity plan, "
+        "the acceleration plan, the table",
+        "compact_sizes": "no letters below 2.5 mm",
         "coursework_head": "Sheet of a course project: twelve positions on A1.\n# On the left the "
         "scheme in all positions, the statement and the equations; on the right the velocity\n# "
         "plans in two rows of six, below them the acceleration plans, the table over the title "

@@ -16,6 +16,7 @@ SHIPPED = (
     "one-position",
     "few-positions",
     "many-positions",
+    "compact",
     "homework",
     "coursework",
     "coursework-12",
