@@ -25,6 +25,7 @@ from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
 from planmethod.record import dataclass
 from planmethod.solved.closings import choose_closings, drive_data
+from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
@@ -114,7 +115,6 @@ class Solution(Remembering):
         asked = problem.drive.positions if positions is None else positions
         self.positions: Reals = np.asarray(asked, dtype=float)
         self.profile = profile if ruler is None else replace(profile, ruler=ruler)
-        self.hand = Hand(ruler=self.profile.ruler)
         self.structure: Structure = analyse(problem.mechanism)
         self.construction: Construction = build(
             problem, self.structure, choose_closings(problem, self.structure)
@@ -126,7 +126,7 @@ class Solution(Remembering):
         """Return the same mechanism, assembled in the same way, in other positions."""
         other = object.__new__(Solution)
         Remembering.__init__(other)
-        for name in ("problem", "profile", "hand", "structure", "construction"):
+        for name in ("problem", "profile", "structure", "construction"):
             setattr(other, name, getattr(self, name))
         other._views, other._scales = self._views, self._scales
         other.positions = np.asarray(positions, dtype=float)
@@ -200,6 +200,35 @@ class Solution(Remembering):
         """Exact reading at the plans' scales: millimetres on the paper."""
         self.si  # noqa: B018 - an impossible step must be told first, in metres
         return self.read(Float64(), self.per_mm)
+
+    @cached_property
+    def knots(self) -> dict[PlanKind, tuple[Knot, ...]]:
+        """Short segments that are enlarged, by plans: of one position, which has plans alone."""
+        found: dict[PlanKind, tuple[Knot, ...]] = {}
+        for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
+            first = sum(map(len, found.values()))
+            alone = len(self.positions) == 1
+            least = least_shown(self.profile.ruler)
+            found[kind] = (
+                find_knots(self.construction, self.paper, kind, least, first) if alone else ()
+            )
+        return found
+
+    @cached_property
+    def read_on(self) -> dict[NumberName, Knot]:
+        """The lengths that are read on an enlarged view, and on which."""
+        return {
+            name: knot
+            for kind, knots in self.knots.items()
+            for knot in knots
+            for name in measured(self.construction, kind, knot)
+        }
+
+    @cached_property
+    def hand(self) -> Hand:
+        """Draughtsman with a ruler: short segments he reads where they are enlarged."""
+        ruler = self.profile.ruler
+        return Hand(ruler, {name: knot.times for name, knot in self.read_on.items()})
 
     @cached_property
     def by_hand(self) -> Reading:

@@ -33,6 +33,10 @@ def record(*args: str) -> Any:
     return json.loads(run(*args, "--json").stdout)
 
 
+THREE = ("--phi", "30,60,90")
+"""Positions of one of which a segment is short; of one position it would be enlarged."""
+
+
 def test_a_clean_sheet_is_done(tmp_path: Path) -> None:
     done = run(EX2, EX3)
     assert done.exit_code == ExitCode.DONE
@@ -44,11 +48,12 @@ def test_a_clean_sheet_is_done(tmp_path: Path) -> None:
 
 
 def test_warnings_are_findings_only_when_strict() -> None:
-    done = run(EX1)
+    done = run(EX1, *THREE)
     assert done.exit_code == ExitCode.DONE
-    assert "PM-D08 предупреждение: план ускорений; 4,80 мм, предел 5 мм" in done.stdout
+    assert "PM-D08 предупреждение: план ускорений, положение" in done.stdout
+    assert "4,80 мм, предел 5 мм" in done.stdout
     assert "Что делать: Впишите в [scales] mu_a = 4" in done.stdout
-    assert run(EX1, "--strict").exit_code == ExitCode.FINDINGS
+    assert run(EX1, *THREE, "--strict").exit_code == ExitCode.FINDINGS
     assert run(EX2, "--strict").exit_code == ExitCode.DONE
 
 
@@ -63,25 +68,26 @@ def test_errors_are_findings() -> None:
 
 
 def test_english() -> None:
-    done = run(EX1, "--lang", "en", "--stamp", LONG)
+    done = run(EX1, *THREE, "--lang", "en", "--stamp", LONG)
     assert done.exit_code == ExitCode.FINDINGS
-    assert "ex1: sheet 1 of 1, A3: errors 2, warnings 1" in done.stdout
-    assert "PM-D08 warning: acceleration plan; 4.80 mm, limit 5 mm" in done.stdout
+    assert re.search("ex1: sheet 1 of 1, A2: errors 2, warnings [12]", done.stdout)
+    assert "PM-D08 warning: acceleration plan, position" in done.stdout
+    assert "4.80 mm, limit 5 mm" in done.stdout
     assert "Next: Write mu_a = 4 into [scales]" in done.stdout
 
 
 def test_the_record() -> None:
-    found = record(EX1)
+    found = record(EX1, *THREE)
     assert {key: found[key] for key in ("schema", "problem", "variant", "kind")} == {
         "schema": 1,
         "problem": "ex1",
         "variant": None,
         "kind": "kinematics",
     }
-    assert (found["errors"], found["warnings"]) == (0, 1)
     (sheet,) = found["sheets"]
-    assert (sheet["number"], sheet["paper"]) == (1, "A3")
-    (finding,) = sheet["findings"]
+    assert (found["errors"], found["warnings"]) == (0, len(sheet["findings"]))
+    assert (sheet["number"], sheet["paper"]) == (1, "A2")
+    (finding,) = (one for one in sheet["findings"] if one["code"] == "PM-D08")
     assert set(finding) == {
         "code",
         "severity",
@@ -98,8 +104,8 @@ def test_the_record() -> None:
     assert finding["severity"] == "warning"
     assert set(finding["where"]) == {"view", "position", "x", "y"}
     assert finding["where"]["view"] == "acceleration"
-    assert 20 < finding["where"]["x"] < 415
-    assert 5 < finding["where"]["y"] < 292
+    assert 20 < finding["where"]["x"] < 589
+    assert 5 < finding["where"]["y"] < 415
     assert finding["value"] < finding["limit"] == 5.0
     assert finding["facts"]["segments"] == [["bn_CB", pytest.approx(4.805, abs=0.01)]]
 
@@ -108,7 +114,8 @@ def test_records_of_several_and_their_exit_code() -> None:
     done = run(VARIANTS, "--all-variants", "--json")
     assert done.exit_code == ExitCode.DONE
     assert [found["variant"] for found in json.loads(done.stdout)] == list("АБВГДЕ")
-    assert run(VARIANTS, "--variant", "Д", "--json", "--strict").exit_code == ExitCode.FINDINGS
+    strict = run(VARIANTS, "--variant", "Д", "--phi", "30,60", "--json", "--strict")
+    assert strict.exit_code == ExitCode.FINDINGS
     assert record(VARIANTS, "--variant", "Б")["variant"] == "Б"
 
 

@@ -156,7 +156,8 @@ def test_texts_have_the_language_of_their_sheets() -> None:
     structure = run("structure", EX1, "--config", name)
     assert "Kinematic pairs" in structure.output
     assert "Structural formulas" in Path("out/ex1-structure.svg").read_text("utf-8")
-    assert "short segments" in run("lint", EX1, "--config", name, "--json").output
+    three = ("--phi", "30,60,90")
+    assert "short segments" in run("lint", EX1, *three, "--config", name, "--json").output
     assert "замечан" in run("lint", EX1, "--structure", "--config", name, "--lang", "ru").output
     for command in (("layouts",), ("layouts", "homework"), ("new", "--list")):
         english = run(*command, "--lang", "en")

@@ -127,7 +127,7 @@ def test_what_is_taken_when_nothing_is_asked() -> None:
 
 def test_the_order_of_the_textbook() -> None:
     """The scheme upper left, Дано under it; the velocity plan right of it, the next one below."""
-    (sheet,) = drawn_sheets("levers/task12", layout="homework")
+    (sheet,) = drawn_sheets("linkages/ex1", layout="homework")
     scheme, velocity, acceleration = (
         view(sheet, kind).box for kind in ("position", "velocity", "acceleration")
     )

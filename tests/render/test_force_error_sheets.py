@@ -172,7 +172,7 @@ def test_every_ellipse_is_that_of_a_vertex(name: str) -> None:
                 drawn_forces(reading.statics).ellipse(end, 0)
                 for edge, shift in zip(edges, shifts, strict=True)
                 for end in (edge.tail, edge.head)
-                if abs(reading.end(end) + shift - middle(stroke)) < 1e-6
+                if abs(reading.corner(k, end) + shift - middle(stroke)) < 1e-6
             ]
             assert any(np.allclose(spread(stroke), each, rtol=1e-6, atol=1e-9) for each in near)
 
@@ -191,8 +191,8 @@ def test_every_vertex_but_the_first_has_its_ellipse(name: str) -> None:
         }
         assert len(drawn.strokes) <= len(ends) - len(free)
         if not drawn.too_large:
-            places = {complex(round(reading.end(e).real, 3), round(reading.end(e).imag, 3))
-                      for e in ends - free}  # fmt: skip
+            corners = [reading.corner(k, end) for end in ends - free]
+            places = {complex(round(place.real, 3), round(place.imag, 3)) for place in corners}
             assert len(drawn.strokes) >= len(places)
 
 
@@ -218,7 +218,9 @@ def test_the_disc_is_where_the_construction_begins(name: str) -> None:
             and view.box[1] < item.points[0].imag < view.box[3]
         )
         off = disc.centre - shaft.points[0]
-        assert off == pytest.approx(reading.end(start) - reading.end(first.tail), abs=1e-6)
+        assert off == pytest.approx(
+            reading.corner(k, start) - reading.corner(k, first.tail), abs=1e-6
+        )
 
 
 def test_dashed_are_vertices_where_first_order_does_not_hold() -> None:

@@ -6,8 +6,9 @@ from collections.abc import Iterable, Sequence
 
 from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
 from planmethod.note.narrate.naming import SCALE_KIND, Names
-from planmethod.note.wording import language
+from planmethod.note.wording import Language, language
 from planmethod.plans.model import FACTS, PlanKind, Vector
+from planmethod.solved.enlarging import Knot
 from planmethod.solved.solution import Solution
 
 SHORTEST_MM = 1e-9
@@ -144,8 +145,30 @@ class Formulas:
         if not self.readable(step.out):
             told = self.exactly(exact, self.unit(unit))
             return f"{symbol} {self.language.sheets.unreadable}{told}"
-        value = abs(self.number(step.out))
-        return self.formula(symbol, self.product(powers), value, unit, self.exactly(exact))
+        value, product = abs(self.number(step.out)), self.product(powers)
+        told = self._read_on(step) + self.exactly(exact)
+        if value == 0.0 < exact:  # no enlargement of GOST 2.302 shows it
+            return f"{symbol} = {product[0]} ≈ 0{told}"
+        return self.formula(symbol, product, value, unit, told)
+
+    def _read_on(self, step: Compute) -> str:
+        """Return on which enlarged view a quantity's segment is read; empty of other segments."""
+        read_on = self.solution.read_on
+        knot = next((read_on[name] for name, _ in step.powers if name in read_on), None)
+        if knot is None:
+            return ""
+        return f" ({self.language.sheets.read_on.format(view=view_name(knot, self.language))})"
+
+
+def view_name(knot: Knot, words: Language) -> str:
+    """Return what an enlarged view is called: ``А (10:1)``."""
+    ratio = words.say.short(knot.times)
+    return words.sheets.enlarged.format(letter=knot_letter(knot, words), ratio=ratio)
+
+
+def knot_letter(knot: Knot, words: Language) -> str:
+    """Return the letter of an enlarged view."""
+    return words.sheets.knots[knot.number % len(words.sheets.knots)]
 
 
 def _shown(value: float) -> float:

@@ -18,7 +18,7 @@ from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.record import dataclass
-from planmethod.solved.many.positions import Gaps, blocks, common_scales, with_force_scale
+from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
@@ -137,11 +137,10 @@ def large_table(
     partial : bool
         A last column ``reason`` says why cells are empty.
     """
-    scales = common_scales(problem, positions, gaps)
-    drawn = with_force_scale(problem, positions, gaps)
+    scales = common_scales(problem, positions, gaps) | force_scale(problem, positions, gaps)
 
     def solved(asked: Reals) -> Solution:
-        return Solution(drawn, positions=asked.tolist(), ruler=ruler, scales=scales)
+        return Solution(problem, positions=asked.tolist(), ruler=ruler, scales=scales)
 
     nothing = solved(positions[:0])
     names, still = list(csv_columns(nothing))[1:], len(motion_columns(nothing))

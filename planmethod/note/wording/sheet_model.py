@@ -21,6 +21,9 @@ class SheetWording:
     equations: Mapping[str, str]
     calculation: Mapping[str, str]
     but_for: str
+    knots: tuple[str, ...]
+    enlarged: str
+    read_on: str
     extremes: str
     of_position: str
     wanted: str

@@ -6,12 +6,13 @@ from math import isfinite
 
 from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
-from planmethod.plans.model import Plan, PlanKind, VectorKind
+from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
+from planmethod.render.pictures.enlarged import enlarged_picture, knot_mark
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.traces import Shown, plan_traces
 from planmethod.render.symbols import vector_arrow
@@ -71,11 +72,13 @@ def plan_picture(
     errors: bool = False,
     by_hand: bool = False,
     traces: Shown = False,
+    knots: tuple[str, ...] = (),
 ) -> Picture:
     """Return a plan in one position as a picture, its own pole at the origin, mm.
 
     ``errors`` draws the ellipses of the drafting error around its points; ``by_hand`` is told by
-    `plan_places`, and ``traces`` by `planmethod.render.pictures.traces`. Kept, since a sheet is
+    `plan_places`, and ``traces`` by `planmethod.render.pictures.traces`. ``knots`` are the letters
+    of what is shown enlarged beside it, in their order. Kept, since a sheet is
     tried with fewer positions when it does not fit with more.
     """
     plan = solution.construction.plan(kind)
@@ -89,9 +92,7 @@ def plan_picture(
         if abs(at[head] - at[tail]) > 0.05:
             items.append(Stroke((at[tail], at[head]), Pen.THIN, tag="similar"))
     for vector in plan.vectors:
-        thin = vector.kind in COMPONENTS or (
-            vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
-        )
+        thin = is_thin(vector, kind)
         items += vector_arrow(
             at[vector.tail],
             at[vector.head],
@@ -101,6 +102,10 @@ def plan_picture(
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
     labels = _labels(solution, plan, at, letter_height, f"{kind.value} {index}")
+    for knot, letter in zip(solution.knots[kind], knots, strict=False):
+        circle, label = knot_mark(knot, at, letter, letter_height)
+        items.append(circle)
+        labels.append(label)
     names = [
         segment_label(f"\\bar{{{vector.symbol[0]}}}{vector.symbol[1:]}", at[tail], at[head], NAMES)
         for vector in plan.vectors
@@ -108,6 +113,26 @@ def plan_picture(
         if letter_height > NAMES and abs(at[head] - at[tail]) > LONG
     ]
     return lettered(items, labels, clear=ellipses.grounds, welcome=[*names, *directions])
+
+
+def is_thin(vector: Vector, kind: PlanKind) -> bool:
+    """Tell whether a vector is a component, which is drawn thin."""
+    return vector.kind in COMPONENTS or (
+        vector.kind is VectorKind.SLIDING and kind is PlanKind.ACCELERATION
+    )
+
+
+def knot_pictures(
+    solution: Solution, kind: PlanKind, *, letter_height: float, by_hand: bool
+) -> list[Picture]:
+    """Return the knots of the plan of one position as they are enlarged."""
+    plan, at = solution.construction.plan(kind), plan_places(solution, kind, 0, by_hand=by_hand)
+    thin = frozenset((v.tail, v.head) for v in plan.vectors if is_thin(v, kind))
+    letters = shown_letters(solution.problem, plan)
+    return [
+        enlarged_picture(plan, knot, at, letters, thin, letter_height)
+        for knot in solution.knots[kind]
+    ]
 
 
 def _labels(

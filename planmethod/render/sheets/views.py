@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from planmethod.construct.scale import Scale
+from planmethod.note.narrate.formulas import knot_letter, view_name
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.narrate.scales import scale_inscription
@@ -13,23 +15,32 @@ from planmethod.note.numbers import Notation, is_nothing, with_unit
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
-from planmethod.render.ink.drawing import Disc, Item, Span, View
+from planmethod.render.ink.drawing import Arc, Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row
 from planmethod.render.pictures.ellipses import ellipse_inscription
+from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.pictures.paths import Paths
-from planmethod.render.pictures.planview import POLE, plan_picture, plan_places
+from planmethod.render.pictures.planview import (
+    POLE,
+    knot_pictures,
+    plan_picture,
+    plan_places,
+)
 from planmethod.render.pictures.positions import PRIMES, bold_position, shows_extremes
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.traces import shown_traces
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
+from planmethod.solved.enlarging import least_shown
 from planmethod.solved.scaling import per_row
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
 
 CAPTION = 3.5
 """Height of the letters of one of many plans, and of its caption, mm."""
+
+NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -78,16 +89,30 @@ class PlanViewed(Viewed):
     def spans(self, items: Sequence[Item]) -> Iterable[Span]:
         """Return the segments of the plans."""
         poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
+        views = {
+            int(item.tag.split()[1]): item.centre
+            for item in items
+            if isinstance(item, Arc) and item.tag.startswith(ENLARGED) and item.tag[-1].isdigit()
+        }
         for pole, index in zip(poles, self.indices, strict=False):
-            yield from plan_spans(self.solution, self.kind, index, pole, by_hand=self.by_hand)
+            yield from plan_spans(
+                self.solution, self.kind, index, pole, by_hand=self.by_hand, views=views
+            )
 
 
 def plan_spans(
-    solution: Solution, kind: PlanKind, index: int, pole: complex, *, by_hand: bool = False
+    solution: Solution,
+    kind: PlanKind,
+    index: int,
+    pole: complex,
+    *,
+    by_hand: bool = False,
+    views: Mapping[int, complex] = NO_VIEWS,
 ) -> list[Span]:
     """Return the measured segments of a plan whose pole lies at ``pole`` on the sheet.
 
-    A vector that is nothing beside the plan is zero by nature and no segment.
+    A vector that is nothing beside the plan is zero by nature and no segment. ``views`` are the
+    middles of the enlarged views by the numbers of their knots: what they show is measured there.
     """
     plan = solution.construction.plan(kind)
     at = plan_places(solution, kind, index, by_hand=by_hand)
@@ -99,16 +124,22 @@ def plan_spans(
         for vector, size in zip(plan.vectors, sizes, strict=True)
         if not is_nothing(size, max(sizes))
     }
-    return [
-        Span(
-            plain_text(letters[vector.tail][0] + letters[vector.head][0]),
-            position,
-            pole + at[vector.tail],
-            pole + at[vector.head],
-            solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm,
+    shown = {frozenset(p): k for k in solution.knots[kind] if k.number in views for p in k.ends}
+    spans: list[Span] = []
+    alone, least = len(solution.positions) == 1, least_shown(solution.profile.ruler)
+    for ends, vector in named.items():
+        knot = shown.get(ends)
+        if alone and knot is None and abs(at[vector.head] - at[vector.tail]) < least:
+            continue  # told to be nothing
+        times, middle = (1.0, pole) if knot is None else (knot.times, views[knot.number])
+        start, end = (
+            middle + (at[point] - (0j if knot is None else knot.centre)) * times
+            for point in (vector.tail, vector.head)
         )
-        for vector in named.values()
-    ]
+        share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
+        name = plain_text(letters[vector.tail][0] + letters[vector.head][0])
+        spans.append(Span(name, position, start, end, share * times))
+    return spans
 
 
 def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -152,11 +183,29 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
             errors=errors,
             by_hand=not errors,
             traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
+            knots=tuple(knot_letter(knot, manner.words) for knot in solution.knots[kind]),
         )
+        picture = _with_knots(solution, kind, picture, manner)
     block = _with_scale(solution, kind, picture, manner, indices)
     return PlanViewed(
         block, kind.value, solution.scales[kind], solution, kind, tuple(indices), not errors
     )
+
+
+def _with_knots(solution: Solution, kind: PlanKind, picture: Block, manner: Manner) -> Block:
+    """Return a plan with what is enlarged of it, beside or below it as takes less room."""
+    pictures = knot_pictures(
+        solution, kind, letter_height=manner.letter, by_hand=not manner.extras.errors
+    )
+    if not pictures:
+        return picture
+    views = [
+        Column([Line(typeset(view_name(knot, manner.words), manner.letter)), one], 2.5, "centre")
+        for knot, one in zip(solution.knots[kind], pictures, strict=True)
+    ]
+    beside = Row([picture, Column(views, 6.0, "centre")], 8.0, "centre")
+    below = Column([picture, Row(views, 8.0, "centre")], 6.0, "centre")
+    return below if below.width * below.height < beside.width * beside.height else beside
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:

@@ -47,10 +47,7 @@ SMALL, SMALL_BOX = 0.4, (60.0, 60.0)
 own, mm."""
 
 FAINT = 1e-6
-"""A plan of forces that are so small a part of the largest of the position is nothing."""
-
-DRAWN = 12
-"""Most positions whose force plans are drawn; of more all are read at one scale."""
+"""A plan that is so small a part of what it is in its largest position is nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,6 +233,8 @@ class Statics(Remembering):
         scales = self.solution.problem.scales
         if scales.mu_F is not None:
             return Scale(SCALE, scales.mu_F, UNIT)
+        if PlanKind.FORCE in self.solution.scales:
+            return self.solution.scales[PlanKind.FORCE]
         extents = [self._extent(plan) for plan in self.board.plans]
         whole = (max(e[0] for e in extents), max(e[1] for e in extents))
         inverse = scales.convention is Convention.MM_PER_UNIT
@@ -258,17 +257,19 @@ class Statics(Remembering):
 
         Such a plan has a scale of its own. One that the file gives is that of all.
         """
-        scales, count = self.solution.problem.scales, len(self.solution.positions)
-        found = [np.ones(count) for _ in self.board.plans]
-        if scales.mu_F is not None or count > DRAWN:
+        found = [np.ones(len(self.solution.positions)) for _ in self.board.plans]
+        scales = self.solution.problem.scales
+        if scales.mu_F is not None:
             return found
         inverse = scales.convention is Convention.MM_PER_UNIT
         for plan, share in zip(self.board.plans, found, strict=True):
-            for index, size in enumerate(zip(*self._extents(plan), strict=True)):
-                over = max(size[0] / PLAN_BOX[0], size[1] / PLAN_BOX[1]) / self.scale.per_mm
-                if 0.0 < over < SMALL and max(size) > FAINT * self.largest(index):
-                    own = choose_scale(size, SMALL_BOX, mm_per_unit=inverse)
-                    share[index] = self.scale.per_mm / own
+            size = np.maximum(*self._extents(plan))
+            over = size / PLAN_BOX[0] / self.scale.per_mm
+            small = np.flatnonzero((over < SMALL) & (size > FAINT * np.max(size, initial=0.0)))
+            for index in small:
+                box = (float(size[index]), 0.0)
+                own = choose_scale(box, SMALL_BOX, mm_per_unit=inverse)
+                share[index] = self.scale.per_mm / own
         return found
 
     def own_scale(self, number: int, index: int) -> Scale:

@@ -288,14 +288,18 @@ def common_scales(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKi
     return Solution(problem, positions=_listed(positions[some])).scales
 
 
-def with_force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> Problem:
-    """Return a problem that asks for one scale of forces, chosen as `common_scales` chooses."""
-    some = evenly(np.flatnonzero(gaps.reason < 0))
-    if problem.dynamics is None or problem.scales.mu_F is not None:
-        return problem
-    scale = 1.0
-    if some.size:
-        from planmethod.solved.forces.statics import statics_of
+def force_scale(problem: Problem, positions: Reals, gaps: Gaps) -> dict[PlanKind, Scale]:
+    """Return the scale of forces in all positions, chosen as `common_scales` chooses; or nothing.
 
-        scale = statics_of(Solution(problem, positions=_listed(positions[some]))).scale.per_mm
-    return replace(problem, scales=replace(problem.scales, mu_F=scale))
+    Nothing of a problem without forces, or that gives their scale itself.
+    """
+    if problem.dynamics is None or problem.scales.mu_F is not None:
+        return {}
+    some = evenly(np.flatnonzero(gaps.reason < 0))
+    if not some.size:
+        facts = FACTS[PlanKind.FORCE]
+        return {PlanKind.FORCE: Scale(facts.scale, 1.0, facts.unit)}
+    from planmethod.solved.forces.statics import statics_of
+
+    solution = Solution(problem, positions=_listed(positions[some]))
+    return {PlanKind.FORCE: statics_of(solution).scale}

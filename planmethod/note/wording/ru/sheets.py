@@ -16,6 +16,9 @@ SHEETS = SheetWording(
         "velocity": "Расчёт скоростей",
         "acceleration": "Расчёт ускорений",
     },
+    knots=tuple("АБВГДЕЖИКЛМН"),
+    enlarged="{letter} ({ratio}:1)",
+    read_on="по виду {view}",
     but_for=" (кроме положений: {numbers})",
     extremes="{names} — крайние положения",
     of_position="{title} (положение {number})",
@@ -61,7 +64,7 @@ SHEETS = SheetWording(
     by_lever="по рычагу",
     difference="расхождение, %",
     wanted_cycle="Определить за цикл: {wanted}.",
-    load_table="{name} = {name}({over}), до {largest}",
+    load_table="{name} = {name}({over}), {peak} = {largest}",
     balance={
         "moment": "Уравновешивающий момент {symbol}",
         "force": "Уравновешивающая сила {symbol}",

@@ -1,0 +1,88 @@
+"""Enlarged views of short segments of a plan (выносные элементы): a circle there, a view beside."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from planmethod.construct.steps import PointName
+from planmethod.plans.model import Plan
+from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import Label
+from planmethod.render.labels.spots import shared_spots, spot_labels
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.symbols import vector_arrow
+from planmethod.solved.enlarging import Knot
+
+ENLARGED = "enlarged"
+"""First word of the tag of the circle around a view, after it the number of its knot; of the
+circle on the plan the tag has ``place`` behind."""
+
+_ROUND, _SMALLEST = 5.0, 2.5
+"""White around what is shown on a view, and the least radius of the circle on the plan, mm."""
+
+
+def radius_of(knot: Knot, at: Mapping[PointName, complex]) -> float:
+    """Return the radius of the view of a knot, mm."""
+    ends = (abs(at[end] - knot.centre) for pair in knot.ends for end in pair)
+    return max(ends) * knot.times + _ROUND
+
+
+def knot_mark(
+    knot: Knot, at: Mapping[PointName, complex], letter: str, height: float
+) -> tuple[Item, Label]:
+    """Return the circle around a knot on its plan, and its letter."""
+    radius = max(radius_of(knot, at) / knot.times, _SMALLEST)
+    circle = Arc(knot.centre, radius, pen=Pen.THIN, tag=f"{ENLARGED} {knot.number} place")
+    name = f"{ENLARGED} {knot.number}"
+    return circle, Label(typeset(letter, height), knot.centre, gap=radius + 1.0, name=name)
+
+
+def enlarged_picture(
+    plan: Plan,
+    knot: Knot,
+    at: Mapping[PointName, complex],
+    letters: Mapping[PointName, list[str]],
+    thin: frozenset[tuple[PointName, PointName]],
+    height: float,
+) -> Picture:
+    """Return a knot of a plan as it is enlarged, its middle at the origin, mm.
+
+    Parameters
+    ----------
+    at : mapping
+        Where the points of the plan lie, mm from its pole.
+    thin : frozenset
+        Ends of the vectors that are components.
+    """
+    radius = radius_of(knot, at)
+    places = {name: (place - knot.centre) * knot.times for name, place in at.items()}
+    items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=f"{ENLARGED} {knot.number}")]
+    for vector in plan.vectors:
+        inside = _within(places[vector.tail], places[vector.head], radius)
+        if inside is None:
+            continue
+        pen = Pen.THIN if (vector.tail, vector.head) in thin else Pen.MAIN
+        if abs(inside[1] - places[vector.head]) < 1e-9:
+            items += vector_arrow(*inside, pen=pen, length=4.0, tag=vector.kind.value)
+        else:
+            items.append(Stroke(inside, pen, tag=vector.kind.value))
+    near = [name for name in letters if name in places and abs(places[name]) < radius - 1.0]
+    spots = shared_spots((places[name], letters[name]) for name in near)
+    items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
+    return lettered(items, spot_labels(spots, height, f"{ENLARGED} {knot.number}:"))
+
+
+def _within(tail: complex, head: complex, radius: float) -> tuple[complex, complex] | None:
+    """Return the part of a segment within a circle about the origin; None where there is none."""
+    way = head - tail
+    if abs(way) < 1e-9:
+        return None
+    middle = -(tail * way.conjugate()).real / abs(way) ** 2
+    room = radius**2 - abs(tail + way * middle) ** 2
+    if room <= 0.0:
+        return None
+    half = room**0.5 / abs(way)
+    low, high = max(0.0, middle - half), min(1.0, middle + half)
+    return (tail + way * low, tail + way * high) if low < high else None

@@ -1,0 +1,109 @@
+"""Knots of short segments of a plan, which are drawn once more, larger (выносные элементы).
+
+A segment shorter than `SHORT` is read off an enlarged view, where the step of the ruler is so much
+finer. One that is shorter than the lines of the plan are off is nothing, and stays so enlarged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planmethod.construct.steps import Measure, MeasureAlong, NumberName, PointName
+from planmethod.plans.build import Construction
+from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
+from planmethod.solved.reading import Reading
+
+SHORT = 5.0
+"""Shorter segments are enlarged, mm: half a division of the ruler is more than a tenth of them."""
+
+RATIOS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0)
+"""Enlargements of GOST 2.302."""
+
+NOTHING = 0.25
+"""Shorter than that a segment is nothing on a plan that is drawn by hand, mm: about as much as a
+line is off, and half a division of the ruler."""
+
+_WANTED = 10.0  # mm that the shortest segment of a knot has on its view
+_WIDEST = 60.0  # mm that such a view may be across
+
+
+@dataclass(frozen=True, slots=True)
+class Knot:
+    """Short segments in one place of a plan (узел, выносной элемент).
+
+    Attributes
+    ----------
+    number : int
+        From 0, over all plans of a sheet.
+    centre : complex, mm
+        Its middle, from the pole of the plan.
+    times : float
+        How many times larger than the plan it is drawn.
+    ends : tuple of pairs of PointName
+        The segments that are measured there, as the plan has them.
+    """
+
+    number: int
+    centre: complex
+    times: float
+    ends: tuple[tuple[PointName, PointName], ...]
+
+
+def least_shown(ruler: float) -> float:
+    """Return the shortest segment that is enlarged, mm, by the step of the ruler."""
+    return max(min(NOTHING, ruler / 2), SHORT / RATIOS[-1])
+
+
+def ratio_for(length: float) -> float:
+    """Return the enlargement at which a segment is long enough to be read.
+
+    Examples
+    --------
+    >>> ratio_for(0.9), ratio_for(4.5)
+    (20.0, 2.5)
+    """
+    return next((ratio for ratio in RATIOS if length * ratio >= _WANTED), RATIOS[-1])
+
+
+def find_knots(
+    construction: Construction, paper: Reading, kind: PlanKind, least: float, first: int
+) -> tuple[Knot, ...]:
+    """Return the knots of a plan in the first position; ``first`` is the number of the first.
+
+    Segments shorter than ``least``, mm, are in none.
+    """
+    at = {
+        end: complex(paper.point(end)[0])
+        for vector in construction.plan(kind).vectors
+        for end in (vector.tail, vector.head)
+    }
+    ends = {frozenset((v.tail, v.head)): (v.tail, v.head) for v in construction.plan(kind).vectors}
+    short = sorted(
+        (abs(at[head] - at[tail]), tail, head)
+        for tail, head in ends.values()
+        if least <= abs(at[head] - at[tail]) < SHORT
+    )
+    found: list[Knot] = []
+    for length, tail, head in short:
+        middle = (at[tail] + at[head]) / 2
+        for k, knot in enumerate(found):
+            reach = max(abs(at[end] - knot.centre) for end in (tail, head))
+            if reach * knot.times <= _WIDEST / 2:
+                found[k] = Knot(knot.number, knot.centre, knot.times, (*knot.ends, (tail, head)))
+                break
+        else:
+            found.append(Knot(first + len(found), middle, ratio_for(length), ((tail, head),)))
+    return tuple(found)
+
+
+def measured(construction: Construction, kind: PlanKind, knot: Knot) -> Iterator[NumberName]:
+    """Yield the lengths that the ruler reads on the view of a knot."""
+    kinematics = construction.kinematics
+    motion = kinematics.velocity if kind is PlanKind.VELOCITY else kinematics.acceleration
+    lengths = motion.segments.lengths
+    for tail, head in knot.ends:
+        for pair in ((tail, head), (head, tail)):
+            name = lengths.get(pair)
+            if name is not None and isinstance(construction.step(name), Measure | MeasureAlong):
+                yield name
