@@ -65,14 +65,14 @@ def guarded(command: F) -> F:
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
     """Read a problem file: one problem, or one for each variant."""
-    from planmethod.kinds import load as load_linkage
+    from planmethod.kinds import load_each
     from planmethod.problem.unlikely import unlikely
 
     found = []
-    for name in variants_of(path, variant, all_variants):
-        found.append(load_linkage(path, variant=name))
-        for said in unlikely(found[-1]):
-            warn(found[-1], said)
+    for problem in load_each(path, variants_of(path, variant, all_variants)):
+        found.append(problem)
+        for said in unlikely(problem):
+            warn(problem, said)
     return found
 
 
@@ -210,7 +210,9 @@ def begin(command: str, params: Mapping[str, Any]) -> Callable[[Todo], Part[Any]
     token = _beginning.set(True)
     try:
         assert called.callback is not None
-        called.callback(**{**params, **({"watch": False} if "watch" in params else {})})
+        # Switches that another command has not are off; no process watches.
+        off = {one.name: False for one in called.params if getattr(one, "is_flag", False)}
+        called.callback(**{**off, **params, **({"watch": False} if "watch" in off else {})})
     except _BegunError as begun:
         do = begun.do
         from planmethod.commands.processes import heard
