@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -34,7 +34,13 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     ------
     ProblemError
     """
-    return _posed(_of("planmethod.problem", "load")(path, variant=variant, train=_driven))
+    (problem,) = load_each(path, (variant,))
+    return problem
+
+
+def load_each(path: str | Path, variants: Iterable[str | None]) -> Iterator[Problem]:
+    """Read some variants of the file of a linkage, None for its main part: the file itself once."""
+    return map(_posed, _of("planmethod.problem", "load_each")(path, variants, train=_driven))
 
 
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:

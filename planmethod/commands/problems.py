@@ -65,14 +65,14 @@ def guarded(command: F) -> F:
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
     """Read a problem file: one problem, or one for each variant."""
-    from planmethod.kinds import load as load_linkage
+    from planmethod.kinds import load_each
     from planmethod.problem.unlikely import unlikely
 
     found = []
-    for name in variants_of(path, variant, all_variants):
-        found.append(load_linkage(path, variant=name))
-        for said in unlikely(found[-1]):
-            warn(found[-1], said)
+    for problem in load_each(path, variants_of(path, variant, all_variants)):
+        found.append(problem)
+        for said in unlikely(problem):
+            warn(problem, said)
     return found
 
 

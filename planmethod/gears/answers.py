@@ -100,8 +100,7 @@ def rack_speed(motion: Motion, label: str) -> float | None:
     train = motion.train
     if train.toothed and train.module is None:
         return None
-    turn = math.pi / 30 if train.unit == "n" else 1.0
-    return float(motion.speed(label) * train.unit_m) * turn
+    return float(motion.speed(label) * train.unit_m) * train.rate
 
 
 def _size(motion: Motion, name: str, asked: Asked) -> Answer:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -51,5 +50,4 @@ def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | 
     ratio = None
     if len(inputs) == 1 and speed and inputs[0][0] not in train.racks:
         ratio = motion.speeds[inputs[0][0]] / speed
-    rate = float(speed) * math.pi / 30 if train.unit == "n" else float(speed)
-    return Geared(body, inputs, train.unit, ratio, rate)
+    return Geared(body, inputs, train.unit, ratio, float(speed) * train.rate)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from enum import Enum
 from fractions import Fraction
@@ -157,6 +158,11 @@ class Train:
         if not self.toothed:
             return Fraction(1)
         return Fraction(1, HALF_MODULES) if self.module is None else self.module / 2
+
+    @property
+    def rate(self) -> float:
+        """What a unit of the inputs is, 1/s."""
+        return math.pi / 30 if self.unit == "n" else 1.0
 
     def counted(self, label: str) -> bool:
         """Whether the size of a wheel is a number of teeth."""

@@ -30,7 +30,9 @@ class Picture:
     ----------
     mu_l : Fraction, m/mm
     speed_per_mm : Fraction
-        Speed times height of a millimetre: unit of the speeds times metre. ``mu_v`` follows.
+        Speed times height of a millimetre: unit of the speeds times metre.
+    rate : float, 1/s
+        A unit of the speeds.
     rays : tuple of (label, segment)
         Positive for bodies that turn counter-clockwise.
     """
@@ -40,6 +42,17 @@ class Picture:
     speed_per_mm: Fraction
     contacts: tuple[Contact, ...]
     rays: tuple[tuple[str, Fraction], ...]
+    rate: float = 1.0
+
+    @property
+    def mu_v(self) -> float:
+        """Scale of the linear velocities, (m/s)/mm."""
+        return float(self.speed_per_mm) * self.rate
+
+    @property
+    def mu_omega(self) -> float:
+        """Scale of the angular velocities, (1/s)/mm."""
+        return self.mu_v / float(self.mu_l * self.pole_mm)
 
     @property
     def turn_per_mm(self) -> Fraction:
@@ -78,7 +91,8 @@ def draw(motion: Motion, settings: PictureSettings | None = None) -> Picture | N
     labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
     per = settings.pole_mm * scale / mm
     rays = tuple((label, motion.speed(label) * per) for label in labels)
-    return Picture(settings.mu_l, settings.pole_mm, train.unit_m / scale, contacts, rays)
+    per_mm = train.unit_m / scale
+    return Picture(settings.mu_l, settings.pole_mm, per_mm, contacts, rays, train.rate)
 
 
 def _at(motion: Motion, body: str, height: Fraction) -> Fraction:

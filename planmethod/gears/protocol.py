@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from math import pi
 
 from planmethod.construct.drafting import Profile
 from planmethod.construct.steps import Join, LayOff, MeetLines, PointName, Step
@@ -126,7 +125,7 @@ class _Teller:
     def _start(self, spot: Spot, origin: PointName) -> None:
         body = next((b for b in self.drawn.starts if b in spot.bodies), spot.bodies[0])
         facts = {"foot": origin, "point": spot.letter, "what": self._what(spot, "of ")}
-        mu_v = self.notation.short(self._mu_v(), 4)
+        mu_v = self.notation.short(self.drawn.picture.mu_v, 4)
         length = self._mm(abs(float(spot.speed)))
         lines = [self.say.steps["laid"].format(**facts, length=length, mu_v=mu_v)]
         if body in self.drawn.calculated:
@@ -136,10 +135,6 @@ class _Teller:
             told = {"body": self.drawn.label(body), "input": inputs}
             lines.append(self.say.steps["any"].format(**told))
         self.out.item(lines)
-
-    def _mu_v(self) -> float:
-        turns = self.motion.train.unit == "n"
-        return float(self.drawn.picture.speed_per_mm) * (pi / 30 if turns else 1.0)
 
     def _mm(self, value: float) -> str:
         return self.notation.number(f"{value + 0.0:.2f}")

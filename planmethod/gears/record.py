@@ -148,14 +148,11 @@ def _picture(motion: Motion) -> dict[str, Any] | None:
     picture = draw(motion)
     if picture is None:
         return None
-    turn = math.pi / 30 if motion.train.unit == "n" else 1.0
-    pole = motion.train.picture.pole_mm
-    mu_v = float(picture.speed_per_mm) * turn
     return {
         "mu_l": float(picture.mu_l),
-        "mu_v": mu_v,
-        "mu_omega": mu_v / float(picture.mu_l * pole),
-        "pole_mm": float(pole),
+        "mu_v": picture.mu_v,
+        "mu_omega": picture.mu_omega,
+        "pole_mm": float(picture.pole_mm),
         "contacts": [
             {
                 "name": one.name,

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
-from math import pi
 from typing import NamedTuple
 
 from planmethod.construct.drafting import Profile
@@ -19,7 +18,7 @@ from planmethod.gears.drawn.side import Side
 from planmethod.gears.drawn.velocities import angular, angular_spans, linear, linear_spans
 from planmethod.gears.model import GearProblem, PictureSettings
 from planmethod.gears.motion import Motion, solve_motion
-from planmethod.gears.picture import Picture, draw
+from planmethod.gears.picture import draw
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import Language, language
@@ -293,7 +292,8 @@ class _Sheet:
         if drawn is not None and seen is not None:
             lines, named = linear(drawn, seen, self.sizes.letter)
             box = ink_bounds(lines)
-            head = self._head(say.linear, max(box[2] - box[0], 60.0), self._mu_v(drawn.picture))
+            mu_v = self._scale("mu_v", drawn.picture.mu_v)
+            head = self._head(say.linear, max(box[2] - box[0], 60.0), mu_v)
             room = max(0.0, (head.width - (box[2] - box[0])) / 2)
             end = max(right, heads[0][1] + heads[0][0].width / 2)
             origin = end + GAP + room - box[0]
@@ -316,14 +316,8 @@ class _Sheet:
         if drawn is not None and seen is not None:
             spans = tuple(linear_spans(drawn, seen, complex(origin + x, y)))
             box = (middle + x, bounds[1] + y, bounds[2] + x, 0.0)
-            told.append(("velocity", "μ_{v}", self._per_mm(drawn.picture), box, spans))  # type: ignore[arg-type]
+            told.append(("velocity", "μ_{v}", drawn.picture.mu_v, box, spans))  # type: ignore[arg-type]
         return _Viewed(Drawn(tuple(placed), bounds), tuple(told))
-
-    def _per_mm(self, picture: Picture) -> float:
-        return float(picture.speed_per_mm) * (pi / 30 if self.motion.train.unit == "n" else 1.0)
-
-    def _mu_v(self, picture: Picture) -> str:
-        return self._scale("mu_v", self._per_mm(picture))
 
     def _fronts(self) -> Iterator[_Viewed | None]:
         """Yield the view along the axes at the scale of the side view, then at a coarser one.
@@ -370,7 +364,7 @@ class _Sheet:
 
     def _angular(self, drawn: Construction, seen: Reading) -> _Viewed:
         picture = drawn.picture
-        per_mm = self._per_mm(picture) / float(picture.mu_l * picture.pole_mm)
+        per_mm = picture.mu_omega
         pole = self.words.say.given(float(picture.pole_mm))
         scales = [self._scale("mu_omega", per_mm, pole=pole)]
         if self.motion.train.unit == "n":

@@ -206,14 +206,11 @@ def _picture(motion: Motion, words: Language) -> list[str]:
     say, picture = words.gears, draw(motion)
     if picture is None:
         return wrap(say.no_picture, rest="  ")
-    turn = math.pi / 30 if motion.train.unit == "n" else 1.0
-    pole = motion.train.picture.pole_mm
-    mu_v = float(picture.speed_per_mm) * turn
     scales = say.scales.format(
         mu_l=found(float(picture.mu_l), words.note),
-        mu_v=found(mu_v, words.note),
-        pole=found(float(pole), words.note),
-        mu_omega=found(mu_v / float(picture.mu_l * pole), words.note),
+        mu_v=found(picture.mu_v, words.note),
+        pole=found(float(picture.pole_mm), words.note),
+        mu_omega=found(picture.mu_omega, words.note),
     )
     points = []
     for one in picture.contacts:

@@ -10,7 +10,7 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.moving.construction import construct
 from planmethod.moving.course import course_of
 from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import Why, move
+from planmethod.moving.motion import Undefined, move
 from planmethod.moving.sheet import sheet_scales
 from planmethod.note.audit.audit import Audited
 from planmethod.solved.selected.asking import NoAnswer
@@ -36,7 +36,7 @@ def audited(problem: PointProblem, ruler: float) -> list[Audited]:
             continue
         exact = float(motion.columns[item.what][k])
         if np.isnan(exact):
-            divided = motion.reasons[k] in (Why.REST, Why.STRAIGHT)
+            divided = motion.reasons[k] in (Undefined.REST, Undefined.STRAIGHT)
             told.append(Audited(item, why=NoAnswer.ZERO_DIVISOR if divided else NoAnswer.NO_POINT))
             continue
         built = construct(problem, motion, k, scales)

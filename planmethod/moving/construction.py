@@ -25,7 +25,7 @@ from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.moving.bounded import Reals
 from planmethod.moving.course import Course
 from planmethod.moving.model import Law, PointProblem
-from planmethod.moving.motion import Motion, Why
+from planmethod.moving.motion import Motion, Undefined
 from planmethod.record import dataclass
 
 READ = ("v", "a", "a_tangential", "a_normal", "rho")
@@ -170,7 +170,7 @@ def construct(
         By ``l``, ``v``, ``a``.
     """
     why = motion.reasons[k]
-    if why in (Why.POSITION, Why.VELOCITY):
+    if why in (Undefined.POSITION, Undefined.VELOCITY):
         return None
     value = {name: float(column[k]) for name, column in motion.columns.items()}
     draft = _Draft(scales)
@@ -182,13 +182,13 @@ def construct(
         angle, parts = _velocity_parts(problem, value)
         head = draft.chain("v", draft.ray("angle", pole, angle), parts, pole)
     results["v"] = draft.whole("v", head)
-    if why is not Why.ACCELERATION:
+    if why is not Undefined.ACCELERATION:
         origin = draft.given(POLES["a"])
         at = origin
         for name, angle, parts in _acceleration_parts(problem, value):
             at = draft.chain("a", draft.ray(name, origin, angle), parts, at)
         results["a"] = draft.whole("a", at)
-        if why is not Why.REST:
+        if why is not Undefined.REST:
             tangent = b.parallel(origin, b.join(pole, head))
             foot = b.meet_lines("n", tangent, b.perpendicular(at, tangent))
             along = b.measure_along("πn", origin, foot, tangent)

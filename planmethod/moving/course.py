@@ -15,7 +15,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.moving.bounded import Reals
 from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import Motion, Why, move
+from planmethod.moving.motion import Motion, Undefined, move
 from planmethod.record import dataclass
 
 Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
@@ -176,7 +176,7 @@ def _shown(problem: PointProblem, marks: Motion) -> tuple[int, ...]:
         found = [k for t in problem.times for k in np.flatnonzero(times == t)]
         return tuple(dict.fromkeys(int(k) for k in found))
     whole = [k for k, why in enumerate(marks.reasons) if why is None]
-    some = whole or [k for k, why in enumerate(marks.reasons) if why is not Why.POSITION]
+    some = whole or [k for k, why in enumerate(marks.reasons) if why is not Undefined.POSITION]
     return (some[len(some) // 3],) if some else ()
 
 

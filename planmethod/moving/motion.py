@@ -13,7 +13,7 @@ from planmethod.moving.series import CALLS, evaluate
 from planmethod.record import dataclass
 
 
-class Why(Enum):
+class Undefined(Enum):
     """Why a quantity does not exist at a moment (причина)."""
 
     POSITION = "position undefined"
@@ -54,12 +54,12 @@ class Motion:
     columns : dict of str to array of float, shape (n,)
         SI, radians; NaN where a quantity does not exist. What cannot be told from zero within the
         bound of rounding is zero. ``a_tangential`` is positive where the point speeds up.
-    reasons : tuple of (Why or None)
+    reasons : tuple of (Undefined or None)
         Why something does not exist, at every moment.
     """
 
     columns: dict[str, Reals]
-    reasons: tuple[Why | None, ...]
+    reasons: tuple[Undefined | None, ...]
 
 
 def move(problem: PointProblem) -> Motion:
@@ -88,9 +88,12 @@ def _reals(names: tuple[str, ...], found: list[Bounded]) -> dict[str, Reals]:
 
 
 _LEVELS = {
-    Why.POSITION: (("x", "y"), ("r", "phi")),
-    Why.VELOCITY: (("vx", "vy", "v"), ("v_r", "v_phi")),
-    Why.ACCELERATION: (("ax", "ay", "a", "a_tangential", "a_normal", "rho"), ("a_r", "a_phi")),
+    Undefined.POSITION: (("x", "y"), ("r", "phi")),
+    Undefined.VELOCITY: (("vx", "vy", "v"), ("v_r", "v_phi")),
+    Undefined.ACCELERATION: (
+        ("ax", "ay", "a", "a_tangential", "a_normal", "rho"),
+        ("a_r", "a_phi"),
+    ),
 }
 
 
@@ -106,17 +109,17 @@ def _whole(columns: dict[str, Reals]) -> dict[str, Reals]:
     return told
 
 
-def _reasons(columns: dict[str, Reals]) -> tuple[Why | None, ...]:
+def _reasons(columns: dict[str, Reals]) -> tuple[Undefined | None, ...]:
     def none_of(*names: str) -> Reals:
         missing: Reals = np.any([np.isnan(columns[name]) for name in names], axis=0)
         return missing
 
     cases = {
-        Why.POSITION: none_of("x", "y"),
-        Why.VELOCITY: none_of("vx", "vy"),
-        Why.ACCELERATION: none_of("ax", "ay"),
-        Why.REST: columns["v"] == 0.0,
-        Why.STRAIGHT: none_of("rho"),
+        Undefined.POSITION: none_of("x", "y"),
+        Undefined.VELOCITY: none_of("vx", "vy"),
+        Undefined.ACCELERATION: none_of("ax", "ay"),
+        Undefined.REST: columns["v"] == 0.0,
+        Undefined.STRAIGHT: none_of("rho"),
     }
     return tuple(
         next((why for why, is_so in cases.items() if is_so[k]), None)

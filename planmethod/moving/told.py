@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from planmethod.moving.model import Law, PointProblem
-from planmethod.moving.motion import Motion, Why
+from planmethod.moving.motion import Motion, Undefined
 from planmethod.note.numbers import MINUS, Notation, with_unit
 from planmethod.note.wording import Language
 from planmethod.pattern import pattern
@@ -136,14 +136,14 @@ def moment_lines(problem: PointProblem, motion: Motion, k: int, words: Language)
         return letters, f"√({put(x)}^{{2}} + {put(y)}^{{2}})"
 
     lines: list[str] = []
-    if why is not Why.POSITION:
+    if why is not Undefined.POSITION:
         lines += [line("x"), line("y")]
-    if why not in (Why.POSITION, Why.VELOCITY):
+    if why not in (Undefined.POSITION, Undefined.VELOCITY):
         lines += [line("vx"), line("vy"), line("v", *root("vx", "vy"))]
         lines += _other_velocities(problem, value, line, say)
-    if why in (None, Why.REST, Why.STRAIGHT):
+    if why in (None, Undefined.REST, Undefined.STRAIGHT):
         lines += [line("ax"), line("ay"), line("a", *root("ax", "ay"))]
-    if why in (None, Why.STRAIGHT):
+    if why in (None, Undefined.STRAIGHT):
         dot = f"({put('vx')}·{put('ax')} + {put('vy')}·{put('ay')})/{put('v')}"
         cross = f"|{put('vx')}·{put('ay')} − {put('vy')}·{put('ax')}|/{put('v')}"
         lines.append(line("a_tangential", "(v_{x}·a_{x} + v_{y}·a_{y})/v", dot))

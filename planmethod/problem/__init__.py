@@ -2,6 +2,15 @@
 
 from planmethod.problem.families import FAMILIES, OTHER_FAMILIES, template
 from planmethod.problem.model import Problem
-from planmethod.problem.reader import load, loads, variant_names
+from planmethod.problem.reader import load, load_each, loads, variant_names
 
-__all__ = ["FAMILIES", "OTHER_FAMILIES", "Problem", "load", "loads", "template", "variant_names"]
+__all__ = [
+    "FAMILIES",
+    "OTHER_FAMILIES",
+    "Problem",
+    "load",
+    "load_each",
+    "loads",
+    "template",
+    "variant_names",
+]

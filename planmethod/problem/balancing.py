@@ -7,7 +7,14 @@ from typing import Any
 
 from planmethod.languages import say
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, read_keys, read_member, read_number, read_table
+from planmethod.problem.fields import (
+    Faults,
+    read_keys,
+    read_member,
+    read_number,
+    read_table,
+    require_turning,
+)
 from planmethod.problem.load_records import CounterweightTask, Dynamics, Weighing
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near_hint, segment
@@ -37,11 +44,8 @@ def read_balancing(
     if table is None:
         return None
     body = read_keys(faults, "balancing", table, keys.BALANCING)
-    if drive is not None and not drive.is_crank:
-        hint = "Counterweights stand on the links of a crank mechanism: give it phi and n."
-        faults.add("balancing", say("link {} slides and has no turn", drive.link), hint)
-    elif drive is not None and not drive.rate:
-        faults.add("balancing", "the crank stands", "Give its speed: [driver] n or omega.")
+    hint = "Counterweights stand on the links of a crank mechanism: give it phi and n."
+    require_turning(faults, "balancing", drive, hint, "Give its speed: [driver] n or omega.")
     if dynamics is None or not any(one.mass for one in dynamics.masses.values()):
         hint = 'Give them: [dynamics.links.2] mass = 3, centre = "S2".'
         faults.add("balancing", "no link has a mass", hint)

@@ -13,6 +13,7 @@ from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.mistyped import value_hint
+from planmethod.problem.model import Drive
 from planmethod.problem.names import (
     describe_lookalikes,
     fold,
@@ -50,6 +51,13 @@ class Faults:
         self.stated: dict[str, str] = {}
         self._found: list[Fault] = []
         self.count = 0
+
+    def copy(self) -> Faults:
+        """Return the same, to be gone on with."""
+        other = Faults()
+        other.unit, other.stated = self.unit, dict(self.stated)
+        other._found, other.count = list(self._found), self.count
+        return other
 
     def __len__(self) -> int:
         return self.count
@@ -295,6 +303,16 @@ def report_unknown(
     if not hint and names:
         hint = say("Known here: {}.", listed(names))
     faults.add(path, say(said, short(name)), hint)
+
+
+def require_turning(
+    faults: Faults, path: str, drive: Drive | None, slides: str, stands: str
+) -> None:
+    """Note that a table is of a crank that turns, with the hint for what the driver is instead."""
+    if drive is not None and not drive.is_crank:
+        faults.add(path, say("link {} slides and has no turn", drive.link), slides)
+    elif drive is not None and not drive.rate:
+        faults.add(path, "the crank stands", stands)
 
 
 def unmask(faults: Faults, path: str, name: str) -> str:

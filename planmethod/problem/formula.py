@@ -180,14 +180,15 @@ class Parser:
         if text == ")":
             raise FormulaError(say("character {}: ')' closes no '('", where))
         if kind != "end":
-            before = self.tokens[self.at - 1][1]
-            hint = say(
-                "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
-            )
-            raise FormulaError(
-                say("character {}: expected an operator before '{}'", where, text), hint
-            )
+            raise self._bare()
         return self.made
+
+    def _bare(self) -> FormulaError:
+        """Return the fault of what stands where an operator is expected."""
+        (_, before, _), (_, text, where) = self.tokens[self.at - 1 : self.at + 1]
+        hint = "Nothing is multiplied without a sign: write {}*{}."
+        said = say("character {}: expected an operator before '{}'", where, text)
+        return FormulaError(said, say(hint, before, short(text, 12)))
 
     def _sum(self) -> None:
         self._row(("+", "-"), self._product)
@@ -272,15 +273,8 @@ class Parser:
         self._deeper()
         self._sum()
         if self._text != ")":
-            _, text, place = self.tokens[self.at]
-            if text:
-                before = self.tokens[self.at - 1][1]
-                hint = say(
-                    "Nothing is multiplied without a sign: write {}*{}.", before, short(text, 12)
-                )
-                raise FormulaError(
-                    say("character {}: expected an operator before '{}'", place, text), hint
-                )
+            if self._text:
+                raise self._bare()
             raise FormulaError(say("character {}: '(' is not closed", where), "Add ')'.")
         self.at += 1
         self.depth -= 1

@@ -19,6 +19,7 @@ from planmethod.problem.fields import (
     read_number,
     read_table,
     read_whole,
+    require_turning,
     show,
 )
 from planmethod.problem.load_records import (
@@ -61,11 +62,8 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
     if table is None:
         return None
     body = read_keys(faults, "machine", table, keys.MACHINE)
-    if drive is not None and not drive.is_crank:
-        hint = "The cycle of a machine is that of a driving crank: give it phi and n."
-        faults.add("machine", say("link {} slides and has no turn", drive.link), hint)
-    elif drive is not None and not drive.rate:
-        faults.add("machine", "the crank stands", "Give its mean speed: [driver] n or omega.")
+    hint = "The cycle of a machine is that of a driving crank: give it phi and n."
+    require_turning(faults, "machine", drive, hint, "Give its mean speed: [driver] n or omega.")
     if not given.get("loads"):
         faults.add("machine", "there are no [[loads]]", "A flywheel evens out their work.")
     delta = _read_delta(faults, body, whole=len(faults) == before)

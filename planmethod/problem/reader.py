@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -50,9 +50,28 @@ def load(
     ProblemError
         With every fault of the file: path, what was expected, what was found, the next action.
     """
+    (problem,) = load_each(path, (variant,), train=train)
+    return problem
+
+
+def load_each(
+    path: str | Path, variants: Iterable[str | None], *, train: TrainReader | None = None
+) -> Iterator[Problem]:
+    """Read some variants of a problem file, None for its main part: the file itself once.
+
+    Raises
+    ------
+    ProblemError
+        As of `load`.
+    """
     path = Path(path)
     table, faults = _from_file(path)
-    return _read_parsed(faults, table, str(path), path.stem, variant, train)
+    known = read_variants(faults, table)
+    for variant in variants:
+        varied = _laid_over(faults, table, known, str(path), variant)
+        yield _read_varied(
+            faults.copy(), varied, tuple(known), str(path), path.stem, variant, train
+        )
 
 
 def _from_file(path: Path) -> tuple[Mapping[str, Any], Faults]:
@@ -84,11 +103,21 @@ def laid_over(
         No such variant.
     """
     variants = read_variants(faults, table)
+    return _laid_over(faults, table, variants, source, variant), tuple(variants)
+
+
+def _laid_over(
+    faults: Faults,
+    table: Mapping[str, Any],
+    variants: Mapping[str, Mapping[tuple[str, ...], Any]],
+    source: str,
+    variant: str | None,
+) -> Mapping[str, Any]:
     if variant is None:
-        return table, tuple(variants)
+        return table
     if variant not in variants:
         raise ProblemError(source, [*faults.found, unknown_variant(variant, variants)])
-    return apply_variant(table, variants[variant]), tuple(variants)
+    return apply_variant(table, variants[variant])
 
 
 def loads(
@@ -140,18 +169,19 @@ def read_parsed(
     """
     faults = Faults()
     table = with_table(faults, table, None)
-    return _read_parsed(faults, table, source, name, variant, train)
+    table, variants = laid_over(faults, table, source, variant)
+    return _read_varied(faults, table, variants, source, name, variant, train)
 
 
-def _read_parsed(
+def _read_varied(
     faults: Faults,
     table: Mapping[str, Any],
+    variants: tuple[str, ...],
     source: str,
     name: str,
     variant: str | None,
     train: TrainReader | None,
 ) -> Problem:
-    table, variants = laid_over(faults, table, source, variant)
     problem = _read_parts(faults, table, name, train)
     if faults or problem is None:
         raise ProblemError(source, faults.found)

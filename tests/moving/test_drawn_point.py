@@ -21,7 +21,7 @@ from planmethod.construct.scale import SERIES, Scale
 from planmethod.errors import ExitCode
 from planmethod.moving.construction import construct, read_hodograph
 from planmethod.moving.course import course_of
-from planmethod.moving.motion import Why, move
+from planmethod.moving.motion import Undefined, move
 from planmethod.moving.reader import load, loads
 from planmethod.moving.sheet import drawings
 from planmethod.moving.told import textbook
@@ -155,7 +155,7 @@ def test_a_cusp_ends_a_smooth_part() -> None:
 def test_an_interval_of_our_own_is_one_where_everything_exists() -> None:
     for path in FILES:
         course = course_of(load(path))
-        assert Why.POSITION not in course.path.reasons, path.stem
+        assert Undefined.POSITION not in course.path.reasons, path.stem
         assert np.nanmax(course.path.columns["a"]) < 12 * np.nanmean(course.path.columns["a"])
 
 

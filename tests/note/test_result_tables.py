@@ -127,8 +127,9 @@ def test_wide_tables_are_cut_and_keep_their_leading_columns() -> None:
         (89.999999, "89.999999"),
         (0.1 + 0.2, "0.3"),
         (-45.0, "-45"),
-        (360 / 7, "51.4286"),
-        (89.99999912345, "90.0000"),  # not 90, and as near to it as six digits say
+        (360 / 7, "51.43"),
+        (89.99999912345, "90.00"),  # not 90, and as near to it as four digits say
+        (218.918918918919, "218.92"),  # two decimals at least
         (math.nan, "—"),
     ],
 )

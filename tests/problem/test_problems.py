@@ -195,6 +195,17 @@ SCHEMA_TABLES = {
 
 
 @each("kind", keys.KNOWN)
+def test_every_key_stands_in_the_references_of_both_languages(kind: str) -> None:
+    docs = Path(__file__).parents[2] / "docs"
+    english = (docs / "problem-file.md").read_text("utf-8")
+    russian = (docs / "ru" / "keys.md").read_text("utf-8")
+    (section,) = re.findall(rf"(?ms)^## [^\n]*: `{kind}`\n(.*?)(?=^## |\Z)", russian)
+    for key in keys.KNOWN[kind]:
+        assert f"`{key}`" in section, key
+        assert re.search(rf"[`.]{key}[`.]", english), key
+
+
+@each("kind", keys.KNOWN)
 def test_the_schema_has_exactly_the_keys_the_reader_knows(kind: str) -> None:
     assert set(SCHEMA_TABLES[kind]) == set(keys.KNOWN[kind])
 

@@ -177,10 +177,10 @@ def test_rows_of_a_single_position(name: str) -> None:
             assert error.text == "0"
             continue
         assert number(error.text) == rounded(sigma)
-        unit = Decimal(1).scaleb(rounded(sigma).normalize().adjusted())
-        assert abs(number(read.text) - Decimal(value)) <= unit / 2
-        # As many decimals as the error has, so that they stand under each other.
-        assert len(read.text.partition(",")[2]) == len(error.text.rstrip("*").partition(",")[2])
+        # As many decimals as the exact value has, so that they stand under each other.
+        decimals = len(exact.text.partition(",")[2])
+        assert len(read.text.partition(",")[2]) == decimals
+        assert abs(number(read.text) - Decimal(value)) <= Decimal(1).scaleb(-decimals) / 2
 
 
 def test_values_of_many_positions_have_their_errors_beside_them() -> None:

@@ -4,37 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Protocol
 
 from planmethod.note.audit.audit import DRAFTING_MM, Audited, count
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, given, spoken
 from planmethod.note.wording import language
+from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
 
 NONE = "—"
 DIGITS = 5
 """Significant digits of an exact and of a read value."""
-
-
-class Headed(Protocol):
-    """What a problem of any kind has for its section."""
-
-    @property
-    def name(self) -> str:
-        """Name of the problem."""
-
-    @property
-    def variant(self) -> str | None:
-        """Which variant it is; None for the main part."""
-
-    @property
-    def title(self) -> str:
-        """Title of the problem."""
-
-    @property
-    def source(self) -> str:
-        """Where it is from."""
 
 
 class Document:
@@ -57,7 +37,7 @@ class Document:
         self.words, self.says = found.note, found.audit
         self.ruler = ruler
 
-    def markdown(self, audits: Sequence[tuple[Headed, Sequence[Audited]]]) -> str:
+    def markdown(self, audits: Sequence[tuple[KindProblem, Sequence[Audited]]]) -> str:
         """Return the whole document: what the columns mean, the counts, a table a problem."""
         limits = {
             "ruler": given(self.ruler, self.words),
@@ -69,7 +49,7 @@ class Document:
         parts += [self._section(problem, items) for problem, items in audits]
         return "\n\n".join(parts) + "\n"
 
-    def _counts(self, audits: Sequence[tuple[Headed, Sequence[Audited]]]) -> str:
+    def _counts(self, audits: Sequence[tuple[KindProblem, Sequence[Audited]]]) -> str:
         says = self.says
         rows = [
             [_plain(name(problem)), str(len(items)), *map(str, count(items).values())]
@@ -77,7 +57,7 @@ class Document:
         ]
         return _table([says.problem, says.values, *says.counted.values()], rows, "lrrrrr")
 
-    def _section(self, problem: Headed, items: Sequence[Audited]) -> str:
+    def _section(self, problem: KindProblem, items: Sequence[Audited]) -> str:
         says = self.says
         head = [f"## {_plain(name(problem))}: {_plain(problem.title)}"]
         if problem.source:
@@ -91,7 +71,7 @@ class Document:
             [*head, _table(list(says.columns), rows, "llrrrrrrll"), *self._chain(problem)]
         )
 
-    def _chain(self, problem: Headed) -> list[str]:
+    def _chain(self, problem: KindProblem) -> list[str]:
         """Return the way from a printed flywheel to the exact one, if the source prints it."""
         if not isinstance(problem, Problem) or problem.machine is None:
             return []
@@ -131,7 +111,7 @@ class Document:
         return NONE if value is None else fixed(round(value, 2), self.words)
 
 
-def name(problem: Headed) -> str:
+def name(problem: KindProblem) -> str:
     """Return what the document calls a problem: its file, and its variant."""
     return problem.name if problem.variant is None else f"{problem.name}, {problem.variant}"
 

@@ -10,7 +10,7 @@ from planmethod.problem.model import Differentiation
 from planmethod.solved.turn.construction import PRIMES, Construction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
-from planmethod.solved.turn.turn import TURN, Turn, Why
+from planmethod.solved.turn.turn import TURN, NoNumber, Turn
 
 NO_ANGLE = 1e-6
 """Pressure angle that is none, degrees: a stone on the output link pushes along its motion."""
@@ -109,7 +109,7 @@ def range_fact(turn: Turn, words: Language) -> str:
     return words.cycle.range.format(low=low, high=high, links=", ".join(links))
 
 
-def _none(what: str, why: Why, words: Language) -> str:
+def _none(what: str, why: NoNumber, words: Language) -> str:
     return words.cycle.none.format(what=what, why=words.cycle.why[why.name])
 
 

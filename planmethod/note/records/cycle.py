@@ -13,7 +13,7 @@ from planmethod.solved.analogues import analogues
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
-from planmethod.solved.turn.turn import TURN, Extreme, Turn, Why, turn_of
+from planmethod.solved.turn.turn import TURN, Extreme, NoNumber, Turn, turn_of
 
 
 def analogue_records(solution: Solution) -> list[dict[str, Any]]:
@@ -46,21 +46,23 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     position stands at the end again.
     """
     turn, diagrams = turn_of(solution), diagrams_of(solution)
-    reasons: dict[str, Why | None] = {}
+    reasons: dict[str, NoNumber | None] = {}
     working, idle = turn.phases or (None, None)
     if turn.phases is None:
-        reasons |= dict.fromkeys(("working_deg", "idle_deg"), turn.why_no_stroke or Why.PARTIAL)
+        reasons |= dict.fromkeys(
+            ("working_deg", "idle_deg"), turn.why_no_stroke or NoNumber.PARTIAL
+        )
     if turn.stroke is None:
         reasons["stroke"] = turn.why_no_stroke
     if turn.ratio is None:
         reasons["K_v"] = turn.why_no_ratio
     if not turn.zero_is_asked:
-        reasons["zero_deg"] = turn.why_no_stroke or Why.PARTIAL
+        reasons["zero_deg"] = turn.why_no_stroke or NoNumber.PARTIAL
     peak = turn.pressure
     if peak is None:
-        reasons["pressure_angle"] = Why.NO_DYAD
+        reasons["pressure_angle"] = NoNumber.NO_DYAD
     if diagrams.mu_t is None:
-        reasons["mu_t"] = Why.NO_RATE
+        reasons["mu_t"] = NoNumber.NO_RATE
     return {
         "output": turn.output.name,
         "zero_deg": plain(turn.zero),

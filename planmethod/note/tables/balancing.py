@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from planmethod.note.narrate.balancing import BalancingTeller
 from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
+from planmethod.note.tables.plain import plain_columns
 from planmethod.note.wording import Wording, language
 from planmethod.solved.solution import Solution
 
@@ -14,8 +15,5 @@ def balancing_tables(solution: Solution, words: Wording) -> list[str]:
     lines = [*heading(plain_text(tell.said.balancing)), ""]
     for line in tell.lines():
         lines += wrap(plain_text(line), rest="  ")
-    columns = [
-        [plain_text(f"{head}, {tell.say.in_head(unit)}" if unit else head), *map(plain_text, cells)]
-        for head, unit, cells in tell.columns()
-    ]
+    columns = list(plain_columns(tell.columns(), tell.say))
     return [*lines, "", plain_text(tell.said.forces_table), "", *columns_text(columns, lead=2)]

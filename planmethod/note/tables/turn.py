@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-
 import numpy as np
 
 from planmethod.construct.hand import Hand
 from planmethod.note.narrate.turn import diagram_steps, extreme_steps, output_symbol, turn_facts
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
+from planmethod.note.tables.plain import plain_columns
 from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
 from planmethod.solved.reading import Reals
@@ -105,7 +104,7 @@ def cycle_tables(solution: Solution, words: Language) -> list[str]:
         (said.table, cycle_columns(diagrams, words)),
         (deviations_title(solution, words), deviation_columns(diagrams, words)),
     ):
-        lines += ["", *wrap(title), "", *columns_text(list(_plain(columns, words)), 2)]
+        lines += ["", *wrap(title), "", *columns_text(list(plain_columns(columns, words.say)), 2)]
     return lines
 
 
@@ -118,11 +117,3 @@ def cycle_protocol(solution: Solution, words: Language) -> list[str]:
     steps = [plain_text(step) for step in own]
     told = [line for k, step in enumerate(steps, 1) for line in wrap(f"{k}. {step}", rest="   ")]
     return [*lines, "", *told]
-
-
-def _plain(columns: Columns, words: Language) -> Iterator[Sequence[str]]:
-    for head, unit, cells in columns:
-        name = plain_text(head)
-        if unit:
-            name = f"{name}, {plain_text(words.say.in_head(unit))}"
-        yield [name, *map(plain_text, cells)]

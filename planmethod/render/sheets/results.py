@@ -38,16 +38,25 @@ def _sense(value: float) -> int:
 
 
 def _sigma_rows(
-    solution: Solution, quantity: Quantity, index: int, say: Notation
+    solution: Solution, quantity: Quantity, index: int, say: Notation, like: str
 ) -> tuple[Cell, ...]:
-    """Return what was read on the plans, to the place of its error, how far off, and the error."""
+    """Return what was read on the plans, how far off, and the error.
+
+    What was read has as many decimals as the exact value, ``like``, but where that is nothing.
+    """
     read = float(solution.read_off(quantity.label)[index])
     sigma, mark = marked(drafting_of(solution), quantity.label, index)
     turns = quantity.kind.is_number
     exact = float(solution.exact(quantity)[index])
     off = 100.0 * (read - exact) / exact if abs(exact) > sigma else inf
+    decimals = len(like.partition(".")[2])
+    text = (
+        f"{abs(read):.{decimals}f}"
+        if like != "0" and "e" not in like
+        else rounded_to(abs(read), sigma)
+    )
     return (
-        Cell(say.number(rounded_to(abs(read), sigma)), _sense(read) if turns else None),
+        Cell(say.number(text), _sense(read) if turns else None),
         Cell(
             say.number(f"{round(off, 1) + 0.0:.1f}") if abs(off) < MOST_OFF else "—",
             0 if turns else None,
@@ -88,7 +97,7 @@ def result_columns(
                 written += f" ± {say.number(sigma_text(error))}{mark}"
             cells.append(Cell(written, _sense(value) if turns else None))
         if sigma and alone:
-            cells += _sigma_rows(solution, quantity, indices[0], say)
+            cells += _sigma_rows(solution, quantity, indices[0], say, texts[0])
         return TableColumn(quantity.symbol, tuple(cells), unit=say.units[quantity.kind.unit])
 
     shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]

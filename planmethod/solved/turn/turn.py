@@ -41,7 +41,7 @@ _STEP = TURN / LOOKS
 _LEVEL, _MOST_TOPS = 0.01, 8  # degrees of pressure angle within which peaks are compared
 
 
-class Why(Enum):
+class NoNumber(Enum):
     """Why a number of the cycle does not exist; the sentence of records."""
 
     PARTIAL = "the crank does not turn fully"
@@ -319,15 +319,15 @@ class Turn(Remembering):
         )
 
     @cached_property
-    def why_no_stroke(self) -> Why | None:
+    def why_no_stroke(self) -> NoNumber | None:
         """Why the output has no stroke between two extremes."""
         if self.is_still:
-            return Why.STILL
+            return NoNumber.STILL
         if self.gain:
-            return Why.ROUND
+            return NoNumber.ROUND
         if self.ends is not None:
             return None
-        return Why.NO_EXTREME if self.range is None else Why.PARTIAL
+        return NoNumber.NO_EXTREME if self.range is None else NoNumber.PARTIAL
 
     @cached_property
     def stroke(self) -> float | None:
@@ -349,14 +349,14 @@ class Turn(Remembering):
         return working, TURN - working
 
     @cached_property
-    def why_no_ratio(self) -> Why | None:
+    def why_no_ratio(self) -> NoNumber | None:
         """Why there is no K_v."""
         if self.phases is None:
-            return self.why_no_stroke or Why.PARTIAL
+            return self.why_no_stroke or NoNumber.PARTIAL
         ends = [value for end in self.ends or () for value in (end.value,)]
         near = _SAME * abs(ends[0] - ends[1])
         at_ends = [e for e in self._turnings if min(abs(e.value - v) for v in ends) <= near]
-        return Why.SEVERAL if len(at_ends) > 2 else None
+        return NoNumber.SEVERAL if len(at_ends) > 2 else None
 
     @cached_property
     def ratio(self) -> float | None:

@@ -41,8 +41,11 @@ def _load(solution: Solution, load: Load | Couple, words: Language) -> str:
             over = f"s_{{{point_name(load.at)}}}"
         case Over.POSITION:
             over = words.note.number
+    name, index, end = load.name.partition("_{")
+    peak = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
+    largest_told = f"{say.short(largest)} {unit}"
     return words.sheets.load_table.format(
-        name=load.name, over=over, largest=f"{say.short(largest)} {unit}"
+        name=load.name, over=over, peak=peak, largest=largest_told
     )
 
 

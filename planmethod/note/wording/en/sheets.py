@@ -64,7 +64,7 @@ SHEETS = SheetWording(
     by_lever="by lever",
     difference="difference, %",
     wanted_cycle="Find over the cycle: {wanted}.",
-    load_table="{name} = {name}({over}), up to {largest}",
+    load_table="{name} = {name}({over}), {peak} = {largest}",
     balance={"moment": "Balancing moment {symbol}", "force": "Balancing force {symbol}"},
     legend_exact="line – exact;",
     legend_plans="– by force plans;",

@@ -116,8 +116,7 @@ NOTE = Wording(
     "получаем точку {point}{coincide}.",
     sense_of=" в сторону {symbol} ({sense})",
     sense_normal="{base}, от {tail} к {head},",
-    sense_coriolis=" в ту сторону, куда смотрит {relative}, если повернуть этот вектор на 90° по "
-    "{omega} ({sense})",
+    sense_coriolis=" по направлению {relative}, повёрнутого на 90° в сторону {omega} ({sense})",
     constant_speed="{symbol} постоянна, поэтому ускорение точек звена {link} — только нормальное.",
     no_coriolis_frame="{symbol} = 0: направляющая {guide} неподвижна, кориолисова ускорения нет.",
     no_coriolis_link="{symbol} = 0: звено {link} не вращается, кориолисова ускорения нет.",

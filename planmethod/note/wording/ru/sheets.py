@@ -64,7 +64,7 @@ SHEETS = SheetWording(
     by_lever="по рычагу",
     difference="расхождение, %",
     wanted_cycle="Определить за цикл: {wanted}.",
-    load_table="{name} = {name}({over}), до {largest}",
+    load_table="{name} = {name}({over}), {peak} = {largest}",
     balance={
         "moment": "Уравновешивающий момент {symbol}",
         "force": "Уравновешивающая сила {symbol}",

@@ -1,0 +1,258 @@
+"""The diagrams of a flywheel as they are constructed: moment, work, energy, inertia (диаграммы)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.note.narrate.machine import MachineTeller
+from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.lettered import lettered
+from planmethod.render.symbols import arrowhead
+from planmethod.solved.machine.drawing import FlywheelDrawing
+
+_BEYOND, _HEAD, _TICK = 10.0, 4.0, 1.2  # mm: an axis beyond its diagram, its arrowhead, a tick
+_POINT = 0.7  # mm: radius of a point of a diagram
+_FINE = 8  # pieces of a smooth line between two points
+_STEP = 0.01  # rad: between points of an exact curve
+
+
+def construction_picture(drawing: FlywheelDrawing, tell: MachineTeller, letter: float) -> Picture:
+    """Return the diagrams of the construction, mm; ``letter`` is the height of its letters."""
+    return _Sketch(drawing, tell, letter).picture()
+
+
+class _Sketch:
+    """Draws the diagrams, mm of the construction."""
+
+    def __init__(self, drawing: FlywheelDrawing, tell: MachineTeller, letter: float) -> None:
+        self.drawing, self.tell, self.height = drawing, tell, letter
+        self.made, self.size = drawing.made, max(2.5, 0.7 * letter)
+        self.items: list[Item] = []
+        self.labels: list[Label] = []
+
+    def at(self, name: PointName) -> complex:
+        return complex(self.drawing.exact.point(name)[0])
+
+    def places(self, names: Sequence[PointName]) -> list[complex]:
+        return [self.at(name) for name in names]
+
+    def picture(self) -> Picture:
+        made, tell = self.made, self.tell
+        length = self.drawing.flywheel.machine.turn_mm
+        feet = {key: self.at(axes.origin) for key, axes in made.axes.items()}
+        units = {"M": tell.moment + f", {tell.unit('N·m')}", "A": f"A, {tell.unit('J')}",
+                 "T": f"{tell.letter('energy gain')}, {tell.unit('J')}",
+                 "J": f"{tell.letter('reduced inertia')}, {tell.unit('kg·m²')}"}  # fmt: skip
+        points = {"M": made.moments, "A": made.work, "T": made.energies, "J": made.inertias}
+        for key, names in points.items():
+            ordinates = [z.imag - feet[key].imag for z in self.places(names)]
+            if key == "M":
+                ordinates += [z.imag - feet[key].imag for z in self.places(made.middles)]
+            self._axes(feet[key], length, ordinates, units[key], "φ")
+            self._numbers(key, feet[key], ordinates)
+        self._moment(feet["M"])
+        self._work(feet["A"])
+        self._energies(feet["T"])
+        self._inertia(feet)
+        self._energy_mass(feet["E"])
+        return lettered(self.items, self.labels)
+
+    # Parts -----------------------------------------------------------------------------------
+
+    def _thin(self, *points: complex, pen: Pen = Pen.THIN) -> None:
+        self.items.append(Stroke(points, pen, tag="diagram construction"))
+
+    def _axes(
+        self,
+        foot: complex,
+        right: float,
+        ordinates: Sequence[float],
+        up: str,
+        across: str,
+        *,
+        left: bool = False,
+    ) -> None:
+        """Draw the axes of a diagram; ``left``: the name of the ordinates is left of them."""
+        low, high = min([0.0, *ordinates]), max([0.0, *ordinates])
+        tip, top = foot + right + _BEYOND, foot + 1j * (high + _BEYOND)
+        self.items += [
+            Stroke((foot, tip - _HEAD / 2), Pen.THIN, tag="diagram axis"),
+            Stroke((foot + 1j * low, top - 1j * _HEAD / 2), Pen.THIN, tag="diagram axis"),
+            *arrowhead(tip, 1 + 0j, length=_HEAD, tag="diagram axis"),
+            *arrowhead(top, 1j, length=_HEAD, tag="diagram axis"),
+        ]
+        self._label(across, tip - 2.0, -1j, f"axis {up}", large=True)
+        name = typeset(up, self.height)
+        beside = -name.width - 3.0 if left else 2.5
+        self.items += name.at(top + complex(beside, -self.height))
+
+    def _numbers(self, key: str, foot: complex, ordinates: Sequence[float]) -> None:
+        count = self.drawing.count
+        step = self.drawing.flywheel.machine.turn_mm / count
+        every = next(n for n in (1, 2, 3, 4, 6, 12, count) if n * step >= 3.0 * self.size)
+        for k in range(count + 1):
+            place = foot + k * step
+            self.items.append(
+                Stroke((place - 1j * _TICK, place + 1j * _TICK), Pen.THIN, tag="diagram axis")
+            )
+            if k % every == 0:
+                side = -1j if ordinates[k] >= 0.0 else 1j
+                self._label(str(k), place, side, f"{key}: position {k}")
+
+    def _label(
+        self, text: str, at: complex, prefer: complex, name: str, *, large: bool = False
+    ) -> None:
+        size = self.height if large else self.size
+        self.labels.append(
+            Label(typeset(text, size), at, prefer=prefer, gap=1.4, name=f"flywheel {name}",
+                  priority=int(large), manner=BUSY)
+        )  # fmt: skip
+
+    def _curve(self, parts: Iterable[Sequence[complex]], letter: str, pen: Pen = Pen.MAIN) -> None:
+        self.items += [Stroke(tuple(part), pen, tag=f"diagram curve {letter}") for part in parts]
+
+    def _dots(self, places: Sequence[complex]) -> None:
+        self.items += [Disc(place, _POINT, Ink.BLACK, "diagram point") for place in places]
+
+    def _moment(self, foot: complex) -> None:
+        flywheel, drawing = self.drawing.flywheel, self.drawing
+        scales, made = drawing.scales, self.made
+        pieces: list[list[complex]] = []
+        edges = flywheel.moment.edges
+        for low, high in pairwise(edges.tolist()):
+            at = np.linspace(low, high, max(int((high - low) / _STEP), 1) + 1)
+            inside = np.clip(at, low + 1e-9, high - 1e-9)
+            heights = flywheel.sign * flywheel.moment.value(inside) / scales.moment
+            piece = [foot + complex(t / scales.phi, y) for t, y in zip(at, heights, strict=True)]
+            if pieces and abs(pieces[-1][-1] - piece[0]) < 0.05:
+                pieces[-1] += piece[1:]
+            else:
+                pieces.append(piece)
+        self._curve(pieces, "M")
+        self._dots(self.places(made.moments))
+        pole = self.at(made.pole)
+        length = flywheel.machine.turn_mm
+        cuts = []
+        for k in range(drawing.count):
+            cut = self.at(PointName(f"A cut {k}"))
+            cuts.append(cut)
+            self._thin(pole, cut)
+        for place in self.places(made.middles):
+            self._thin(complex(place.real, foot.imag), place)
+            self._thin(complex(foot.real, place.imag), place)
+        self._dots([pole])
+        self._label("P", pole, -1.0, "pole", large=True)
+        self._dimension(complex(pole.real, foot.imag), foot, min(z.imag for z in cuts) - 6.0, "H")
+        constant = float(drawing.points.work[-1]) / flywheel.cycle / scales.moment
+        level = foot + 1j * constant
+        self._thin(level, level + length, pen=Pen.HIDDEN)
+        keeps = self.tell.letter(f"{self.tell.keeps} moment")
+        self._label(keeps, level + 0.9 * length, 1j, "constant", large=True)
+
+    def _dimension(self, tail: complex, head: complex, low: float, letter: str) -> None:
+        """Draw a dimension along +x, at a height."""
+        low = min(low, tail.imag - 6.0)
+        one, two = complex(tail.real, low), complex(head.real, low)
+        self._thin(tail, one - 2j)
+        self._thin(head, two - 2j)
+        self._thin(one, two)
+        self.items += [*arrowhead(one, -1 + 0j, length=3.0), *arrowhead(two, 1 + 0j, length=3.0)]
+        text = typeset(letter, self.size)
+        self.items += text.at((one + two) / 2 + complex(-text.width / 2, 1.0))
+
+    def _work(self, foot: complex) -> None:
+        places = self.places(self.made.work)
+        self._curve([places], "A")
+        self._dots(places)
+        self._curve([(places[0], places[-1])], "straight", Pen.MAIN)
+        third = len(places) // 3
+        along = places[0] + (places[-1] - places[0]) * 0.62
+        side = 1j if (places[third] - places[0]).imag < (along - places[0]).imag / 2 else -1j
+        self._label(
+            self.tell.letter(f"{self.tell.keeps} work"), along, side, "straight", large=True
+        )
+        k = 2 * len(places) // 3
+        self._label(self.tell.work, places[k], -side, "work", large=True)
+        for k in range(1, len(places) - 1):
+            level = self.at(PointName(f"D {k}"))
+            self._thin(level, places[k])
+            self._label(f"{k}''", places[k], 1j if places[k].imag > level.imag else -1j, f"A {k}")
+
+    def _energies(self, foot: complex) -> None:
+        places = self.places(self.made.energies)
+        self._curve([_smooth(places)], "T")
+        self._dots(places)
+        for place in places[1:-1]:
+            self._thin(complex(place.real, foot.imag), place)
+
+    def _inertia(self, feet: dict[str, complex]) -> None:
+        made = self.made
+        places = self.places(made.inertias)
+        self._curve([_smooth(places)], "J")
+        self._dots(places)
+        turned, curve = self.places(made.turned), self.places(made.curve)
+        corner = complex(feet["E"].real, feet["J"].imag)
+        reach = max((spot - corner).real for spot in turned) + 6.0
+        self._thin(corner, corner + reach * (1 + 1j))
+        self._label("45°", corner + reach * (1 + 1j), 1.0, "45")
+        for place, spot, point in zip(places, turned, curve, strict=False):
+            self._thin(complex(place.real, feet["J"].imag), place)
+            self._thin(place, spot)
+            self._thin(spot, point)
+        for place, point in zip(self.places(made.energies), curve, strict=False):
+            self._thin(place, point)
+
+    def _energy_mass(self, foot: complex) -> None:
+        made, tell = self.made, self.tell
+        curve = self.places(made.curve)
+        width = max((z - foot).real for z in curve)
+        upper, lower = self.at(made.upper), self.at(made.lower)
+        heights = [(z - foot).imag for z in (*curve, upper, lower)]
+        up = f"{tell.letter('energy gain')}, {tell.unit('J')}"
+        self._axes(foot, width + 8.0, heights, up, tell.letter("reduced inertia"), left=True)
+        self._curve([_smooth([*curve, curve[0]])], "E")
+        self._dots(curve)
+        every = max(1, self.drawing.count // 12)
+        middle = sum(curve) / len(curve)
+        for k, place in enumerate(curve):
+            if k % every == 0:
+                self._label(str(k), place, place - middle, f"E {k}")
+        tangents = ((upper, "K", "max", 0), (lower, "L", "min", 1))
+        step = self.drawing.flywheel.cycle / self.drawing.count
+        found = self.drawing.points.tangents
+        for cut, letter, name, number in tangents:
+            at = found.at_max if number == 0 else found.at_min
+            touch = curve[round(at / step)]
+            way = touch - cut
+            if abs(way) < 1e-9:
+                way = 10.0 * complex(1.0, np.tan(np.radians(self.drawing.psi[number])))
+            beyond = touch + way / abs(way) * 15.0
+            self.items.append(Stroke((cut, beyond), Pen.MAIN, tag="diagram tangent"))
+            self.items.append(Disc(cut, _POINT, Ink.BLACK, letter))
+            self._label(letter, cut, -1.0, letter, large=True)
+            psi = f"ψ_{{{name}}} = {tell._angle(self.drawing.psi[number])}°"
+            self._label(psi, beyond, 1j if number == 0 else 1.0, f"psi {name}")
+
+
+def _smooth(places: Sequence[complex]) -> list[complex]:
+    """Return a smooth line through points (Catmull and Rom's): closed if it ends where it began."""
+    closed = abs(places[0] - places[-1]) < 1e-9
+    before = places[-2] if closed else 2 * places[0] - places[1]
+    after = places[1] if closed else 2 * places[-1] - places[-2]
+    ends = [before, *places, after]
+    line: list[complex] = []
+    for k in range(1, len(ends) - 2):
+        a, b, c, d = ends[k - 1 : k + 3]
+        for part in range(_FINE):
+            t = part / _FINE
+            line.append(
+                b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)))
+            )
+    return [*line, places[-1]]
