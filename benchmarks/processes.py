@@ -10,12 +10,17 @@ import tempfile
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from planmethod.bench.clock import Timing, clock
+from planmethod.kinds import part_of
+from planmethod.note.wording import language
 from planmethod.problem import load, template
 from planmethod.render.backends import render
+from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sketch import VIEWS, sketch
 
 ROOT = Path(__file__).parent.parent
 """Where processes start: they find the package and the benchmarks here."""
@@ -27,8 +32,18 @@ WATCHED = (
 )  # fmt: skip
 """Third parties whose import a command may have to pay for."""
 
+YARDSTICKS = (
+    "pass",
+    "import click",
+    "import numpy",
+    "import numpy, click",
+    "import numpy, shapely, svgwrite, click",
+)
+"""What a process costs before there is anything of ours in it."""
+
 COMMANDS = (
     ("--version", ()),
+    ("--help", ()),
     ("structure --no-drawing", ()),
     ("solve", ()),
     ("solve --json", ()),
@@ -37,6 +52,8 @@ COMMANDS = (
     ("sheet --format svg", ("-o", "{out}")),
     ("sheet --format pdf", ("-o", "{out}")),
     ("sheet --format png", ("-o", "{out}")),
+    ("sheet --format svg --phi 0:330:30", ("-o", "{out}")),
+    ("sketch", ("-o", "{out}")),
 )
 
 
@@ -66,7 +83,7 @@ class Command:
 def commands(*, runs: int = 5) -> list[Command]:
     """Measure commands on a slotted link, each in processes of its own, taking turns.
 
-    First come two yardsticks: an empty interpreter and ``import numpy``.
+    First come the yardsticks.
     """
     with tempfile.TemporaryDirectory() as folder:
         problem = Path(folder) / "slotted-link.toml"
@@ -74,19 +91,20 @@ def commands(*, runs: int = 5) -> list[Command]:
         lines: list[tuple[str, list[str]]] = []
         for name, more in COMMANDS:
             words = name.split()
-            target = [] if name == "--version" else [str(problem)]
+            target = [] if name.startswith("--") else [str(problem)]
             rest = [word.format(out=folder) for word in more]
             lines.append((name, [words[0], *target, *words[1:], *rest]))
-        plain = [[sys.executable, "-c", "pass"], [sys.executable, "-c", "import numpy"]]
+        plain = [[sys.executable, "-c", source] for source in YARDSTICKS]
         # The module is run as the installed script runs it.
         start = "import sys; from planmethod.cli import main; main()"
         whole = [[sys.executable, "-c", start, *arguments] for _, arguments in lines]
         timings = clock_processes([*plain, *whole], runs=runs)
+        count = len(YARDSTICKS)
         found = [
-            Command("python -c pass", timings[0], (), 0, 0.0),
-            Command("import numpy", timings[1], ("numpy",), 0, 0.0),
+            Command(source, timing, tuple(n for n in WATCHED if n in source), 0, 0.0)
+            for source, timing in zip(YARDSTICKS, timings[:count], strict=True)
         ]
-        for (name, arguments), timing in zip(lines, timings[2:], strict=True):
+        for (name, arguments), timing in zip(lines, timings[count:], strict=True):
             imports, modules, peak = _looked_at(arguments)
             found.append(Command(f"planmethod {name}", timing, imports, modules, peak))
         return found
@@ -113,17 +131,29 @@ def _looked_at(arguments: list[str]) -> tuple[tuple[str, ...], int, float]:
 
 
 def warm_sheets() -> list[tuple[str, Timing, Timing]]:
-    """Return (format, seconds to make the sheet, seconds to write it) in a running process."""
+    """Return (format, seconds to make, seconds to write) of sheets in a running process."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "slotted-link.toml"
         path.write_text(template("slotted-link"), encoding="utf-8")
         problem = load(path)
+        again = partial(_sketched, path)
+        redrawn = (
+            "svg of sketch --watch",
+            clock(again, enough=1.0, least=3),
+            clock(partial(render, again(), "svg"), enough=1.0, least=3),
+        )
     make = clock(lambda: kinematics_sheets(problem), enough=2.0, least=3)
     sheet = kinematics_sheets(problem)[0]
     return [
-        (fmt, make, clock(lambda f=fmt: render(sheet, f), enough=1.0, least=3))  # type: ignore[misc]
-        for fmt in FORMATS
+        *((f, make, clock(partial(render, sheet, f), enough=1.0, least=3)) for f in FORMATS),
+        redrawn,
     ]
+
+
+def _sketched(path: Path) -> Drawing:
+    """Read a file again and draw its sketch, as ``--watch`` does."""
+    title, part = part_of(path, variant=None, views=VIEWS)
+    return sketch(part, title, language("en"), [])
 
 
 PEAK = (

@@ -123,6 +123,19 @@ def test_many_positions_fit_when_the_scales_are_free(name: str) -> None:
     assert marks(kinematics_sheets(problem, positions=MANY[name])) == []
 
 
+@pytest.mark.parametrize("count", [1, 3, 12])
+def test_sheets_and_numbers_speak_of_the_same_scales(count: int) -> None:
+    """One decision: the sheet has the scales and the paper that `solve` and `protocol` speak of."""
+    for name in MANY:
+        problem = loads(without_scales(name), name=path_of(name).stem)
+        positions = MANY[name][:count]
+        solution = Solution(problem, positions=positions)
+        (sheet,) = kinematics_sheets(problem, positions=positions)
+        assert size(sheet) == (FORMATS[solution.views.paper].width, format_of(sheet).height)
+        told = {kind.value: scale.per_mm for kind, scale in solution.scales.items()}
+        assert {view.kind: view.per_mm for view in sheet.views} == pytest.approx(told)
+
+
 @each("seed", range(some(30, few=6)))
 def test_sheets_of_random_mechanisms(seed: int) -> None:
     problem = loads(random_problem(seed)[0], name=f"random-{seed}")

@@ -210,7 +210,9 @@ def begin(command: str, params: Mapping[str, Any]) -> Callable[[Todo], Part[Any]
     token = _beginning.set(True)
     try:
         assert called.callback is not None
-        called.callback(**{**params, **({"watch": False} if "watch" in params else {})})
+        # Switches that another command has not are off; no process watches.
+        off = {one.name: False for one in called.params if getattr(one, "is_flag", False)}
+        called.callback(**{**off, **params, **({"watch": False} if "watch" in off else {})})
     except _BegunError as begun:
         do = begun.do
         from planmethod.commands.processes import heard

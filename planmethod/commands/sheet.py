@@ -62,7 +62,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
         More positions are asked than small paper has room for.
     """
     from planmethod.problem.model import Scales
-    from planmethod.solved.scaling import FEW
+    from planmethod.solved.room import FEW
 
     asked = problem.drive.positions if positions is None else positions
     if len(asked) > FEW:

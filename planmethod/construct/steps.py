@@ -8,7 +8,6 @@ paper millimetres, x right, y up; lines are directed; angles are in degrees, as 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields
 from enum import Enum
 from typing import NewType, TypeAlias, get_args
 
@@ -281,14 +280,15 @@ def _kind(annotation: str) -> object:
     return _KINDS.get(annotation.removesuffix(" | None"))
 
 
-_MADE = {kind: _kind(str(fields(kind)[0].type)) for kind in STEP_TYPES}
-_OPERANDS = {
-    kind: tuple(
-        (field.name, named)
-        for field in fields(kind)[1:]
-        if (named := _kind(str(field.type))) is not None
-    )
+# Not by `dataclasses.fields`, which are made when asked for: every command would pay it.
+_NAMED = {
+    kind: [(name, _kind(told)) for name, told in kind.__annotations__.items()]
     for kind in STEP_TYPES
+}
+_MADE = {kind: named[0][1] for kind, named in _NAMED.items()}
+_OPERANDS = {
+    kind: tuple((name, of) for name, of in named[1:] if of is not None)
+    for kind, named in _NAMED.items()
 }
 
 

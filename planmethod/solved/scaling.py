@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -10,14 +11,13 @@ import numpy as np
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.paper import FORMATS
+from planmethod.paper import FORMATS, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.model import Convention, Problem, Scales
+from planmethod.problem.model import Convention, Scales
 from planmethod.record import dataclass
 from planmethod.solved.reading import Reading, Reals
-
-Box = tuple[float, float]
+from planmethod.solved.room import FEW, Box, Texts, has_room
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,25 +77,9 @@ class Views:
         table = ONE_POSITION if one else FEW_POSITIONS if positions <= FEW else MANY_POSITIONS
         return cls(paper, *table[AS_HIGH.get(paper, paper)], many=not one)
 
-    @classmethod
-    def for_problem(cls, problem: Problem, positions: int) -> Views:
-        """Return the room on the file's format, or on that which a sheet is tried on first.
-
-        Three-link mechanisms take a format less than others, so that plans are large enough to
-        measure and their formulas stand beside them.
-        """
-        small = len(problem.mechanism.links) <= 3
-        paper = ("A3" if small else "A2") if positions == 1 else ("A2" if small else "A1")
-        if positions > FEW:
-            paper = "A1"
-        return cls.for_paper(problem.sheet.paper or paper, positions)
-
 
 AS_HIGH = {fmt.name: fmt.like for fmt in FORMATS.values() if fmt.like != fmt.name}
 """Basic format whose room an elongated or a standing one has."""
-
-FEW = 5
-"""Most positions of a homework: each with plans of useful size, all of a kind in one row."""
 
 ONE_POSITION: dict[str, tuple[Box, Box, Box]] = {
     "A4": ((80.0, 50.0), (60.0, 50.0), (60.0, 55.0)),
@@ -115,7 +99,7 @@ MANY_POSITIONS: dict[str, tuple[Box, Box, Box]] = {
     "A4": ((80.0, 50.0), (160.0, 60.0), (160.0, 60.0)),
     "A3": ((100.0, 80.0), (240.0, 90.0), (240.0, 90.0)),
     "A2": ((150.0, 120.0), (340.0, 110.0), (340.0, 110.0)),
-    "A1": ((310.0, 250.0), (490.0, 165.0), (490.0, 175.0)),
+    "A1": ((310.0, 250.0), (540.0, 210.0), (540.0, 220.0)),
     "A0": ((320.0, 260.0), (730.0, 240.0), (730.0, 250.0)),
 }
 
@@ -128,18 +112,23 @@ COARSER = 2.5
 ROWS = 2
 """Rows of plans of one kind on a sheet."""
 
-BESIDE, UNDER = 20.0, 22.0
+BESIDE, UNDER = 24.0, 22.0
 """Room that the letters of a plan take beside it, and with its caption under it, mm."""
 
-LETTERS = {"A4": 2.5, "A3": 3.5, "A2": 3.5, "A1": 5.0, "A0": 5.0}
-"""Height of the texts on a format, mm."""
+NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
+"""Room that a view's letters take above and below it, with its name and its scale, mm."""
 
-EQUATION, LINES, STATEMENT = 1300.0, 1050.0, 42000.0
-"""Paper that a vector equation, the calculation of a vector, and statement, table and title block
-take with letters of 3.5 mm, mm²."""
+TRIED = ("A3", "A2", "A1")
+"""Formats that sheets of one and of a few positions are tried on; those of many are the last."""
 
-FILLED = 0.46
-"""Part of the paper beside the texts that views take with their letters."""
+SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
+"""How wide the scheme shall be on a format, mm."""
+
+PLAN = 60.0
+"""Larger side that a plan shall have, mm."""
+
+STEP = 0.55
+"""What of these sizes is enough: the scales of the series lie as far apart."""
 
 FAR = 1.4
 """A plan that would be so many times larger than its share of the room has a scale of its own."""
@@ -154,6 +143,10 @@ FEW_FAR = 0.2
 OUTLIER = 5.0
 """A plan that many times larger than the middle one does not set the scale of all: it stands near a
 dead position and is drawn at a scale of its own."""
+
+
+BETWEEN = 6.0
+"""White between the plans of a row, and between rows, mm."""
 
 
 def per_row(count: int) -> int:
@@ -214,63 +207,105 @@ def _median(sizes: Reals) -> float:
     return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
 
 
-def choose_scales(construction: Construction, si: Reading, views: Views) -> dict[PlanKind, Scale]:
-    """Return the scale of each plan: as the file gives it, else to fill the room of the views.
+def choose_views(construction: Construction, si: Reading) -> Views:
+    """Return the room on the file's format, else on the smallest that is large enough.
 
-    First each view fills its own room; then the scales become finer as long as all views together
-    have the room of all. What one does not need another takes.
+    That is one where the scheme has `SCHEME` or three quarters of it in height, and each plan
+    `PLAN`, at scales at which everything has room. A sheet is tried on it first, and `solve`
+    speaks of its scales.
 
     Parameters
     ----------
     si : Reading
         Exact, at unit scales.
     """
-    asked = construction.draft.problem.scales
-    given = {kind: getattr(asked, FACTS[kind].scale) for kind in MOTION}
-    drawn = {kind: _Drawn(construction, si, views, kind) for kind in MOTION}
-    chosen = {kind: given[kind] or drawn[kind].alone() for kind in MOTION}
-    free = [k for k in MOTION if given[k] is None and k not in views.kept and any(drawn[k].size)]
-    rooms = {rows: _room(drawn, rows=rows) for rows in (False, True)}
+    paper = construction.draft.problem.sheet.paper
+    if paper:
+        return Views.for_paper(paper, si.count)
+    for name in TRIED if si.count <= FEW else TRIED[-1:]:
+        views = Views.for_paper(name, si.count)
+        chosen = _Chosen.of(construction, si, views)
+        if chosen.has_room() and chosen.is_large():
+            break
+    return views
 
-    def over(rows: bool) -> bool:
-        taken = sum(drawn[k].taken(chosen[k]) for k in MOTION if drawn[k].rows == rows)
-        return taken > rooms[rows]
 
-    for rows in (False, True):
-        some = [kind for kind in free if drawn[kind].rows == rows]
-        least = {kind: COARSER * chosen[kind] for kind in some}
-        while over(rows):
-            bears = [k for k in some if _next(chosen[k], asked, finer=False) <= least[k]]
-            if not bears:
-                break
-            large = max(bears, key=lambda kind: drawn[kind].share(chosen[kind]))
-            chosen[large] = _next(chosen[large], asked, finer=False)
-        while some:
-            small = min(some, key=lambda kind: drawn[kind].share(chosen[kind]))
-            before, chosen[small] = chosen[small], _next(chosen[small], asked, finer=True)
-            if over(rows) or not drawn[small].stretches(chosen[small]):
-                chosen[small] = before
-                some.remove(small)
+def choose_scales(construction: Construction, si: Reading, views: Views) -> dict[PlanKind, Scale]:
+    """Return the scale of each plan: as the file gives it, else to fill the room of the views.
+
+    First each view fills its own room; then the scales become finer as long as all views have room
+    on the paper. What one does not need another takes.
+
+    Parameters
+    ----------
+    si : Reading
+        Exact, at unit scales.
+    """
+    chosen = _Chosen.of(construction, si, views).per_mm
     return {kind: Scale(FACTS[kind].scale, chosen[kind], FACTS[kind].unit) for kind in MOTION}
 
 
-def _room(drawn: Mapping[PlanKind, _Drawn], *, rows: bool) -> float:
-    """Return the room of all views: the height of rows of plans, mm, else an area, mm².
+@dataclass(frozen=True)
+class _Chosen:
+    """Scales at which the views fill a paper, units per mm by kind."""
 
-    On a sheet of one position it is what the texts leave: vector equations and the calculation,
-    whose lines are nearly as many as the vectors twice.
-    """
-    one = drawn[PlanKind.POSITION]
-    if rows or one.views.many or one.views.kept:
-        return sum(each.room() for each in drawn.values() if each.rows == rows)
-    paper = FORMATS[one.views.paper]
-    left, low, right, high = paper.inner
-    letters = (LETTERS[AS_HIGH.get(paper.name, paper.name)] / 3.5) ** 2
-    plans = [one.construction.plan(kind) for kind in MOTION if kind is not PlanKind.POSITION]
-    equations = sum(len(plan.equations) for plan in plans)
-    vectors = sum(len(plan.vectors) for plan in plans)
-    texts = letters * (equations * EQUATION + STATEMENT) + min(letters, 1.0) * vectors * LINES
-    return FILLED * ((right - left) * (high - low) - texts)
+    drawn: Mapping[PlanKind, _Drawn]
+    views: Views
+    per_mm: dict[PlanKind, float]
+    free: tuple[PlanKind, ...]
+
+    @classmethod
+    def of(cls, construction: Construction, si: Reading, views: Views) -> _Chosen:
+        """Choose the scales of a construction that are free."""
+        asked = construction.draft.problem.scales
+        drawn = {kind: _Drawn(construction, si, views, kind) for kind in MOTION}
+        given = {kind: getattr(asked, FACTS[kind].scale) for kind in MOTION}
+        free = [kind for kind in MOTION if given[kind] is None and any(drawn[kind].size)]
+        per_mm = {kind: given[kind] or drawn[kind].alone() for kind in MOTION}
+        own = cls(drawn, views, per_mm, tuple(kind for kind in free if kind not in views.kept))
+        return own._filled(asked) if views.paper else own
+
+    def _filled(self, asked: Scales) -> _Chosen:
+        """Return scales coarser until there is room, then finer as long as there is."""
+        found, free = replace(self, per_mm=dict(self.per_mm)), list(self.free)
+        now, least = found.per_mm, {kind: COARSER * self.per_mm[kind] for kind in free}
+
+        def share(kind: PlanKind) -> float:
+            return self.drawn[kind].share(now[kind])
+
+        while free and not found.has_room():
+            bears = [k for k in free if _next(now[k], asked, finer=False) <= least[k]]
+            if not bears:
+                return self  # the sheet goes on with texts, or takes a larger paper
+            coarser = {kind: _next(now[kind], asked, finer=False) for kind in bears}
+            large = max(bears, key=lambda kind: (self._large(kind, coarser[kind]), share(kind)))
+            now[large] = coarser[large]
+        while free:
+            small = min(free, key=share)
+            before, now[small] = now[small], _next(now[small], asked, finer=True)
+            if not (self.drawn[small].stretches(now[small]) and found.has_room()):
+                now[small] = before
+                free.remove(small)
+        return found
+
+    def has_room(self) -> bool:
+        """Tell whether the views have room on the paper, texts and all."""
+        one = self.drawn[PlanKind.POSITION]
+        texts = Texts.of(one.construction).blocks(paper_format(self.views.paper), one.si.count)
+        boxes = [self.drawn[kind].on_paper(self.per_mm[kind]) for kind in MOTION]
+        return has_room(paper_format(self.views.paper), texts, boxes, one.si.count)
+
+    def is_large(self) -> bool:
+        """Tell whether scheme and plans are as large as they shall be on the paper.
+
+        What the file gives a scale for is as large as it is.
+        """
+        return all(self._large(kind, self.per_mm[kind] * STEP) for kind in self.free)
+
+    def _large(self, kind: PlanKind, per_mm: float) -> bool:
+        scheme = SCHEME[AS_HIGH.get(self.views.paper, self.views.paper)]
+        wanted = scheme if kind is PlanKind.POSITION else PLAN
+        return max(self.drawn[kind].size) >= wanted * per_mm
 
 
 @dataclass(frozen=True)
@@ -306,7 +341,7 @@ class _Drawn:
         """Return the finest scale of the series at which it has the room of its own."""
         asked = self.construction.draft.problem.scales
         per_mm = _fitting(asked, self.box, self.size)
-        while self.rows and not (self.stretches(per_mm) and self.taken(per_mm) <= self.room()):
+        while self.rows and not (self.stretches(per_mm, 1.0) and self.share(per_mm) <= 1.0):
             per_mm = _next(per_mm, asked, finer=False)
         return per_mm
 
@@ -328,14 +363,22 @@ class _Drawn:
         lines = [float(high[k : k + step].max()) for k in range(0, self.si.count, step)]
         return max(sum(lines[k : k + ROWS]) for k in range(0, len(lines), ROWS))
 
-    def stretches(self, per_mm: float) -> bool:
+    def stretches(self, per_mm: float, times: float = STRETCH) -> bool:
         """Tell whether it is not too wide, nor a single view too high, at a scale."""
-        if not self.rows:
-            times = max(self.size[0] / self.box[0], self.size[1] / self.box[1]) / per_mm
-            return times <= STRETCH
-        wide, _ = self._on_paper(per_mm)
-        step = per_row(self.si.count)
-        return all(wide[k : k + step].sum() <= self.box[0] for k in range(0, self.si.count, step))
+        if self.rows:
+            return self.on_paper(per_mm)[0] <= times * self.box[0]
+        return max(self.size[0] / self.box[0], self.size[1] / self.box[1]) <= times * per_mm
+
+    def on_paper(self, per_mm: float) -> Box:
+        """Return the size of the view with its letters and its name at a scale, mm."""
+        name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
+        if self.rows:
+            wide, _ = self._on_paper(per_mm)
+            step = min(per_row(self.si.count), self.si.count)
+            across = sum(float(wide[k::step].max()) + BETWEEN for k in range(step)) - BETWEEN
+            return across, self.taken(per_mm) + BETWEEN + name - BESIDE
+        several = BESIDE if self.si.count > 1 and self.kind is PlanKind.POSITION else 0.0
+        return self.size[0] / per_mm + BESIDE + several, self.size[1] / per_mm + name + several
 
     def _on_paper(self, per_mm: float) -> tuple[Reals, Reals]:
         """Return the width and height of every plan with its letters, mm, shape (n,)."""

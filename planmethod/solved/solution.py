@@ -29,7 +29,7 @@ from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
-from planmethod.solved.scaling import Views, choose_scales, own_scale
+from planmethod.solved.scaling import Views, choose_scales, choose_views, own_scale
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
@@ -185,10 +185,10 @@ class Solution(Remembering):
         """
         return own_scale(self.construction, self.si, self.views, self.scales[kind], kind, index)
 
-    @property
+    @cached_property
     def views(self) -> Views:
-        """Boxes that the plans shall fill."""
-        return self._views or Views.for_problem(self.problem, len(self.positions))
+        """Boxes that the plans shall fill: those of the format that a sheet is tried on first."""
+        return self._views or choose_views(self.construction, self.si)
 
     @property
     def per_mm(self) -> dict[str, float]:

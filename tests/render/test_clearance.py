@@ -21,7 +21,8 @@ def test_sheets_keep_out_of_the_graphs(name: str, paper: str | None) -> None:
     settings = SheetSettings(paper, graphs_27_30=True, side_columns=True)
     problem = replace(load(path_of(name)), sheet=settings)
     for drawing in kinematics_sheets(problem):
-        assert [f.message for f in inspect(drawing) if f.code not in ("PM-D08", "PM-D10")] == []
+        allowed = {"PM-D08"} | ({"PM-D10"} if paper == "A4" else set())  # three links leave room
+        assert [f.message for f in inspect(drawing) if f.code not in allowed] == []
 
 
 @pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "press/press"])

@@ -308,7 +308,7 @@ def test_a_block_that_must_stay_is_never_left_out() -> None:
     """The calculation of the default goes to a sheet of its own, a required one stays."""
     default = shipped_text("one-position")
     strict = made(default.replace("droppable = true", "droppable = false"))
-    problem = problem_of("press/press")
+    problem = problem_of("levers/task-33")
     loose = kinematics_sheets(problem, paper="A3", layout=made(default))
     *plans, texts = loose
     assert "Расчёт" not in "".join(map(shown, plans))

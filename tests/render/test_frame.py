@@ -150,9 +150,11 @@ def test_more_than_three_letters_take_the_place_of_the_three_cells() -> None:
 
 def test_every_key_of_the_problem_file_has_its_place() -> None:
     columns = Furniture(side_columns=True, graph_26=False)
-    bare = len(texts(sheet_frame("A3", {}, columns).items))
+    bare = len(texts(sheet_frame("A3", {"sheets": ""}, columns).items))
     for key in STAMP_FIELDS:
-        assert len(texts(sheet_frame("A3", {key: "8"}, columns).items)) == bare + 1, key
+        assert len(texts(sheet_frame("A3", {"sheets": "", key: "8"}, columns).items)) == bare + 1, (
+            key
+        )
 
 
 def test_the_documents_have_every_field_and_where_it_goes() -> None:
@@ -376,7 +378,10 @@ def test_an_unknown_form() -> None:
 
 
 def test_only_the_first_sheet_says_how_many_there_are() -> None:
-    assert Furniture().numbers(1, 1) == {"sheets": "1"}
+    assert Furniture().numbers(1, 1) == {}
+    for fields, told in (({}, "1"), ({"sheet": "2", "sheets": "4"}, "4")):
+        (run,) = shown(sheet_frame("A4", fields).items, (191, 20, 205, 25))
+        assert run.text == told
     assert Furniture().numbers(1, 3) == {"sheet": "1", "sheets": "3"}
     assert Furniture().numbers(2, 3) == {"sheet": "2", "sheets": ""}
     assert Furniture(before=4).numbers(1, 1) == {"sheet": "5", "sheets": ""}

@@ -485,11 +485,7 @@ def test_shipped_sheets_have_no_errors(path: Path) -> None:
         problem = problem_of(name, variant)
         sheets = drawn_sheets(name, variant=variant)
         told = [finding for drawing in sheets for finding in inspect(drawing)]
-        # The long scheme of variant Д has only the room to the right of graph 26; on the sheet of
-        # the press the next scale of velocities has no room beside its calculation.
-        wide = variant == "Д" or path.stem == "press"
-        allowed = {"PM-D08", "PM-D10"} if wide else {"PM-D08"}
-        assert {finding.code for finding in told} <= allowed
+        assert {finding.code for finding in told} <= {"PM-D08"}
         assert all(view.scale for drawing in sheets for view in drawing.views)
         assert {view.kind for view in sheets[0].views} == {"position", "velocity", "acceleration"}
     assert inspect(structure_sheet(problem, analyse(problem.mechanism))) == []

@@ -90,6 +90,8 @@ def sheet_frame(
     """
     paper = paper_format(paper) if isinstance(paper, str) else paper
     check_fields(fields)
+    if not {"sheet", "sheets"} & fields.keys():
+        fields = {**fields, "sheets": "1"}  # GOST 2.104: a single sheet is counted, not numbered
     words = language(furniture.lang).frame
     room = furniture.room(paper, sheet)
     edge = rectangle((0.0, 0.0, paper.width, paper.height), Pen.THIN, "edge")

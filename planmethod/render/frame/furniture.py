@@ -135,7 +135,7 @@ class Furniture:
         """
         whole = self.total or self.before + sheets
         if whole == 1:
-            return {"sheets": "1"}
+            return {}
         count = str(whole) if self.is_first(sheet) else ""
         return {"sheet": str(self.before + sheet), "sheets": count}
 

@@ -24,7 +24,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
-from planmethod.solved.scaling import FEW
+from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
 PRIMES = ("′", "″")

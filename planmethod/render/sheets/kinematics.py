@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import product
+from itertools import chain, product
 from pathlib import Path
 
 from planmethod.construct.drafting import PROFILES, Profile
@@ -24,7 +24,8 @@ from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
-from planmethod.solved.scaling import FEW, Views
+from planmethod.solved.room import FEW
+from planmethod.solved.scaling import Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
@@ -35,7 +36,7 @@ MOST_POSITIONS = 120
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """What is drawn, whatever the paper."""
+    """What is drawn, whatever the paper; ``views`` fill the paper's own boxes when absent."""
 
     problem: Problem
     layout: Composition
@@ -43,6 +44,7 @@ class _Task:
     ruler: float | None
     profile: Profile
     extras: Extras
+    views: Views | None = None
 
     def solved(self, views: Views, scales: Scales) -> Solution:
         """Return the solution for the views of a paper, with certain scales."""
@@ -72,7 +74,7 @@ class _Task:
 
     def on(self, paper: Paper, per_sheet: int) -> list[Page] | None:
         """Return the sheets on a paper with so many positions on each, or None."""
-        views = self.layout.views_for(paper.name, len(self.positions))
+        views = self.views or self.layout.views_for(paper.name, len(self.positions))
         asked = self.problem.scales
         solution = self.solved(views, asked)
         pages = self.pages(solution, paper, per_sheet)
@@ -176,22 +178,28 @@ def kinematics_sheets(
     if made is None:
         made = composition(SHIPPED[(len(asked) > 1) + (len(asked) > FEW)], words.lang)
     _check_positions(made, len(asked))
-    paper = paper or problem.sheet.paper
+    if paper:
+        problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
+    paper = problem.sheet.paper
     furniture = furniture or Furniture.of(problem.sheet)
     extras = Extras(words, errors, sigma, made.turn)
-    papers = (paper_format(paper).name,) if paper else _papers(made, problem, len(asked))
+    task = _Task(problem, made, tuple(asked), ruler, profile, extras)
+    views = _views(task)
+    papers = (views.paper,) if paper else made.formats[made.formats.index(views.paper) :]
     scales = problem.scales
-    tasks = [_Task(problem, made, tuple(asked), ruler, profile, extras)]
+    # One decision: the scales stay on a larger paper, if the smaller one had no room after all.
+    tasks = [task if views.kept else replace(task, views=views)]
     if (made.turn or len(asked) > FEW) and (scales.mu_v, scales.mu_a) != (None, None):
         # Scales for one position may be too fine for a dozen plans on one sheet.
         free = replace(problem, scales=replace(scales, mu_v=None, mu_a=None))
-        tasks.append(replace(tasks[0], problem=free))
+        tasks.append(replace(task, problem=free))
+    tries = chain(*(product(papers, made.at_most(len(asked)), some) for some in (tasks, [task])))
 
     def later(name: str) -> Room:
         return replace(furniture, form="2a").room(paper_format(name), 2)
 
     with using(lettering(problem.sheet.lettering or "B")):
-        for name, per_sheet, task in product(papers, made.at_most(len(asked)), tasks):
+        for name, per_sheet, task in tries:
             fmt = paper_format(name)
             on = Paper(name, partial(furniture.room, fmt), later, paper is not None)
             pages = task.on(on, per_sheet)
@@ -206,11 +214,13 @@ def kinematics_sheets(
     raise LayoutError("{}: the views do not fit {}. {}.", problem.name, papers[-1], advice)
 
 
-def _papers(layout: Composition, problem: Problem, positions: int) -> tuple[str, ...]:
-    """Return the formats to try: from the one that the problem's scales are chosen for."""
-    default = Views.for_problem(problem, positions).paper
-    formats = layout.formats
-    return formats[formats.index(default) :] if default in formats else formats
+def _views(task: _Task) -> Views:
+    """Return the views on the format that sheets are tried on first."""
+    layout, count = task.layout, len(task.positions)
+    views = Solution(task.problem, positions=task.positions).views
+    if not task.problem.sheet.paper and views.paper not in layout.formats:
+        views = Views.for_paper(layout.formats[0], count)
+    return layout.views_for(views.paper, count)
 
 
 def _check_positions(layout: Composition, count: int) -> None:

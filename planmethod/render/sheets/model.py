@@ -14,7 +14,8 @@ from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
 from planmethod.render.layout.cuttings import Arrange
-from planmethod.solved.scaling import AS_HIGH, Box, Views
+from planmethod.solved.room import Box
+from planmethod.solved.scaling import AS_HIGH, Views
 
 FORMATS = ("A4", "A3", "A2", "A1", "A0")
 """Basic formats: those that sizes are given for."""

@@ -17,7 +17,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Row
+from planmethod.render.layout.block import Block, Column, Line, Row, Spacer
 from planmethod.render.pictures.ellipses import ellipse_inscription
 from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.pictures.paths import Paths
@@ -33,7 +33,7 @@ from planmethod.render.pictures.traces import shown_traces
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.solved.enlarging import least_shown
-from planmethod.solved.scaling import per_row
+from planmethod.solved.scaling import BETWEEN, per_row
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
 
@@ -272,7 +272,7 @@ def plan_grid(
     in_row: int | None = None,
     errors: bool = False,
 ) -> Block:
-    """Return the plans of many positions in rows, each with its number."""
+    """Return the plans of many positions in rows and columns, each with its number."""
     coordinate = solution.problem.drive.coordinate
     cells: list[Block] = []
     convention = solution.problem.scales.convention
@@ -288,6 +288,10 @@ def plan_grid(
             solution, kind, i, letter_height=CAPTION, errors=errors, by_hand=not errors
         )
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
-    step = in_row or per_row(len(cells))
-    rows = [Row(cells[k : k + step], gap=6.0, align="bottom") for k in range(0, len(cells), step)]
-    return Column(rows, gap=6.0)
+    step = min(in_row or per_row(len(cells)), len(cells))
+    wide = [Spacer(max(cell.width for cell in cells[k::step]), 0.0) for k in range(step)]
+    even = [Column([cell, wide[k % step]], gap=0.0, align="centre") for k, cell in enumerate(cells)]
+    rows = [
+        Row(even[k : k + step], gap=BETWEEN, align="bottom") for k in range(0, len(cells), step)
+    ]
+    return Column(rows, gap=BETWEEN)

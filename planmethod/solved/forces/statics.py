@@ -35,7 +35,7 @@ from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
-from planmethod.solved.scaling import Box
+from planmethod.solved.room import Box
 from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 UNIT = FACTS[PlanKind.FORCE].unit

@@ -1,0 +1,126 @@
+"""What a sheet has room for (поле листа): its blocks at estimated sizes, cut apart as on paper.
+
+So scales and formats are chosen without a letter being set: `solve` speaks of the same millimetres
+as the sheet. The sizes of texts are those of the shipped compositions, by what they tell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH, Format
+from planmethod.plans.build import Construction
+from planmethod.plans.model import PlanKind
+from planmethod.record import dataclass
+
+Box: TypeAlias = tuple[float, float]
+Blocks: TypeAlias = "Box | Sequence[Blocks]"
+"""A block, or a group of blocks in reading order."""
+
+FEW = 5
+"""Most positions of a homework: each with plans of useful size, all of a kind in one row."""
+
+EDGE, GAP = 5.0, 9.0
+"""White between blocks and the frame, and between two blocks, mm."""
+
+CORNER = 14.0
+"""Height of graph 26, which stands in the upper left corner, mm."""
+
+LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (4.2, 3.5), "A0": (5.0, 3.5)}
+"""Heights of the texts and of the calculation that a format is to have room for, mm."""
+
+_OPTIONS = 8  # shapes of a run of blocks that are kept
+
+
+@dataclass(frozen=True, slots=True)
+class Texts:
+    """How much the texts of a sheet tell: vector equations and vectors of both plans."""
+
+    equations: tuple[int, int]
+    vectors: tuple[int, int]
+
+    @classmethod
+    def of(cls, construction: Construction) -> Texts:
+        """Return what is told of a construction."""
+        plans = [construction.plan(k) for k in (PlanKind.VELOCITY, PlanKind.ACCELERATION)]
+        one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
+        return cls((one[0], two[0]), (one[1], two[1]))
+
+    def blocks(self, paper: Format, positions: int) -> list[Box]:
+        """Return the sizes of "Дано", equations, calculations and table, mm.
+
+        Measured on sheets: an equation is 13 letters wide and 4.3 high, of the calculation every
+        vector has nearly two lines.
+        """
+        letter, small = LETTERS[paper.like or paper.name]
+        equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in self.equations]
+        lines = (4.3 * self.vectors[0], 3.6 * self.vectors[1])
+        calculations = [(41.0 * small, small * count) for count in lines]
+        number = sum(self.vectors)
+        height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
+        table = (min(40.0 + 12.2 * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
+        return [(50.0 * letter, 7.0 * letter), *equations, *calculations, table]
+
+
+def has_room(paper: Format, texts: Sequence[Box], views: Sequence[Box], positions: int) -> bool:
+    """Tell whether texts and views have room on a format, mm.
+
+    ``views`` are the scheme, the velocity and the acceleration plans. They are grouped as in the
+    shipped compositions for one, for a few and for many positions.
+    """
+    left, low, right, high = paper.inner
+    room = (right - left - 2 * EDGE, high - low - 2 * EDGE)
+    statement, one, two, reckoned, reckoned_too, (wide, tall) = texts
+    scheme, velocity, acceleration = views
+    scheme = (scheme[0], scheme[1] + CORNER)
+    lasts = [(max(wide, STAMP_WIDTH - EDGE), tall + STAMP_HEIGHT)]
+    if wide > STAMP_WIDTH:
+        lasts.append((wide + STAMP_WIDTH, max(tall, STAMP_HEIGHT - EDGE)))
+    sheet: list[Any]
+    for last in lasts:
+        if positions == 1:
+            velocities, accelerations = (
+                [velocity, [one, reckoned]],
+                [acceleration, [two, reckoned_too]],
+            )
+            sheet = [[scheme, statement], velocities, accelerations, last]
+        else:
+            texts_too = [[reckoned, reckoned_too]] if positions <= FEW else []
+            sheet = [
+                [scheme, statement, [one, two]],
+                [velocity, acceleration, *texts_too, last],
+            ]
+        if shapes(sheet, room):
+            return True
+    return False
+
+
+def shapes(blocks: Blocks, room: Box) -> list[Box]:
+    """Return the sizes that blocks can be put together to within a room, none beaten in both."""
+    if isinstance(blocks, tuple):
+        return [blocks] if blocks[0] <= room[0] and blocks[1] <= room[1] else []
+    kept = {(k, k + 1): shapes(block, room) for k, block in enumerate(blocks)}
+    for length in range(2, len(blocks) + 1):
+        for start in range(len(blocks) - length + 1):
+            end = start + length
+            pairs = [
+                (one, two)
+                for middle in range(start + 1, end)
+                for one in kept[start, middle]
+                for two in kept[middle, end]
+            ]
+            found = [(a + GAP + c, max(b, d)) for (a, b), (c, d) in pairs]
+            found += [(max(a, c), b + GAP + d) for (a, b), (c, d) in pairs]
+            kept[start, end] = _best(found, room)
+    return kept[0, len(blocks)]
+
+
+def _best(found: list[Box], room: Box) -> list[Box]:
+    best: list[Box] = []
+    for box in sorted(box for box in found if box[0] <= room[0] and box[1] <= room[1]):
+        if not best or box[1] < best[-1][1]:
+            best.append(box)
+    if len(best) <= _OPTIONS:
+        return best
+    return [best[round(k * (len(best) - 1) / (_OPTIONS - 1))] for k in range(_OPTIONS)]
