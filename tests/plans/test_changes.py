@@ -240,8 +240,8 @@ def test_what_is_no_parallelogram_cannot_be_kept_one() -> None:
         k=[0.7, -0.2], ab=0.1, bc=0.41, kc=0.1, phi=20.0, rule='{ keep = "parallel" }'
     )
     assert faulty(loads(text, name="near")) == (
-        "assembly.C.keep: the opposite sides of a parallelogram are equal, and here AB = 0.1 and "
-        'KC = 0.1 m; AK = 0.4 and BC = 0.41 m. Correct the lengths, or say keep = "continuous" '
+        "assembly.C.keep: the opposite sides of a parallelogram are equal, and here AB = 0.1 m and "
+        'KC = 0.1 m; AK = 0.4 m and BC = 0.41 m. Correct the lengths, or say keep = "continuous" '
         "with the closing that is meant"
     )
     text = SLIDER_CRANK.format(angle=0, ab=0.1, phi=30, rule='{ keep = "parallel" }')

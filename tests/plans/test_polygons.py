@@ -94,13 +94,15 @@ def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
     statics = statics_of(name)
     solution, step = statics.solution, statics.solution.hand.ruler
     loaded = {given.applied.name for given in statics.board.given}
+    segments = statics.board.segments
 
     def drawn_by_hand(edge: Edge) -> Any:
         hand = statics.by_hand
         return hand.point(edge.head) - hand.point(edge.tail)
 
-    def ruled(length: Any) -> Any:
-        return np.sign(length) * np.floor(np.abs(length) / step + 0.5) * step
+    def ruled(length: Any, times: Any = 1.0) -> Any:
+        fine = step / times
+        return np.sign(length) * np.floor(np.abs(length) / fine + 0.5) * fine
 
     for plan in statics.board.plans:
         for equation in plan.moments:
@@ -109,7 +111,9 @@ def test_the_hand_goes_on_with_the_forces_that_it_has_read(name: str) -> None:
             for edge in equation.edges:
                 vector, at = drawn_by_hand(edge), solution.by_hand.point(edge.at)
                 length = np.abs(vector)
-                size = length if edge.symbol in loaded else ruled(length)
+                # A small plan is drawn at a scale of its own, and read at that.
+                times = statics.hand.enlarged.get(segments.drawn(edge.ends), 1.0)
+                size = length if edge.symbol in loaded else ruled(length, times)
                 across = ((at - about).conj() * vector).imag / np.where(length == 0, 1.0, length)
                 total = total + ruled(across) * size
             whole = total * statics.scale.per_mm * solution.scales[PlanKind.POSITION].per_mm

@@ -8,12 +8,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import combinations, product
 from math import inf
 
 from shapely import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from planmethod.plans.model import VectorKind
 from planmethod.render.control.remarks import Finding
 from planmethod.render.control.texts import Writing, called
 from planmethod.render.ink.drawing import Arc, Bounds, Item, Pen, Stroke, View
@@ -34,6 +35,8 @@ WORDS_APART = 1.0
 _BAR = 25.0  # mm: a longer line is no fraction's
 _OVER = 3.5  # mm: a letter further from a line than this does not stand on it
 _TOUCH = 0.05  # mm: what is not yet nearer
+
+_VECTORS = {kind.value for kind in VectorKind}
 
 Arrows = dict[str, BaseGeometry]
 """Arcs of the arrows of ω and ε by their tags."""
@@ -120,8 +123,8 @@ def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[F
     for item in items:
         if not (isinstance(item, Stroke) and item.pen is Pen.THIN and len(item.points) == 2):
             continue
-        if item.tag.startswith(PART_OF):
-            continue  # an overbar
+        if item.tag.startswith(PART_OF) or item.tag in _VECTORS:
+            continue  # an overbar; a vector, which its name stands at
         (left, right) = sorted(item.points, key=lambda p: p.real)
         if not 2.0 < right.real - left.real < _BAR or abs(right.imag - left.imag) > 0.5:
             continue
@@ -135,6 +138,9 @@ def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[F
                 over.append(writing)
             elif 0.0 <= level - y1 < _OVER:
                 under.append(writing)
-        for one, two in zip(over, under, strict=False):
+        for one, two in product(over, under):
+            (a0, _, a1, _), (b0, _, b1, _) = one.ink.bounds, two.ink.bounds
+            if min(a1, b1) - max(a0, b0) < 0.5 * min(a1 - a0, b1 - b0):
+                continue  # side by side
             facts = {"one": one.shown, "two": two.shown, "advice": "bar"}
             yield Finding("PM-D16", left, 0.0, WORDS_APART, facts)
