@@ -608,7 +608,7 @@ def test_a_mistake_of_ours_is_code_5(tmp_path: Path) -> None:
             "-c",
             "import sys, planmethod.problem, planmethod.cli\n"
             "def load(*a, **k): raise KeyError('oops')\n"
-            "planmethod.problem.load = load\n"
+            "planmethod.problem.load_each = load\n"
             f"sys.argv = ['planmethod', 'solve', {EX1!r}]\n"
             "planmethod.cli.main()",
         ],

@@ -124,6 +124,9 @@ TRIED = ("A3", "A2", "A1")
 SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 """How wide the scheme shall be on a format, mm."""
 
+CROWDED = 1.5
+"""So many times wider the scheme of many positions shall be, to be no tangle."""
+
 PLAN = 60.0
 """Larger side that a plan shall have, mm."""
 
@@ -278,7 +281,7 @@ class _Chosen:
             if not bears:
                 return self  # the sheet goes on with texts, or takes a larger paper
             coarser = {kind: _next(now[kind], asked, finer=False) for kind in bears}
-            large = max(bears, key=lambda kind: (self._large(kind, coarser[kind]), share(kind)))
+            large = max(bears, key=lambda kind: self._large(kind, coarser[kind]))
             now[large] = coarser[large]
         while free:
             small = min(free, key=share)
@@ -300,12 +303,15 @@ class _Chosen:
 
         What the file gives a scale for is as large as it is.
         """
-        return all(self._large(kind, self.per_mm[kind] * STEP) for kind in self.free)
+        return all(self._large(kind, self.per_mm[kind]) >= STEP for kind in self.free)
 
-    def _large(self, kind: PlanKind, per_mm: float) -> bool:
+    def _large(self, kind: PlanKind, per_mm: float) -> float:
+        """Return what of the size that it shall have a view has at a scale."""
         scheme = SCHEME[AS_HIGH.get(self.views.paper, self.views.paper)]
+        if self.drawn[kind].si.count > FEW:
+            scheme *= CROWDED
         wanted = scheme if kind is PlanKind.POSITION else PLAN
-        return max(self.drawn[kind].size) >= wanted * per_mm
+        return max(self.drawn[kind].size) / (wanted * per_mm)
 
 
 @dataclass(frozen=True)
@@ -389,8 +395,12 @@ class _Drawn:
         if far.mean() > FEW_FAR:
             return np.full(count, np.inf), np.full(count, np.inf)
         near = (over < NEAR) & (over > 0)
-        wide = np.select([far, near], [own[0], SMALL * own[0]], width / per_mm)
-        high = np.select([far, near], [own[1], SMALL * own[1]], height / per_mm)
+        wide, high = width / per_mm, height / per_mm
+        asked = self.construction.draft.problem.scales
+        for k in np.flatnonzero(far | near):
+            box = own if far[k] else (SMALL * own[0], SMALL * own[1])
+            scale = _fitting(asked, box, (float(width[k]), float(height[k])))
+            wide[k], high[k] = width[k] / scale, height[k] / scale
         return wide + BESIDE, high + UNDER
 
 

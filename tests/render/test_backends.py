@@ -525,9 +525,10 @@ def test_svg_is_the_same_picture_in_two_viewers(tmp_path: FilePath) -> None:
 def test_a_worked_sheet_is_the_same_picture_in_svg_and_in_pdf(tmp_path: FilePath) -> None:
     """Ten pixels to the millimetre, so that the sheet is whole pixels in all of them.
 
-    Measured on the six worked sheets, pixels that differ by more than a quarter of the way from
-    black to white: 0.26 to 0.46 % between PDF and either viewer of the SVG (edges of letters,
-    which the PDF has as a font), none between the two viewers.
+    Pixels that differ by more than a quarter of the way from black to white, of those that either
+    picture has ink on: 8.8 to 9.2 % between PDF and a viewer of the SVG on four worked sheets
+    (edges of letters, which the PDF has as a font), none between the two viewers. Of the ink and
+    not of the sheet, for more to see is no difference.
     """
     (drawing,) = kinematics_sheets(problem_of("linkages/ex1"), sigma=False)
     dpi, width, height = 254, 4200, 2970
@@ -553,11 +554,12 @@ def test_a_worked_sheet_is_the_same_picture_in_svg_and_in_pdf(tmp_path: FilePath
         for name in ("rsvg", "chromium", "pdf")
     }
     for one, two, limit in (
-        ("rsvg", "pdf", 0.005),
-        ("chromium", "pdf", 0.005),
-        ("rsvg", "chromium", 0.0005),
+        ("rsvg", "pdf", 0.095),
+        ("chromium", "pdf", 0.095),
+        ("rsvg", "chromium", 0.0095),
     ):
-        share = (np.abs(pictures[one] - pictures[two]) > 0.25).mean()
+        ink = (np.minimum(pictures[one], pictures[two]) < 0.75).sum()
+        share = (np.abs(pictures[one] - pictures[two]) > 0.25).sum() / ink
         print(f"{one}, {two}: {share:.4%}")
         assert share < limit
 
