@@ -8,14 +8,14 @@ other's way, few shafts are hollow, no shaft runs through a wheel.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import field
 from enum import Enum
 from functools import cached_property
 from itertools import combinations, permutations
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 MOST_ORDERS = 24
 """Orders of the columns that the search begins from."""
