@@ -1,6 +1,8 @@
 """Make the fonts of the package from the skeletons of the letters (by hand; needs the dev extra).
 
-The pen of the lettering goes along every skeleton (`planmethod.render.ink.lettering.skeleton`):
+Run as ``python -m scripts.make_font``.
+
+The pen of the lettering goes along every skeleton (`scripts.skeleton`):
 shapely widens it by half the line thickness, and for each style of GOST 2.304 (types A and B,
 upright and slanted) two files come into ``planmethod/render/ink/fonts/``:
 
@@ -27,7 +29,7 @@ from shapely.geometry import MultiPolygon, Polygon
 from shapely.geometry.polygon import orient
 
 from planmethod.render.ink.lettering import FONTS, STYLES, Style
-from planmethod.render.ink.lettering.skeleton import (
+from scripts.skeleton import (
     Skeleton,
     Strokes,
     letters,

@@ -47,7 +47,6 @@ LATE_OF = {
     "planmethod.moving.protocol": "what is drawn",
     "planmethod.moving.sheet": "what is drawn",
     "planmethod.note.wording": "words of drafting errors",
-    "planmethod.render.ink.lettering.skeleton": "strokes of letters that a format asks for",
     "planmethod.gears.involute.sheet": "the sheet of a meshing, what solves it has no pens",
     # Third parties that take long to import; a mistake in a file is rare.
     "difflib": "hints",

@@ -156,10 +156,6 @@ class Float64(Exact):
         """Return the square root, 0 of what is negative."""
         return np.sqrt(np.maximum(value, 0.0))
 
-    def select(self, ok: Number, value: Number, other: Number) -> Number:
-        """Return ``value`` where ``ok``, else ``other``."""
-        return np.where(ok, value, other)
-
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
         """Return the value where ``margin > limit``, NaN elsewhere."""
         return np.where(margin > limit, value, np.nan * value)

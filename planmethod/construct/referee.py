@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 from planmethod.construct.arithmetic import Exact, Number
-from planmethod.construct.evaluate import Trace, evaluate
-from planmethod.construct.program import Program
 
 DIGITS = 50
 """Decimal digits of the referee unless others are asked for."""
@@ -42,10 +39,6 @@ class Precise(Exact):
         """Return the square root, 0 of what is negative."""
         return self.context.sqrt(value) if value > 0 else self.context.zero
 
-    def select(self, ok: Number, value: Number, other: Number) -> Number:
-        """Return ``value`` if ``ok``, else ``other``."""
-        return value if ok else other
-
     def guard(self, margin: Number, limit: float, value: Number) -> Number:
         """Return the value if ``margin > limit``, else NaN."""
         return value if margin > limit else value * self.context.nan
@@ -71,16 +64,3 @@ class Precise(Exact):
         quadrant = int(self.context.nint(degrees / 90))
         cosine, sine = self.context.cos_sin((degrees - 90 * quadrant) * self._right)
         return self.context.mpc(cosine, sine) * (1, 1j, -1, -1j)[quadrant % 4]
-
-
-def adjudicate(program: Program, data: Mapping[str, Number], *, digits: int = DIGITS) -> Trace:
-    """Return a program read in one position by the referee.
-
-    Parameters
-    ----------
-    program : Program
-    data : mapping
-        Scalars: complex points, float or mpmath numbers.
-    digits : int
-    """
-    return evaluate(program, data, Precise(digits))

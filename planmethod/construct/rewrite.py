@@ -17,7 +17,6 @@ from planmethod.construct.steps import (
     PointName,
     Step,
     makes,
-    operands,
 )
 from planmethod.errors import ProgramError
 
@@ -74,12 +73,3 @@ def rewritten(program: Program, change: Callable[[Step], Step | tuple[Step, ...]
             raise ProgramError(f"{after.out} cannot stand for {before.out}")
         steps.extend(several)
     return Program(tuple(steps))
-
-
-def dependents(program: Program, names: Iterable[Name]) -> frozenset[Name]:
-    """Return what some points, lines and numbers go into, directly or not, and they themselves."""
-    found = set(names)
-    for step in program.steps:
-        if any(name in found for name, _ in operands(step)):
-            found.add(step.out)
-    return frozenset(found)

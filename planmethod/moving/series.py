@@ -56,11 +56,7 @@ def evaluate(formula: Formula, times: Reals, *, blur: Reals | float = 0.0) -> Je
                     made = _joined(operation.kind, left, right, steady=of_right)
                     stack.append((made, of_left and of_right))
     ((jet, _),) = stack
-    return Jet(*(_spread(part, times) for part in _parts(jet)))
-
-
-def _parts(jet: Jet) -> tuple[Any, Any, Any]:
-    return jet.value, jet.rate, jet.acceleration
+    return Jet(*(_spread(part, times) for part in jet.parts()))
 
 
 def _spread(part: Any, times: Reals) -> Bounded:
@@ -98,14 +94,14 @@ def _raised(base: Jet, power: Bounded) -> Jet:
     if power.radius:
         size = np.abs(bounded(base.value).value)
         slope = float(power.radius) * (np.abs(np.log(np.where(size == 0.0, 1.0, size))) + 1.0)
-        for part in _parts(made):
+        for part in made.parts():
             part.radius = part.radius + slope * np.abs(part.value)
     return made
 
 
 def _composed(inner: Jet, derivatives: Callable[[Any], Derivatives], *, edge: bool = False) -> Jet:
     """Return a function of a jet, by the rule of the chain; ``edge``: its domain ends at zero."""
-    f, f1, f2 = (bounded(part) for part in _parts(inner))
+    f, f1, f2 = (bounded(part) for part in inner.parts())
     f = f.settled() if edge else f
     d = derivatives(f.value)
 

@@ -12,6 +12,7 @@ import pytest
 from cases import each
 from hypothesis import given
 from hypothesis import strategies as st
+from jets import Jets, adjudicate
 
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.compiled.blocks import Blocks
@@ -21,9 +22,9 @@ from planmethod.construct.drafting import Counted, Profile, Propagated, Sampled
 from planmethod.construct.dual import Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
-from planmethod.construct.jet import Jet, Jets
+from planmethod.construct.jet import Jet
 from planmethod.construct.program import Builder, Program
-from planmethod.construct.referee import Precise, adjudicate
+from planmethod.construct.referee import Precise
 from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.errors import ProgramError
 

@@ -9,15 +9,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jets import Jets, adjudicate
 from worked import SIX, problem_of
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach, reach
 from planmethod.construct.dual import Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.jet import Jet, Jets
+from planmethod.construct.jet import Jet
 from planmethod.construct.program import Builder
-from planmethod.construct.referee import Precise, adjudicate
+from planmethod.construct.referee import Precise
 from planmethod.plans.legend import QuantityKind
 from planmethod.solved.closings import drive_data
 from planmethod.solved.results import results_of

@@ -11,12 +11,12 @@ import mpmath
 import pytest
 from cases import each, some, thinned
 from click.testing import CliRunner
+from jets import adjudicate
 from trains import MAKERS, bevel, solved
 from worked import PROBLEMS
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
-from planmethod.construct.referee import adjudicate
 from planmethod.construct.steps import LayOff
 from planmethod.errors import ExitCode
 from planmethod.gears.construction import Construction, PictureError, construct, read

@@ -34,7 +34,6 @@ NO_WORDS = {
     "problem/names.py": "Cyrillic letters that look like Latin ones, in names of problem files",
     "problem/sheet.py": "type \u0411 of the lettering in a problem file, an example of a surname",
     "paper.py": "names of formats that files and options may write in Cyrillic letters",
-    "render/ink/lettering/shapes.py": "the letters themselves",
     "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
     "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
     "problem/keys.py": "field terms of GOST 2.104 in the table of the keys",

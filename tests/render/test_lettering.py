@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 from functools import cache
 from itertools import pairwise
@@ -23,8 +22,8 @@ from planmethod.render.ink.lettering import (
     using,
 )
 from planmethod.render.ink.lettering.proportions import TYPES
-from planmethod.render.ink.lettering.skeleton import letters, parsed, skeleton
 from planmethod.render.ink.typeset import line_step, typeset
+from scripts.skeleton import letters, parsed, skeleton
 
 RUSSIAN = "".join(map(chr, range(0x410, 0x450))) + "Ёё"
 NEEDED = (
@@ -308,12 +307,8 @@ def test_fonts_are_named_as_ours() -> None:
 
 def test_script_makes_the_same_files_again(tmp_path: Path) -> None:
     pytest.importorskip("fontTools.fontBuilder")
-    script = Path(__file__).parents[2] / "scripts" / "make_font.py"
-    spec = importlib.util.spec_from_file_location("make_font", script)
-    assert spec
-    assert spec.loader
-    make_font = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(make_font)
+    from scripts import make_font
+
     styles = thinned(list(STYLES.values()), 6)
     for folder in (tmp_path / "one", tmp_path / "two"):
         folder.mkdir()

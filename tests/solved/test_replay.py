@@ -15,7 +15,7 @@ from benchmarks.generator import random_problem
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
-from planmethod.construct.rewrite import dependents, rewritten, substituted
+from planmethod.construct.rewrite import rewritten, substituted
 from planmethod.construct.steps import (
     Carry,
     Compute,
@@ -106,12 +106,21 @@ def test_another_reading_changes_what_depends_on_it_and_nothing_else(name: str) 
     for step in measured:
         after = sheet.replay({step.out: before.value[step.out] * 1.25 + 3.0})
         mine = changed(before, after)
-        depend = dependents(program, [step.out])
+        depend = dependents(program, step.out)
         assert mine <= depend, step.out
         for other in program.steps:
             if other.out in depend - mine:
                 used = {name for name, _ in operands(other)}
                 assert not used & mine or _stays(other, before, mine), (step.out, other.out)
+
+
+def dependents(program: Program, made: Name) -> set[Name]:
+    """Return what a point, line or number goes into, directly or not, and it itself."""
+    found = {made}
+    for step in program.steps:
+        if any(name in found for name, _ in operands(step)):
+            found.add(step.out)
+    return found
 
 
 def _stays(step: Step, trace: Trace, moved: set[Name]) -> bool:

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from cases import each, some
 from click.testing import CliRunner, Result
+from jets import adjudicate
 from worked import ROOT
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
-from planmethod.construct.referee import adjudicate
 from planmethod.construct.steps import NumberName, PointName, makes
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import Problem, loads

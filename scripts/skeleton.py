@@ -15,8 +15,8 @@ from typing import TypeAlias
 
 from planmethod.pattern import pattern
 from planmethod.record import dataclass
-from planmethod.render.ink.lettering import shapes
 from planmethod.render.ink.lettering.proportions import TYPES, Proportions
+from scripts import shapes
 
 Strokes: TypeAlias = tuple[tuple[complex, ...], ...]
 """Polylines; a closed one ends where it begins."""
@@ -35,11 +35,6 @@ class Skeleton:
 
     strokes: Strokes
     advance: float
-
-
-def has(char: str) -> bool:
-    """Return whether the lettering has this letter."""
-    return char in shapes.BLANKS or char in shapes.COMBINING or _found(char) is not None
 
 
 def letters() -> list[str]:

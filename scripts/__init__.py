@@ -1,0 +1,1 @@
+"""Tools that make files of the package, by hand; beside it, not in the wheel."""
