@@ -1,4 +1,4 @@
-"""How sheets fill their paper (заполнение листа): white, sizes of views, short vectors, seconds.
+"""How sheets fill their paper (заполнение листа): white, empty corners, views, vectors, seconds.
 
 Run ``python -m benchmarks.sheets [PROBLEM]...``; it prints the table of docs/paper.md.
 """
@@ -20,11 +20,11 @@ from shapely import MultiPoint, contains_xy
 
 from planmethod.commands.problems import guarded
 from planmethod.errors import PlanMethodError
-from planmethod.paper import FRAME_LEFT, FRAME_OTHER
+from planmethod.paper import paper_format
 from planmethod.problem import load
 from planmethod.problem.model import Problem
 from planmethod.render.control.sheet import inspect
-from planmethod.render.control.unused import ink_points
+from planmethod.render.control.unused import ink_points, largest_empty, share_of
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.controlled import paper_of
 from planmethod.render.sheets.kinematics import kinematics_sheets
@@ -48,9 +48,9 @@ BANK = (
 """Tasks of the textbooks that no sheet was tuned for, and the worked examples."""
 
 HEAD = (
-    "| task | positions | format | sheets | white (in views), % | scheme, mm | least plan, mm "
-    "| vectors, median and least, mm | labels that collide | s |\n"
-    "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    "| task | positions | format | sheets | white (in views), % | empty, % | scheme, mm "
+    "| least plan, mm | vectors, median and least, mm | labels that collide | s |\n"
+    "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
 )
 
 
@@ -69,6 +69,9 @@ class Filled:
         Share of the field within the frame that is further than `FAR` from all ink, of all sheets
         but those that go on with texts, per cent; and what of it lies within the outlines of views,
         where nothing else can stand.
+    empty : float
+        Share of the field that the largest rectangle without ink takes, of the emptiest sheet,
+        per cent: what stands out as an empty corner (PM-D10).
     scheme : tuple of float, mm
         Width and height of the view of the scheme with its letters.
     plan : float, mm
@@ -86,6 +89,7 @@ class Filled:
     sheets: int
     white: float
     within: float
+    empty: float
     scheme: tuple[float, float]
     plan: float
     vectors: tuple[float, float]
@@ -98,8 +102,9 @@ class Filled:
         middle, least = self.vectors
         return (
             f"| {self.task} | {self.positions} | {self.paper} | {self.sheets} "
-            f"| {self.white:.0f} ({self.within:.0f}) | {wide:.0f} × {high:.0f} | {self.plan:.0f} "
-            f"| {middle:.0f}; {least:.1f} | {self.collisions} | {self.seconds:.2f} |"
+            f"| {self.white:.0f} ({self.within:.0f}) | {self.empty:.0f} "
+            f"| {wide:.0f} × {high:.0f} | {self.plan:.0f} | {middle:.0f}; {least:.1f} "
+            f"| {self.collisions} | {self.seconds:.2f} |"
         )
 
 
@@ -109,8 +114,8 @@ def white_share(drawing: Drawing) -> tuple[float, float]:
     The frame itself is ink. The second number is what of it lies within the outlines of views:
     within the convex hulls of their ink.
     """
-    left, low = FRAME_LEFT, FRAME_OTHER
-    wide, high = drawing.width - FRAME_OTHER - left, drawing.height - FRAME_OTHER - low
+    left, low, right, top = paper_format(paper_of(drawing)).inner
+    wide, high = right - left, top - low
     across, along = ceil(wide / CELL), ceil(high / CELL)
     taken = np.zeros((across, along), dtype=bool)
     points = np.array([p for one in drawing.items if one.tag != "edge" for p in ink_points(one)])
@@ -133,6 +138,11 @@ def white_share(drawing: Drawing) -> tuple[float, float]:
         pairs = np.column_stack((points.real[inside], points.imag[inside]))
         within |= contains_xy(MultiPoint(pairs).convex_hull, *np.meshgrid(x, y, indexing="ij"))
     return 100.0 * float(1.0 - near.mean()), 100.0 * float((~near & within).mean())
+
+
+def _empty(drawing: Drawing) -> float:
+    inner = paper_format(paper_of(drawing)).inner
+    return share_of(largest_empty(drawing.items, inner), inner)
 
 
 def _moved(taken: Squares, across: int, along: int) -> Squares:
@@ -167,6 +177,7 @@ def filled(problem: Problem, count: int) -> Filled:
         len(drawings),
         fmean(white for white, _ in shares),
         fmean(within for _, within in shares),
+        max(map(_empty, whole)),
         (scheme[2] - scheme[0], scheme[3] - scheme[1]),
         min((side for side, _ in plans), default=0.0),
         (median(lengths), min(lengths)) if lengths else (0.0, 0.0),
@@ -191,12 +202,12 @@ def _reached(problem: Problem, tried: Sequence[float]) -> list[float]:
     from planmethod.solved.solution import Solution
 
     try:
-        Solution(problem, positions=tuple(tried))
+        Solution(problem, positions=tuple(tried)).si  # noqa: B018 - read when asked
     except PlanMethodError:
         found = []
         for phi in tried:
             try:
-                Solution(problem, positions=(phi,))
+                Solution(problem, positions=(phi,)).si  # noqa: B018
             except PlanMethodError:
                 continue
             found.append(phi)
@@ -250,6 +261,8 @@ def main(problems: tuple[Path, ...], counts: tuple[int, ...]) -> None:
             f"({fmean(row.within for row in some):.0f} % within views), "
             f"{max(white):.0f} % at most; "
             f"{sum(row.white > 25 for row in some)} of {len(some)} above 25 %; "
+            f"largest empty rectangle {median(row.empty for row in some):.0f} %, "
+            f"{max(row.empty for row in some):.0f} % at most; "
             f"vectors {median(row.vectors[0] for row in some):.0f} mm; "
             f"{sum(row.collisions for row in some)} labels collide; "
             f"{sum(row.sheets for row in some)} sheets; {fmean(row.seconds for row in some):.2f} s."

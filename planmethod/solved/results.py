@@ -83,7 +83,7 @@ class Results:
             # Of a reaction the one that acts back is meant, before any other that is spelt alike.
             near = [result.label for result in self.all if result.opposite == label]
             near = near or get_close_matches(label, known, 1)
-            hint = say("; did you mean {!r}?", near[0]) if near else ""
+            hint = say("; did you mean {!r}?", near[0]) if near else "."
             raise UnknownResultError("no result {!r}{} Known: {}.", label, hint, ", ".join(known))
         return found
 

@@ -162,19 +162,20 @@ def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
 
 
 @pytest.mark.parametrize("name", SIX)
-def test_a_plan_stands_with_its_equations_and_its_calculation(name: str) -> None:
-    """Nothing else is in the hull of a plan, its equations and its calculation."""
+def test_a_plan_stands_with_its_equations(name: str) -> None:
+    """Nothing of the other is in the hull of a plan and its equations; each has its calculation."""
     (sheet,) = drawn_sheets(name)
     own = {}
     for kind, genitive in (("velocity", "скоростей"), ("acceleration", "ускорений")):
         box = view(sheet, kind).box
-        places = [place(sheet, f"{what} {genitive}") for what in ("Уравнения", "Расчёт")]
+        at = place(sheet, f"Уравнения {genitive}")
         own[kind] = (
-            min(box[0], *(at.real for at in places)),
-            min(box[1], *(at.imag for at in places)),
-            max(box[2], *(at.real for at in places)),
-            max(box[3], *(at.imag for at in places)),
+            min(box[0], at.real),
+            min(box[1], at.imag),
+            max(box[2], at.real),
+            max(box[3], at.imag),
         )
+        assert place(sheet, f"Расчёт {genitive}")
     own["position"] = view(sheet, "position").box
     for one, two in combinations(own.values(), 2):
         across = min(one[2], two[2]) - max(one[0], two[0])
@@ -317,6 +318,20 @@ def test_a_block_that_must_stay_is_never_left_out() -> None:
     asked = kinematics_sheets(problem, paper="A3", layout=strict)
     assert "".join(map(shown, asked)).count("Расчёт") == 2
     assert all(sheet.views for sheet in asked)
+
+
+def test_texts_take_the_larger_letters_that_there_is_room_for() -> None:
+    """All shrink alike until they fit; then those grow again that can, none to twice the least."""
+    text = re.sub(r"height = \[.*\]", "height = [5, 3.5, 2.5]", shipped_text("one-position"))
+    (sheet,) = kinematics_sheets(problem_of("levers/task-57"), layout=made(text))
+    titles = ("Дано", "Уравнения", "Расчёт", "Результаты")
+    heights = {
+        item.height
+        for item in sheet.items
+        if isinstance(item, Text) and item.text.startswith(titles)
+    }
+    assert len(heights) > 1
+    assert max(heights) < 2 * min(heights)
 
 
 def test_one_position_of_many_and_its_calculation() -> None:

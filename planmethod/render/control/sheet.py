@@ -23,7 +23,7 @@ from math import tau
 from planmethod.render.control.misleading import misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of
-from planmethod.render.control.unused import ink_points, largest_empty
+from planmethod.render.control.unused import ink_points, largest_empty, share_of
 from planmethod.render.frame.frame import (
     FRAME_LEFT,
     FRAME_OTHER,
@@ -220,10 +220,8 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
 
 def unused_paper(items: Iterable[Item], inner: Bounds) -> Iterator[Finding]:
     """Find an empty rectangle that is too large a part of the field within the frame."""
-    ink = [item for item in items if item.tag not in ("edge", "frame")]
-    box = largest_empty(ink, inner)
-    width, height = box[2] - box[0], box[3] - box[1]
-    share = 100.0 * width * height / ((inner[2] - inner[0]) * (inner[3] - inner[1]))
+    box = largest_empty(items, inner)
+    width, height, share = box[2] - box[0], box[3] - box[1], share_of(box, inner)
     if share > UNUSED:
         facts = {"width": float(round(width)), "height": float(round(height))}
         yield Finding("PM-D10", _middle(box), share, UNUSED, facts)

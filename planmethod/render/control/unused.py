@@ -13,6 +13,9 @@ from planmethod.render.ink.typeset import text_corners
 CELL = 5.0
 """Side of the squares that the paper is looked at in, mm."""
 
+FRAME = ("edge", "frame")
+"""Tags of the lines around the field, which are no ink on it."""
+
 
 def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     """Return the largest rectangle within the frame that no ink touches, mm.
@@ -24,7 +27,7 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     columns, rows = ceil((x1 - x0) / CELL), ceil((y1 - y0) / CELL)
     taken = [[False] * columns for _ in range(rows)]
     for item in items:
-        for point in ink_points(item):
+        for point in ink_points(item) if item.tag not in FRAME else ():
             k, j = floor((point.real - x0) / CELL), floor((point.imag - y0) / CELL)
             if 0 <= k < columns and 0 <= j < rows:
                 taken[j][k] = True
@@ -35,6 +38,12 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
         min(x0 + right * CELL, x1),
         min(y0 + high * CELL, y1),
     )
+
+
+def share_of(box: Bounds, inner: Bounds) -> float:
+    """Return the share of the field within the frame that a rectangle takes, %."""
+    left, low, right, high = box
+    return 100.0 * (right - left) * (high - low) / ((inner[2] - inner[0]) * (inner[3] - inner[1]))
 
 
 def ink_points(item: Item) -> list[complex]:

@@ -175,7 +175,7 @@ class Manner:
     """How a block is drawn on a certain sheet: what the file asks for, and the format's sizes.
 
     ``level`` counts the letter heights that did not fit; ``inside`` is the width inside the frame,
-    mm.
+    mm; ``columns`` are those of a long text.
     """
 
     entry: Entry
@@ -183,6 +183,13 @@ class Manner:
     inside: float
     extras: Extras
     level: int = 0
+    columns: int = 1
+
+    def larger(self, columns: int, *, below: float) -> Manner:
+        """Return it with the next larger letters, where there are any below a height, mm."""
+        heights, now = self.entry.heights, self.text(0.0)
+        levels = [k for k in range(len(heights)) if now < heights[k] < below]
+        return replace(self, level=max(levels), columns=columns) if levels else self
 
     @property
     def words(self) -> Language:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations, groupby, pairwise
+from itertools import combinations, groupby, pairwise, product
 from math import inf
 from typing import TypeAlias
 
@@ -22,6 +22,8 @@ from planmethod.render.sheets.views import Viewed
 from planmethod.solved.solution import Solution
 
 Tried: TypeAlias = tuple[bool, int, int]
+Parts: TypeAlias = "list[tuple[Sequence[Made], list[complex]]]"
+"""Blocks by pages, and their corners."""
 
 MOST_EXTRA = 4
 """Sheets that one sheet of a composition may take on a format that was asked for."""
@@ -143,12 +145,47 @@ def _sheet(
         if made is None:
             continue
         parts, apart = _divided(made, rooms, composition.arranged, taken_apart)
+        if parts and count == 1:
+            parts = _with_larger_texts(parts, manners, stock, rooms, composition.arranged, apart)
         if parts:
             title, tried = composition.titles.get(number, ""), (dropped, level, apart)
             pages = [_page(part, corners, title, tried) for part, corners in parts]
             left_out = [entry for entry in entries if dropped and entry.kind in GOES_ON]
             return pages + _going_on(left_out, composition, stock, paper, extras, title)
     return None
+
+
+def _with_larger_texts(
+    parts: Parts,
+    manners: list[Manner],
+    stock: _Stock,
+    rooms: Sequence[Room],
+    arranged: Mapping[tuple[str, ...], Arrange],
+    apart: int,
+) -> Parts:
+    """Return a page with the texts of each kind in larger letters, if there is room for them.
+
+    All letters of a sheet shrink alike until everything fits; what is left goes to the texts whose
+    letters are the smallest, so that none are twice as high as others. Long ones are tried in two
+    columns, too.
+    """
+    kinds = list(dict.fromkeys(m.entry.kind for m in manners if m.entry.heights))
+    while kinds:
+        heights = {m.entry.kind: m.text(0.0) for m in manners if m.entry.heights}
+        kind = min(kinds, key=heights.__getitem__)
+        own = [k for k, manner in enumerate(manners) if manner.entry.kind == kind]
+        for columns in product((1, 2) if kind in GOES_ON else (1,), repeat=len(own)):
+            larger = list(manners)
+            for k, wanted in zip(own, columns, strict=True):
+                larger[k] = manners[k].larger(wanted, below=2.0 * min(heights.values()))
+            made = stock.made(larger, sum(map(_free, rooms))) if larger != manners else None
+            found = _divided(made, rooms, arranged, range(max(apart, 1) + 1))[0] if made else []
+            if found:
+                parts, manners = found, larger
+                break
+        else:
+            kinds.remove(kind)
+    return parts
 
 
 def _going_on(
@@ -201,7 +238,7 @@ class _Stock:
 
     solution: Solution
     indices: Sequence[int]
-    blocks: dict[tuple[int, int, float], Block]
+    blocks: dict[tuple[int, int, float, int], Block]
 
     def made(self, manners: Sequence[Manner], room: float) -> list[Made] | None:
         """Return the blocks of a sheet, or None when they are larger than ``room``, mm².
@@ -218,7 +255,8 @@ class _Stock:
 
     def _block(self, manner: Manner) -> Block:
         entry = manner.entry
-        key = (id(entry), min(manner.level, max(0, len(entry.heights) - 1)), manner.inside)
+        level = min(manner.level, max(0, len(entry.heights) - 1))
+        key = (id(entry), level, manner.inside, manner.columns)
         if key not in self.blocks:
             make = BLOCKS[entry.kind].make
             self.blocks[key] = make(self.solution, self.indices, manner)
@@ -238,24 +276,24 @@ def _tries(
     """Yield what is tried in turn.
 
     How many pages; how many letter heights are passed over; whether blocks are left out that may
-    be; how far groups are taken apart: not at all, then into the innermost groups however they have
-    room, then altogether. Letters shrink before groups are taken apart, and groups are taken apart
-    before anything is left out.
+    be; how far groups are taken apart: not at all, then but for what may go on, then into the
+    innermost groups however they have room, then altogether. Letters shrink before groups are taken
+    apart altogether, and groups are taken apart before anything is left out.
     """
     for count in range(1, most + 1):
         if count < MOST_EXTRA:
-            for apart in ((0, 1), (2,)):
+            for apart in ((0, 1, 2), (3,)):
                 yield from ((count, level, False, apart) for level in range(levels))
         if droppable and count != 2:
-            yield from ((count, level, True, (0, 1, 2)) for level in range(levels))
+            yield from ((count, level, True, (0, 1, 2, 3)) for level in range(levels))
 
 
 def _divided(
     made: Sequence[Made],
     rooms: Sequence[Room],
     arranged: Mapping[tuple[str, ...], Arrange],
-    taken_apart: tuple[int, ...],
-) -> tuple[list[tuple[Sequence[Made], list[complex]]], int]:
+    taken_apart: Sequence[int],
+) -> tuple[Parts, int]:
     """Return blocks put on pages in reading order with their corners, and how far taken apart.
 
     There are no pages where the blocks do not fit. Pages are turned between groups rather than
@@ -271,10 +309,10 @@ def _divided(
     for apart in taken_apart:
         every = combinations(range(1, len(made)), len(rooms) - 1)
         for cuts in sorted(every, key=worth)[:MOST_TURNS]:
-            pages: list[tuple[Sequence[Made], list[complex]]] = []
+            pages: Parts = []
             for room, (i, j) in zip(rooms, pairwise((0, *cuts, len(made))), strict=True):
-                whole = grouped(made[i:j], arranged)
-                group = (whole, whole.inner(), whole.flat())[apart]
+                whole = grouped(made[i:j] if apart != 1 else _loosened(made[i:j]), arranged)
+                group = (whole, whole, whole.inner(), whole.flat())[apart]
                 corners = pack(group, room.inner, room.stamp, room.taken)
                 if corners is None:
                     break
@@ -282,6 +320,13 @@ def _divided(
             else:
                 return pages, apart
     return [], 0
+
+
+def _loosened(made: Sequence[Made]) -> list[Made]:
+    """Return blocks with those out of their groups that may go on a further sheet."""
+    return [
+        Made(replace(m.entry, group=()), m.block) if m.entry.kind in GOES_ON else m for m in made
+    ]
 
 
 def grouped(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from planmethod.note.narrate.calculation import calculation
 from planmethod.note.narrate.given import given, wanted
-from planmethod.render.layout.block import Block, Column, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Row, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.views import shown_position
@@ -61,7 +61,10 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
     if len(solution.positions) > 1:
         title = said.of_position.format(title=title, number=index)
     lines = calculation(solution, kind, index, manner.words)
-    return Column([heading(title, height), *(formula_block(x, height) for x in lines)], gap=2.2)
+    blocks = [heading(title, height), *(formula_block(x, height) for x in lines)]
+    step = -(-len(blocks) // manner.columns)
+    columns = [Column(blocks[k : k + step], gap=2.2) for k in range(0, len(blocks), step)]
+    return Row(columns, gap=2.0 * height) if manner.columns > 1 else columns[0]
 
 
 def text_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
