@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.model import Change, Scene, times
 from planmethod.check.mistakes.scales import scale_by
@@ -19,7 +20,7 @@ from planmethod.check.model import Sense, Work, Written
 from planmethod.check.questions import Sign
 from planmethod.check.sense import WAYS
 from planmethod.check.sheet import Sheet
-from planmethod.check.slips import SEGMENT_CODES, read_in_place
+from planmethod.check.slips import read_in_place
 from planmethod.check.task import Item, Task
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import Sampled

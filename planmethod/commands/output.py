@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from planmethod.languages import say
-from planmethod.record import replace
+from planmethod.options import UsageError
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
@@ -63,13 +63,13 @@ def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -
         near = get_close_matches(name, known, 1)
         hint = say("; did you mean {!r}?", near[0]) if near else "."
         listed = told or ", ".join(known)
-        raise click.UsageError(say("{}{} Known: {}.", say(said, name), hint, listed))
+        raise UsageError("{}{} Known: {}.", say(said, name), hint, listed)
 
 
 def write_new(path: Path, text: str, *, force: bool) -> None:
     """Write a file to start from, over an existing one by ``force`` only."""
     if path.exists() and not force:
-        raise click.UsageError(say("{} exists; name another file or give --force", path))
+        raise UsageError("{} exists; name another file or give --force", path)
     from planmethod.render.backends.output import write
 
     write(path, text.encode())

@@ -19,7 +19,7 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
 from planmethod.record import dataclass, replace
@@ -204,7 +204,7 @@ class Solution(Remembering):
     def knots(self) -> dict[PlanKind, tuple[Knot, ...]]:
         """Short segments that are enlarged, by plans: of one position, which has plans alone."""
         found: dict[PlanKind, tuple[Knot, ...]] = {}
-        for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
+        for kind in RATES:
             first = sum(map(len, found.values()))
             alone = len(self.positions) == 1
             least = least_shown(self.profile.ruler)

@@ -238,10 +238,12 @@ def test_dashed_are_vertices_where_first_order_does_not_hold() -> None:
 
 
 def test_what_is_larger_than_half_the_plan_is_told() -> None:
-    (sheet,) = kinematics_sheets(problem_of("levers/six-link"), layout="forces", errors=True)
-    reading = reading_of("levers/six-link")
+    (sheet,) = kinematics_sheets(
+        problem_of("levers/six-link"), layout="forces", errors=True, positions=NEAR_DEAD[:1]
+    )
+    reading = reading_of("levers/six-link", "board", NEAR_DEAD[:1])
     hidden = [vertex_ellipses(reading, k).too_large for k in range(len(reading.plans))]
-    assert shown(sheet).count("эллипсы больше половины плана не показаны") == sum(hidden) == 1
+    assert shown(sheet).count("эллипсы больше половины плана не показаны") == sum(hidden) > 0
 
 
 # Tables -------------------------------------------------------------------------------------------

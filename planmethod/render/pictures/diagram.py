@@ -65,11 +65,15 @@ class Ordinates:
 
 @dataclass(frozen=True, slots=True)
 class Abscissae:
-    """Axis of abscissae: what stands at its arrow, the drawn positions (mm) and their numbers."""
+    """Axis of abscissae: what stands at its arrow, the drawn positions (mm) and their numbers.
+
+    It goes on ``beyond`` what is drawn, mm.
+    """
 
     name: str
     at: tuple[float, ...]
     numbers: tuple[str, ...]
+    beyond: float = _BEYOND
 
 
 def mark_items(mark: Mark, at: complex) -> list[Item]:
@@ -154,7 +158,7 @@ def _axes(
     """
     low, high, far = reach
     # Below the axis of abscissae there are no curves to keep clear of, but its numbers above it.
-    right, top = far + _BEYOND, max(high + _BEYOND, 3.0 * height)
+    right, top = far + across.beyond, max(high + _BEYOND, 3.0 * height)
     items: list[Item] = [
         Stroke((0j, complex(right - _HEAD / 2, 0.0)), Pen.THIN, tag=AXIS),
         Stroke((complex(0.0, low), complex(0.0, top - _HEAD / 2)), Pen.THIN, tag=AXIS),

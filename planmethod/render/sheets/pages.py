@@ -250,7 +250,8 @@ class _Stock:
             room -= found[k].width * found[k].height
             if room < 0.0:
                 return None
-        return [Made(manner.entry, found[k]) for k, manner in enumerate(manners)]
+        made = (Made(manner.entry, found[k]) for k, manner in enumerate(manners))
+        return [one for one in made if one.block.height]
 
     def _block(self, manner: Manner) -> Block:
         entry = manner.entry
