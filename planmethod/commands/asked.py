@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 import click
 
 from planmethod.options import BadParameter, UsageError
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from planmethod.problem.config import Config

@@ -14,6 +14,7 @@ from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
 from planmethod.options import UsageError, jobs_option, lang_option, out_option
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants

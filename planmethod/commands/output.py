@@ -15,6 +15,7 @@ import click
 
 from planmethod.languages import say
 from planmethod.options import UsageError
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
