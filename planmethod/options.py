@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import click
 
 from planmethod.languages import LANGUAGES, say
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     import numpy as np

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +27,7 @@ from planmethod.construct.drafting import Sampled
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import MOTION
+from planmethod.record import replace
 
 DIGITS = 3
 """Significant digits of what is written; one more behind a leading 1, as on a slide rule."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -17,6 +16,7 @@ from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, scalar
 from planmethod.construct.steps import Compute, NumberName, Step
 from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.record import replace
 
 METRES = (1e3, 1e-3)
 DEGREES = (180.0 / math.pi, math.pi / 180.0)

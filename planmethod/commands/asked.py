@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import click
 
 from planmethod.options import BadParameter, UsageError
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from planmethod.problem.config import Config

@@ -7,7 +7,6 @@ import json
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,7 +30,7 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from distributed import Client, Future

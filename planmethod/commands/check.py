@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -15,6 +14,7 @@ from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
 from planmethod.options import UsageError, jobs_option, lang_option, out_option
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants

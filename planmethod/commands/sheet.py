@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
@@ -28,6 +27,7 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -7,12 +7,12 @@ a wheel: `Arrangement.cost`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field, replace
+from dataclasses import field
 from itertools import combinations, permutations
 
 from planmethod.gears.arrangement import Arrangement, Part, Station
 from planmethod.gears.scheme import EPS, Across, Scheme
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 MOST_ORDERS = 24
 """Orders of the columns that the search begins from."""

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from functools import cached_property
 from itertools import combinations
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 WORM = 0.25
 """Radius of a worm by that of its wheel: it does not follow from its starts."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from typing import NamedTuple
@@ -23,7 +22,7 @@ from planmethod.gears.scheme import Scheme
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import Language, language
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import merged

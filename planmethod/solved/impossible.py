@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +27,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
+from planmethod.record import replace
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.reading import Reading, Reals
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -23,7 +22,7 @@ from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.closings import choose_closings, drive_data
 from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from math import tau
@@ -28,7 +27,7 @@ from planmethod.construct.steps import (
     PointName,
     makes,
 )
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.synthesis.model import Synthesis, place, scaled

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from planmethod.check.mistakes.model import Change, Scene, times
 from planmethod.construct.steps import (
@@ -21,6 +20,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import Given
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.record import replace
 
 
 def _loads(scene: Scene, kind: LoadKind) -> Iterator[Given]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 
 from planmethod.check.mistakes.model import Change, Scene
 from planmethod.construct.steps import (
@@ -21,6 +20,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.record import replace
 
 READ = (Measure, MeasureAlong)
 

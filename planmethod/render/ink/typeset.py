@@ -14,14 +14,13 @@ backslash is written with a backslash before it (``\_``); `escape` does that for
 from __future__ import annotations
 
 import cmath
-from dataclasses import replace
 from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
 from planmethod.languages import say
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS

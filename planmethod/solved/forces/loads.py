@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -30,6 +29,7 @@ from planmethod.problem.load_records import (
     Turning,
 )
 from planmethod.problem.model import Problem
+from planmethod.record import replace
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.reading import Complexes, Reals, Remembering
 from planmethod.solved.solution import LinkMotion, PointMotion

@@ -7,7 +7,6 @@ of the drawings, whoever reads them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -28,7 +27,7 @@ from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import Contact, JointForce, contacts
 from planmethod.solved.forces.loads import applied

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from planmethod.construct.steps import Name
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.narrate.equations import balance_lines
@@ -18,6 +16,7 @@ from planmethod.note.narrate.structure import group_title
 from planmethod.note.plaintext import WIDTH
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import Known
+from planmethod.record import replace
 from planmethod.solved.forces.reading import ForceReading
 
 
