@@ -169,7 +169,7 @@ def test_every_ellipse_is_that_of_a_vertex(name: str) -> None:
         assert drawn.enlarged == 1
         for stroke in drawn.strokes:
             near = [
-                drawn_forces(reading.statics).ellipse(end, 0)
+                drawn_forces(reading.statics).ellipse(end, 0) * reading.share(k) ** 2
                 for edge, shift in zip(edges, shifts, strict=True)
                 for end in (edge.tail, edge.head)
                 if abs(reading.corner(k, end) + shift - middle(stroke)) < 1e-6

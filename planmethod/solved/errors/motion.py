@@ -48,6 +48,7 @@ class Drafting(Errors):
             frozenset(str(plan.pole) for plan in solution.construction.plans),
             tuple(self._items()),
             _plan_points(solution),
+            solution.hand.enlarged,
         )
         super().__init__(drawing, draws=draws, seed=seed)
 
