@@ -202,12 +202,12 @@ def _reached(problem: Problem, tried: Sequence[float]) -> list[float]:
     from planmethod.solved.solution import Solution
 
     try:
-        Solution(problem, positions=tuple(tried))
+        Solution(problem, positions=tuple(tried)).si  # noqa: B018 - read when asked
     except PlanMethodError:
         found = []
         for phi in tried:
             try:
-                Solution(problem, positions=(phi,))
+                Solution(problem, positions=(phi,)).si  # noqa: B018
             except PlanMethodError:
                 continue
             found.append(phi)

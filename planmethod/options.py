@@ -4,19 +4,34 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import click
 
 from planmethod.languages import LANGUAGES, say
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
     from planmethod.construct.drafting import Profile
+
+
+class UsageError(click.UsageError):
+    """A command that is called wrongly: a sentence, and its facts."""
+
+    def __init__(self, message: str, *facts: object) -> None:
+        super().__init__(say(message, *facts))
+
+
+class BadParameter(click.BadParameter):
+    """A value that an option does not take: a sentence, and its facts."""
+
+    def __init__(self, message: str, *facts: object) -> None:
+        super().__init__(say(message, *facts))
+
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -44,13 +59,11 @@ def read_positions(
         try:
             numbers = [float(number) for number in part.split(":")]
         except ValueError:
-            raise click.BadParameter(
-                say("{!r} is neither a number nor from:to:step", part)
-            ) from None
+            raise BadParameter("{!r} is neither a number nor from:to:step", part) from None
         parts.append(_expanded(numbers, part, most))
         count += len(parts[-1])
         if count > most:
-            raise click.BadParameter(say("more than {} positions", most))
+            raise BadParameter("more than {} positions", most)
     return np.concatenate(parts)
 
 
@@ -59,15 +72,15 @@ def _expanded(numbers: list[float], part: str, most: int) -> Positions:
     import numpy as np
 
     if not all(abs(number) < 1e9 for number in numbers):
-        raise click.BadParameter(say("{!r} is out of range: below 1e9 is expected", part))
+        raise BadParameter("{!r} is out of range: below 1e9 is expected", part)
     if len(numbers) == 1:
         return np.array(numbers)
     if len(numbers) != 3 or numbers[2] == 0:
-        raise click.BadParameter(say("{!r} is not from:to:step with a step that is not 0", part))
+        raise BadParameter("{!r} is not from:to:step with a step that is not 0", part)
     start, stop, step = numbers
     count = (stop - start) / step
     if count <= 0 or count > most:
-        raise click.BadParameter(say("{!r} gives {} positions", part, max(0, round(count))))
+        raise BadParameter("{!r} gives {} positions", part, max(0, round(count)))
     near = max(1, round(count))
     whole = near if abs(count - near) < 1e-9 * max(1.0, count) else int(count) + 1
     return np.asarray(start + step * np.arange(whole), dtype=float)
@@ -81,14 +94,14 @@ def read_labels(
         return None
     labels = tuple(dict.fromkeys(label.strip() for label in value.split(",") if label.strip()))
     if not labels:
-        raise click.BadParameter(say("no result is named; v_E,omega_3 is expected"))
+        raise BadParameter("no result is named; v_E,omega_3 is expected")
     return labels
 
 
 def read_ruler(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
     """Return the ruler step, which is a number."""
     if value is not None and value != value:  # NaN passes every range
-        raise click.BadParameter(say("nan is not a step of a ruler"))
+        raise BadParameter("nan is not a step of a ruler")
     return value
 
 
@@ -99,11 +112,11 @@ def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tupl
     names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
     for name in names:
         if name not in BACKENDS:
-            raise click.BadParameter(say("{!r} is not one of {}", name, ", ".join(BACKENDS)))
+            raise BadParameter("{!r} is not one of {}", name, ", ".join(BACKENDS))
         if is_absent(name):
             raise click.UsageError(DXF_NEEDS, ctx)
     if not names:
-        raise click.BadParameter(say("no format given; choose from {}", ", ".join(BACKENDS)))
+        raise BadParameter("no format given; choose from {}", ", ".join(BACKENDS))
     return names
 
 

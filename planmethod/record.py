@@ -3,8 +3,9 @@
 `dataclasses.dataclass` writes the source of six methods for every class and compiles it when the
 class is made: half a millisecond a class, and a command meets two hundred of them before it begins.
 Here a class gets its slots at once and the rest at the first call: what is never made an instance
-of costs nothing. To a reader and to a type checker it is `dataclasses.dataclass`, with those of its
-options that are used here (ADR 0026); `replace`, `fields`, `asdict` and `match` work as on any.
+of costs nothing, and what is made a few times is filled by a loop. To a reader and to a type
+checker it is `dataclasses.dataclass`, with those of its options that are used here (ADR 0026);
+`fields`, `asdict` and `match` work as on any, and `replace` of this module does what theirs does.
 """
 
 from __future__ import annotations
@@ -12,11 +13,27 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, Field
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
+
+MANY = 24
+"""Instances of a class for which its ``__init__`` is compiled; before, a loop fills them."""
+
+_CALLS: dict[type, int] = {}
+_ALL: dict[type, dict[str, Told]] = {}
 
 if TYPE_CHECKING:
     from dataclasses import dataclass as dataclass
+    from dataclasses import replace as replace
 else:
+
+    def replace(record: Any, /, **changes: Any) -> Any:
+        """Return a record with other values of some fields, as `dataclasses.replace` does."""
+        told = _all_of(type(record))
+        if not told:
+            return dataclasses.replace(record, **changes)
+        kept = {t.name: getattr(record, t.name) for t in told.values() if t.init}
+        return type(record)(**kept | changes)
 
     def dataclass(
         cls: type | None = None,
@@ -96,29 +113,65 @@ def _made(cls: type, *, frozen: bool, slots: bool, eq: bool, kw_only: bool) -> t
 
 def _all_of(cls: type) -> dict[str, Told]:
     """Return what is told of all fields, the bases' first."""
-    found: dict[str, Told] = {}
-    for base in cls.__mro__[::-1]:
-        found |= base.__dict__.get("__told__", {})
+    found = _ALL.get(cls)
+    if found is None:
+        found = _ALL[cls] = {}
+        for base in cls.__mro__[::-1]:
+            found |= base.__dict__.get("__told__", {})
     return found
 
 
-def _written_later(name: str, lines: Callable[[type, dict[str, Any]], Iterator[str]]) -> Any:
-    """Return a method that, called first, puts the compiled one in its place and calls that."""
+def _begun(cls: type, self: Any, args: tuple[Any, ...], given: dict[str, Any]) -> bool:
+    """Fill a record field by field; False when the arguments are not its own."""
+    told = _all_of(cls)
+    places = [t.name for t in told.values() if t.init and not t.by_name]
+    taken = places[: len(args)]
+    if len(args) > len(places) or not given.keys() <= told.keys() - taken:
+        return False
+    values = given | dict(zip(taken, args, strict=True))
+    for name, one in told.items():
+        if one.init and name in values:
+            value = values[name]
+        elif one.factory is not MISSING:
+            value = one.factory()
+        elif one.init and one.default is not MISSING:
+            value = one.default
+        elif one.init or name in values:
+            return False
+        else:
+            continue
+        object.__setattr__(self, name, value)
+    if hasattr(cls, "__post_init__"):
+        self.__post_init__()
+    return True
+
+
+def _written_later(name: str, write: Callable[[type], Any]) -> Any:
+    """Return a method that, called first, puts what is written in its place and calls that."""
 
     def method(self: Any, *args: Any, **kwargs: Any) -> Any:
         owner = next(c for c in type(self).__mro__ if c.__dict__.get(name) is method)
-        names: dict[str, Any] = {"_set": object.__setattr__, "_none": MISSING}
-        exec("\n ".join(lines(owner, names)), names)
-        compiled = names[name]
-        compiled.__qualname__ = f"{owner.__qualname__}.{name}"
-        setattr(owner, name, compiled)
-        return compiled(self, *args, **kwargs)
+        if name == "__init__":
+            _CALLS[owner] = _CALLS.get(owner, 0) + 1
+            if _CALLS[owner] < MANY and _begun(owner, self, args, kwargs):
+                return None
+        written = write(owner)
+        written.__name__, written.__qualname__ = name, f"{owner.__qualname__}.{name}"
+        setattr(owner, name, written)
+        return written(self, *args, **kwargs)
 
     method.__name__ = name
     return method
 
 
-def _initial(cls: type, names: dict[str, Any]) -> Iterator[str]:
+def _initial(cls: type) -> Any:
+    """Return ``__init__``, compiled."""
+    names: dict[str, Any] = {"_set": object.__setattr__, "_none": MISSING}
+    exec("\n ".join(_lines(cls, names)), names)
+    return names["__init__"]
+
+
+def _lines(cls: type, names: dict[str, Any]) -> Iterator[str]:
     """Yield the lines of ``__init__``; defaults go into its names."""
     told = _all_of(cls).values()
     arguments = []
@@ -143,22 +196,28 @@ def _initial(cls: type, names: dict[str, Any]) -> Iterator[str]:
     yield "self.__post_init__()" if hasattr(cls, "__post_init__") else "pass"
 
 
-def _key(of: str, cls: type) -> str:
-    """Return the source of the tuple of all fields."""
-    return "(" + "".join(f"{of}.{name}, " for name in _all_of(cls)) + ")"
+def _key(cls: type) -> Callable[[Any], tuple[Any, ...]]:
+    """Return what gives the tuple of all fields of a record."""
+    names = tuple(_all_of(cls))
+    if len(names) > 1:
+        return attrgetter(*names)
+    return lambda one: tuple(getattr(one, name) for name in names)
 
 
-def _equal(cls: type, _: dict[str, Any]) -> Iterator[str]:
-    """Yield the lines of ``__eq__``."""
-    yield "def __eq__(self, other):"
-    yield "if other.__class__ is not self.__class__: return NotImplemented"
-    yield f"return {_key('self', cls)} == {_key('other', cls)}"
+def _equal(cls: type) -> Any:
+    """Return ``__eq__``."""
+    key = _key(cls)
+
+    def equal(self: Any, other: Any) -> Any:
+        return key(self) == key(other) if other.__class__ is self.__class__ else NotImplemented
+
+    return equal
 
 
-def _hashed(cls: type, _: dict[str, Any]) -> Iterator[str]:
-    """Yield the lines of ``__hash__``."""
-    yield "def __hash__(self):"
-    yield f"return hash({_key('self', cls)})"
+def _hashed(cls: type) -> Any:
+    """Return ``__hash__``."""
+    key = _key(cls)
+    return lambda self: hash(key(self))
 
 
 _WRITTEN = {
@@ -174,6 +233,7 @@ class _Fields:
     def __get__(self, instance: Any, cls: type) -> dict[str, Field[Any]]:
         """Return the fields of the class and of its bases by name."""
         body: dict[str, Any] = {"__annotations__": {}, "__module__": cls.__module__}
+        body["__doc__"] = cls.__name__  # or its signature would be looked up for one
         for base in cls.__mro__[::-1]:
             for one in base.__dict__.get("__told__", {}).values():
                 body["__annotations__"][one.name] = base.__annotations__[one.name]

@@ -49,6 +49,7 @@ LATE_OF = {
     "planmethod.note.wording": "words of drafting errors",
     "planmethod.gears.involute.sheet": "the sheet of a meshing, what solves it has no pens",
     # Third parties that take long to import; a mistake in a file is rare.
+    "decimal": "numbers that a file has as text",
     "difflib": "hints",
     "importlib.resources": "templates",
     "json": "messages that are not in English",

@@ -6,7 +6,7 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,7 @@ from planmethod.check.pages.files import write_all
 from planmethod.check.questions import Sign
 from planmethod.check.task import Item, Task
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.solution import Solution
 
 FLAT = (0.05, 0.10)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
 from functools import cached_property
 
 from planmethod.check.diagnosis import passed_on
@@ -32,6 +31,7 @@ from planmethod.plans.model import Plan
 from planmethod.problem.figures import Figure, Figures
 from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
+from planmethod.record import replace
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 
 READ = "read"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 from planmethod.check.calculation import Calculation, Numbers
 from planmethod.check.diagnosis import diagnose
@@ -17,6 +16,7 @@ from planmethod.check.sheet import Sheet
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import limit_of
 from planmethod.plans.model import FACTS
+from planmethod.record import replace
 from planmethod.solved.selected.asking import UnansweredError
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.model import Change, Scene, times
 from planmethod.check.mistakes.scales import scale_by
@@ -20,13 +20,14 @@ from planmethod.check.model import Sense, Work, Written
 from planmethod.check.questions import Sign
 from planmethod.check.sense import WAYS
 from planmethod.check.sheet import Sheet
-from planmethod.check.slips import SEGMENT_CODES, read_in_place
+from planmethod.check.slips import read_in_place
 from planmethod.check.task import Item, Task
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import Sampled
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import MOTION
+from planmethod.record import replace
 
 DIGITS = 3
 """Significant digits of what is written; one more behind a leading 1, as on a slide rule."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -21,7 +20,7 @@ from planmethod.check.sheet import Local, Own, Sheet
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 WIDE = math.log(1e4)
 """Range of what a slip can make of a number, as the logarithm of a ratio."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from planmethod.check.calculation import Calculation
@@ -15,7 +14,7 @@ from planmethod.check.model import Checked, Work
 from planmethod.check.task import Item, Task
 from planmethod.kinds import kind_of, load
 from planmethod.problem import variant_names
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
 

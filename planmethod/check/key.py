@@ -92,12 +92,14 @@ def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
     )
 
 
+SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
+"""Codes of a segment read for another one of its plan."""
+
+
 def _alike(task: Task, sheet: Sheet, item: Item, limit: Limit) -> Iterator[tuple[str, str]]:
     """Yield the segments of the same plan that are as long, and may be read by mistake: V6, N5."""
     question, length = item.question, sheet.length(item.question)
-    code = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}.get(
-        question.plan or PlanKind.LEVER
-    )
+    code = None if question.plan is None else SEGMENT_CODES.get(question.plan)
     if not length or code is None or question.is_mm or limit.zero:
         return
     slack = max(limit.spread, limit.tolerance()) / abs(limit.exact) * length

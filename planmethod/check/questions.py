@@ -12,7 +12,7 @@ from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import LineName, Name, NumberName, PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.legend import QuantityKind
+from planmethod.plans.legend import PLAN_OF, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, VectorKind
 from planmethod.plans.segments import Ends, Segments
 from planmethod.problem.selector import FORCES, Selector
@@ -216,7 +216,7 @@ class Questions:
             return self._made(selector, FACTS[plan].unit, Sign.STRICT, answer.name, plan)
         if kind in RATES:
             return self._rate(selector, answer.name)
-        plan = PlanKind.ACCELERATION if kind.startswith("a") else PlanKind.VELOCITY
+        plan = PLAN_OF[kind[0]]  # of a, an, at, ak, ar; of v
         return self._number(selector, answer.name, Sign.SIZE, plan, self._ends(plan, answer.name))
 
     def _segments(self, plan: PlanKind) -> Segments:
@@ -231,7 +231,7 @@ class Questions:
         return next((ends for ends, value in values.items() if value == name), None)
 
     def _rate(self, selector: Selector, name: NumberName) -> Question:
-        plan = PlanKind.VELOCITY if selector.kind == "omega" else PlanKind.ACCELERATION
+        plan = PLAN_OF[selector.kind]
         kin = self.construction.kinematics
         rates = kin.rates(plan)
         ends = next(

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
 from planmethod.check.explain import Explanation
 from planmethod.check.judge import Examined
+from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.model import Change, times
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, scalar
 from planmethod.construct.steps import Compute, NumberName, Step
 from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.record import replace
 
 METRES = (1e3, 1e-3)
 DEGREES = (180.0 / math.pi, math.pi / 180.0)
@@ -24,8 +25,6 @@ UNITS = {"1/s": METRES + DEGREES + TURNS, "1/s²": METRES + DEGREES, "deg": METR
 """Factors between units that are mixed up: mm and m, rev/min and 1/s, degrees and radians."""
 
 PLACES = (10.0, 0.1, 100.0, 0.01, 1e4, 1e-4)
-
-SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
 
 CLOSE = 0.03
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
 from itertools import chain
 
 from planmethod.check.explain import Explanation, Explanations
@@ -20,7 +19,7 @@ from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.head import AskedAnswer, AskedSense, KindProblem
 from planmethod.problem.selector import is_force, parse_selector
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from planmethod.check.marks import Settings
 from planmethod.check.questions import RATES, Question, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 LONG_MM = 100.0
 """Length on the drawing of a link that turns too little to be measured."""

@@ -9,8 +9,7 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded, stem, warn
-from planmethod.languages import say
-from planmethod.options import lang_option, out_option, problem_options
+from planmethod.options import BadParameter, lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
     from planmethod.problem.model import Problem
@@ -22,9 +21,9 @@ def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[st
     names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
     for name in names:
         if name not in FORMATS:
-            raise click.BadParameter(say("{!r} is not one of {}", name, ", ".join(FORMATS)))
+            raise BadParameter("{!r} is not one of {}", name, ", ".join(FORMATS))
     if not names:
-        raise click.BadParameter(say("no format given; choose from {}", ", ".join(FORMATS)))
+        raise BadParameter("no format given; choose from {}", ", ".join(FORMATS))
     return names
 
 

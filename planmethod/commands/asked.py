@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import click
 
-from planmethod.languages import say
-from planmethod.record import dataclass
+from planmethod.options import BadParameter, UsageError
+from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from planmethod.problem.config import Config
@@ -77,7 +76,7 @@ class Asked:
 
         if self.no_config:
             if self.config is not None:
-                raise click.UsageError(say("give --config or --no-config, not both"))
+                raise UsageError("give --config or --no-config, not both")
             return Config()
         path = self.config or find_config()
         return Config() if path is None else load_config(path)
@@ -116,7 +115,7 @@ def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], 
         names = SHEET_CHOICES[key]
         name = chosen(value, names)
         if name is None:
-            raise click.BadParameter(say("{!r} is not one of {}", value, ", ".join(names)))
+            raise BadParameter("{!r} is not one of {}", value, ", ".join(names))
         return name
 
     return read
@@ -130,7 +129,7 @@ def read_fields(
     for field in value:
         key, sign, text = field.partition("=")
         if not sign or not key.strip():
-            raise click.BadParameter(say("{!r} is not key=text, such as author=Иванов", field))
+            raise BadParameter("{!r} is not key=text, such as author=Иванов", field)
         fields[key.strip()] = text.strip()
     return fields
 

@@ -10,8 +10,7 @@ import click
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
 from planmethod.commands.problems import each, finish, guarded
-from planmethod.languages import say
-from planmethod.options import lang_option, problem_options, ruler_option
+from planmethod.options import UsageError, lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
     from planmethod.kinds import Kind
@@ -44,9 +43,7 @@ def audit(
     from planmethod.note.audit.table import Document
 
     if file is not None and file.lower().endswith(".toml"):
-        raise click.UsageError(
-            say("-o would write over the problem file {}; name another one", file)
-        )
+        raise UsageError("-o would write over the problem file {}; name another one", file)
     audits: list[tuple[KindProblem, Any]] = []
 
     def compare(problem: Problem) -> None:

@@ -7,7 +7,6 @@ import json
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,6 +21,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.languages import LANGUAGES, say, speaking, spoken
 from planmethod.options import (
     Positions,
+    UsageError,
     drawing_options,
     format_option,
     jobs_option,
@@ -30,7 +30,7 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -163,17 +163,17 @@ def batch(
     try:
         import distributed  # noqa: F401
     except ImportError:
-        raise click.UsageError(say(NEEDS)) from None
+        raise UsageError(NEEDS) from None
     from planmethod.check.marks import DEFAULT, load_settings
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.compositions import SHIPPED
 
     if not sheets and not keys:
-        raise click.UsageError(say("--no-sheets leaves nothing to make: give --keys"))
+        raise UsageError("--no-sheets leaves nothing to make: give --keys")
     if settings is not None and not keys:
-        raise click.UsageError(say("--settings are of the keys: give --keys"))
+        raise UsageError("--settings are of the keys: give --keys")
     if scheduler is not None and jobs > 1:
-        raise click.UsageError(say("--jobs is of this machine; --scheduler has workers of its own"))
+        raise UsageError("--jobs is of this machine; --scheduler has workers of its own")
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn
     own = ("problems", "variant", "sheets", "keys", "settings", "scheduler", "out")
@@ -195,12 +195,10 @@ def batch(
             name for name, count in Counter(stem(t.problem) for t in todo).items() if count > 1
         ]
         if twice:
-            raise click.UsageError(
-                say(
-                    "two problems are called {}, their files would have the same names; "
-                    "write them into two folders with --out",
-                    twice[0],
-                )
+            raise UsageError(
+                "two problems are called {}, their files would have the same names; "
+                "write them into two folders with --out",
+                twice[0],
             )
         orders = []
         for one in todo:
@@ -320,36 +318,30 @@ def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
             client.wait_for_workers(1, timeout=PATIENCE)
             versions = client.run(installed)
         except (OSError, TimeoutError, ValueError) as error:
-            raise click.UsageError(
-                say(
-                    "--scheduler {}: no worker answers within {} s ({}). Start dask scheduler "
-                    "and dask worker there.",
-                    scheduler,
-                    PATIENCE,
-                    type(error).__name__,
-                )
+            raise UsageError(
+                "--scheduler {}: no worker answers within {} s ({}). Start dask scheduler "
+                "and dask worker there.",
+                scheduler,
+                PATIENCE,
+                type(error).__name__,
             ) from None
         except ImportError as error:
-            raise click.UsageError(
-                say(
-                    "--scheduler {}: a worker cannot begin: {}. Install there: pip install "
-                    "'planmethod[batch]'",
-                    scheduler,
-                    error,
-                )
+            raise UsageError(
+                "--scheduler {}: a worker cannot begin: {}. Install there: pip install "
+                "'planmethod[batch]'",
+                scheduler,
+                error,
             ) from None
         others = {address: own for address, own in versions.items() if own != installed()}
         if others:
             address, own = next(iter(others.items()))
-            raise click.UsageError(
-                say(
-                    "--scheduler {}: the worker {} has planmethod {}, here it is {}. Install the "
-                    "same there.",
-                    scheduler,
-                    address,
-                    own,
-                    installed(),
-                )
+            raise UsageError(
+                "--scheduler {}: the worker {} has planmethod {}, here it is {}. Install the "
+                "same there.",
+                scheduler,
+                address,
+                own,
+                installed(),
             )
         yield client
 
@@ -388,13 +380,11 @@ def _taken(future: Future, order: Order, key: str, manifest: Manifest) -> None:
             name,
         ) from None
     except (CancelledError, OSError) as error:
-        raise click.UsageError(
-            say(
-                "the scheduler is gone ({}) before {}; {} are made, and the same command goes on "
-                "from there",
-                type(error).__name__,
-                name,
-                manifest.made,
-            )
+        raise UsageError(
+            "the scheduler is gone ({}) before {}; {} are made, and the same command goes on "
+            "from there",
+            type(error).__name__,
+            name,
+            manifest.made,
         ) from None
     manifest.add(order, key, part.told() or {})

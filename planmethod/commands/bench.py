@@ -10,7 +10,7 @@ import click
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded
 from planmethod.languages import say
-from planmethod.options import problem_options
+from planmethod.options import UsageError, problem_options
 
 if TYPE_CHECKING:
     from planmethod.problem.model import Problem
@@ -50,11 +50,9 @@ def bench(
         try:
             import mpmath  # noqa: F401  the judge
         except ImportError:
-            raise click.UsageError(
-                say(
-                    "bench needs mpmath: pip install 'planmethod[referee]'; --only drafting, "
-                    "cycle, machine and checking do not"
-                )
+            raise UsageError(
+                "bench needs mpmath: pip install 'planmethod[referee]'; --only drafting, "
+                "cycle, machine and checking do not"
             ) from None
     loaded: list[Problem] = []
     finish(each(problems, variant, all_variants, loaded.append))

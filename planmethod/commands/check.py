@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -14,7 +13,8 @@ from planmethod.commands.output import bar, is_narrow
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
-from planmethod.options import jobs_option, lang_option, out_option
+from planmethod.options import UsageError, jobs_option, lang_option, out_option
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants
@@ -94,12 +94,10 @@ def check(
         _write_keys(files, variant, all_variants, settings, out, lang, jobs)
         return
     if all_variants:
-        raise click.UsageError(
-            say("--all-variants goes with --key: every work names its own variant")
-        )
+        raise UsageError("--all-variants goes with --key: every work names its own variant")
     problem, *paths = files
     if not paths:
-        raise click.UsageError(say("name a WORK after the PROBLEM, or ask for its --key"))
+        raise UsageError("name a WORK after the PROBLEM, or ask for its --key")
     from planmethod.check.group import Variants
 
     variants = Variants(problem, settings, variant)

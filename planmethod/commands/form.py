@@ -9,8 +9,7 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import each, finish, guarded, stem
-from planmethod.languages import say
-from planmethod.options import lang_option, out_option, problem_options
+from planmethod.options import UsageError, lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
     from planmethod.kinds import Kind
@@ -58,7 +57,7 @@ def form(
     from planmethod.solved.solution import Solution
 
     if students is not None and names is not None:
-        raise click.UsageError(say("give --students or --names, not both"))
+        raise UsageError("give --students or --names, not both")
     who = [str(number) for number in range(1, (students or 0) + 1)]
     if names is not None:
         who = _read_names(names)
@@ -97,7 +96,5 @@ def _read_names(path: Path) -> list[str]:
     lines = decoded(read_bytes(path), path).splitlines()
     found = [" ".join(line.split()) for line in lines if line.strip()]
     if not 0 < len(found) <= MOST_STUDENTS:
-        raise click.UsageError(
-            say("{}: {} names; 1 to {} are expected", path, len(found), MOST_STUDENTS)
-        )
+        raise UsageError("{}: {} names; 1 to {} are expected", path, len(found), MOST_STUDENTS)
     return found

@@ -12,9 +12,9 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import is_narrow
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem
 from planmethod.errors import ExitCode
-from planmethod.languages import say
 from planmethod.options import (
     Positions,
+    UsageError,
     drawn_by,
     jobs_option,
     layout_option,
@@ -78,11 +78,9 @@ def lint(
     )
 
     if structural and (phi is not None or errors or sigma or layout is not None):
-        raise click.UsageError(
-            say(
-                "--phi, --errors, --sigma and --layout are of the plans; the sheet of "
-                "--structure has none"
-            )
+        raise UsageError(
+            "--phi, --errors, --sigma and --layout are of the plans; the sheet of "
+            "--structure has none"
         )
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn

@@ -10,7 +10,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
 from planmethod.languages import say
-from planmethod.options import lang_option
+from planmethod.options import UsageError, lang_option
 
 
 @click.command(cls=Spoken)
@@ -43,14 +43,14 @@ def new(
         for name in known:
             click.echo(f"{name.ljust(width)}  {meanings[name]}")
         if not show:
-            raise click.UsageError(say("give one of these families: planmethod new FAMILY [FILE]"))
+            raise UsageError("give one of these families: planmethod new FAMILY [FILE]")
         return
     wanted = "-".join(family.casefold().split())
     template_name = next((one for one in known if one.casefold() == wanted), None)
     if template_name is not None:
         if variant is not None:
-            raise click.UsageError(
-                say("{} is a template and has no variants: leave out --variant", template_name)
+            raise UsageError(
+                "{} is a template and has no variants: leave out --variant", template_name
             )
         write_new(file or Path(f"{template_name}.toml"), template(template_name), force=force)
         return

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import os
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
 
 from planmethod.languages import say
+from planmethod.options import UsageError
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
@@ -23,6 +25,8 @@ def settle_process() -> None:
     """Set up a process that lives for one command and says itself what there is to say."""
     # A command lives a fraction of a second and makes few cycles: the search costs a twentieth.
     gc.set_threshold(100_000)
+    # Its matrices are small: to start threads for them costs a third of the import of NumPy.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
         warnings.simplefilter("ignore")
 
@@ -60,13 +64,13 @@ def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -
         near = get_close_matches(name, known, 1)
         hint = say("; did you mean {!r}?", near[0]) if near else "."
         listed = told or ", ".join(known)
-        raise click.UsageError(say("{}{} Known: {}.", say(said, name), hint, listed))
+        raise UsageError("{}{} Known: {}.", say(said, name), hint, listed)
 
 
 def write_new(path: Path, text: str, *, force: bool) -> None:
     """Write a file to start from, over an existing one by ``force`` only."""
     if path.exists() and not force:
-        raise click.UsageError(say("{} exists; name another file or give --force", path))
+        raise UsageError("{} exists; name another file or give --force", path)
     from planmethod.render.backends.output import write
 
     write(path, text.encode())

@@ -16,6 +16,7 @@ import click
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 from planmethod.languages import say
+from planmethod.options import UsageError
 from planmethod.record import dataclass
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def variants_of(path: Path, variant: str | None, all_variants: bool) -> Sequence
     from planmethod.problem import variant_names
 
     if all_variants and variant is not None:
-        raise click.UsageError(say("give --variant or --all-variants, not both"))
+        raise UsageError("give --variant or --all-variants, not both")
     return (variant_names(path) or (None,)) if all_variants else (variant,)
 
 
@@ -258,12 +259,10 @@ def refuse_plans(kind: Kind, **options: object) -> None:
     given = [f"--{name.replace('_', '-')}" for name, value in options.items() if value]
     if given:
         told = ", ".join(given)
-        raise click.UsageError(
-            say(
-                "{}: only plans of linkages have such options; leave them out for [{}]",
-                told,
-                kind.table,
-            )
+        raise UsageError(
+            "{}: only plans of linkages have such options; leave them out for [{}]",
+            told,
+            kind.table,
         )
 
 

@@ -10,9 +10,9 @@ import click
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, solution_of, stem
-from planmethod.languages import say
 from planmethod.options import (
     Positions,
+    UsageError,
     drawn_by,
     lang_option,
     problem_options,
@@ -55,7 +55,7 @@ def protocol(
         solution = solution_of(problem, phi, drawn_by(profile, ruler))
         count = len(solution.positions)
         if position > count:
-            raise click.UsageError(say("--position {}: {} has {}", position, problem.name, count))
+            raise UsageError("--position {}: {} has {}", position, problem.name, count)
         text = narrate(solution, lang=lang, position=position - 1)
         written(problem, text)
 

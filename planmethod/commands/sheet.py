@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
@@ -15,9 +14,10 @@ from planmethod.commands.output import write_drawings, write_set
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem, tell_changes
 from planmethod.commands.watch import watch_option
 from planmethod.errors import LayoutError
-from planmethod.languages import say
 from planmethod.options import (
+    BadParameter,
     Positions,
+    UsageError,
     drawing_options,
     drawn_by,
     format_option,
@@ -27,6 +27,7 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -49,7 +50,7 @@ class _Draw(Protocol):
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
     """Return the name of a PDF file."""
     if value is not None and Path(value).suffix.lower() != ".pdf":
-        raise click.BadParameter(say("{!r} does not end in .pdf", value))
+        raise BadParameter("{!r} does not end in .pdf", value)
     return value
 
 
@@ -126,7 +127,7 @@ def sheet(
 
     if compact:
         if layout is not None:
-            raise click.UsageError(say("give --compact or --layout, not both"))
+            raise UsageError("give --compact or --layout, not both")
         layout = "compact"
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn

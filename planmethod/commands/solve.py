@@ -27,6 +27,7 @@ from planmethod.options import (
     MOST_POSITIONS,
     MOST_SWEPT,
     Positions,
+    UsageError,
     drawn_by,
     hand_options,
     jobs_option,
@@ -142,33 +143,25 @@ def solve(
 
         others = (all_variants, phi is not None, as_json, csv_file, npz_file, ask, covariance_file)
         if any(others) or len(problems) > 1:
-            raise click.UsageError(
-                say("--compare goes with one PROBLEM, --variant and --lang alone")
-            )
+            raise UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
         compare(problems[0], work, variant, lang)
         return
     swept = npz_file is not None or ask is not None
     _refuse_contradictions(as_json, csv_file, npz_file, ask)
     told = swept or csv_file is not None
     if told and (sigma or referee is not None):
-        raise click.UsageError(
-            say("--sigma and --referee go with the tables of a terminal or --json")
-        )
+        raise UsageError("--sigma and --referee go with the tables of a terminal or --json")
     if covariance_file is not None and (told or as_json):
-        raise click.UsageError(
-            say("--covariance is a table of its own: no --json, --csv, --npz, --ask")
-        )
+        raise UsageError("--covariance is a table of its own: no --json, --csv, --npz, --ask")
     if covariance_file is not None and covariance_file.lower().endswith(".toml"):
-        raise click.UsageError(
-            say("--covariance would write over {}; put it last", covariance_file)
-        )
+        raise UsageError("--covariance would write over {}; put it last", covariance_file)
     if referee is not None:
         _need_mpmath()
     if partial and not swept and csv_file is None:
-        raise click.UsageError(say("--partial goes with --csv, --npz or --ask"))
+        raise UsageError("--partial goes with --csv, --npz or --ask")
     if phi is not None and len(phi) > MOST_POSITIONS and not swept:
-        raise click.UsageError(
-            say("--phi: more than {} positions; so many only with --npz or --ask", MOST_POSITIONS)
+        raise UsageError(
+            "--phi: more than {} positions; so many only with --npz or --ask", MOST_POSITIONS
         )
     if npz_file is not None or (phi is not None and len(phi) > MOST_SHOWN):
         jobs = 1  # large tables are solved while they are written
@@ -232,7 +225,7 @@ def solve(
     def compute_other(kind: Kind, problem: KindProblem) -> dict[str, Any] | None:
         for option, given in linkage_only.items():
             if given:
-                raise click.UsageError(say("{} is for linkages, {} is none", option, problem.name))
+                raise UsageError("{} is for linkages, {} is none", option, problem.name)
         if as_json:
             return kind.record(problem, lang)
         click.echo(kind.solved_text(problem, lang))
@@ -261,9 +254,7 @@ def _need_mpmath() -> None:
     try:
         import mpmath  # noqa: F401
     except ImportError:
-        raise click.UsageError(
-            say("--referee needs mpmath: pip install 'planmethod[referee]'")
-        ) from None
+        raise UsageError("--referee needs mpmath: pip install 'planmethod[referee]'") from None
 
 
 def _refuse_contradictions(
@@ -273,18 +264,14 @@ def _refuse_contradictions(
     forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
     given = [name for name, is_given in forms.items() if is_given]
     if len(given) > 1:
-        raise click.UsageError(say("give {}, not both", say(" or ").join(given)))
+        raise UsageError("give {}, not both", say(" or ").join(given))
     if as_json and ask is not None:
-        raise click.UsageError(
-            say("--json is always whole; --ask goes with --csv, --npz or a table")
-        )
+        raise UsageError("--json is always whole; --ask goes with --csv, --npz or a table")
     for name, file in (("--csv", csv_file), ("--npz", npz_file)):
         if file is not None and file.lower().endswith(".toml"):
-            raise click.UsageError(
-                say("{} would write over the problem file {}; put it last", name, file)
-            )
+            raise UsageError("{} would write over the problem file {}; put it last", name, file)
     if npz_file in ("", "-"):
-        raise click.UsageError(say("--npz needs the name of a file"))
+        raise UsageError("--npz needs the name of a file")
 
 
 # Tables -----------------------------------------------------------------------------------------
@@ -344,15 +331,15 @@ def _sweep(
     try:
         made = GappedSweep(problem, _asked(problem, phi), ask)
     except UnknownResultError as error:
-        raise click.UsageError(say("--ask: {}: {}", problem.name, error)) from None
+        raise UsageError("--ask: {}: {}", problem.name, error) from None
     _tell(problem, made.gaps, made.doubts, partial)
     return made
 
 
 def _refuse_long(rows: int) -> None:
     if rows > MOST_SHOWN:
-        raise click.UsageError(
-            say("a table of {} rows is not for reading: give --csv FILE or --npz FILE", rows)
+        raise UsageError(
+            "a table of {} rows is not for reading: give --csv FILE or --npz FILE", rows
         )
 
 
@@ -360,16 +347,14 @@ def _refuse_huge(made: GappedSweep) -> None:
     numbers = len(made.names) * len(made.positions)
     if numbers > MOST_NUMBERS:
         most = MOST_NUMBERS // len(made.names)
-        raise click.UsageError(
-            say(
-                "--npz: {} results in {} positions are {} numbers, at most {} are written. "
-                "Ask at most {} positions, or fewer results with --ask.",
-                len(made.names),
-                len(made.positions),
-                numbers,
-                MOST_NUMBERS,
-                most,
-            )
+        raise UsageError(
+            "--npz: {} results in {} positions are {} numbers, at most {} are written. "
+            "Ask at most {} positions, or fewer results with --ask.",
+            len(made.names),
+            len(made.positions),
+            numbers,
+            MOST_NUMBERS,
+            most,
         )
 
 
@@ -401,11 +386,9 @@ def _prefixes(problems: list[Problem]) -> list[str]:
     names = [(problem.variant if one_file else None) or stem(problem) for problem in problems]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
-        raise click.UsageError(
-            say(
-                "--npz: two problems are called {}, their arrays would have the same names; "
-                "write them into two files",
-                twice[0],
-            )
+        raise UsageError(
+            "--npz: two problems are called {}, their arrays would have the same names; "
+            "write them into two files",
+            twice[0],
         )
     return [f"{name}:" for name in names]

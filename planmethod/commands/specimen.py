@@ -12,7 +12,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import write_drawings
 from planmethod.commands.problems import guarded
 from planmethod.languages import say
-from planmethod.options import dxf_text_option, format_option, lang_option, out_option
+from planmethod.options import BadParameter, dxf_text_option, format_option, lang_option, out_option
 
 
 def read_specimens(
@@ -28,8 +28,8 @@ def read_specimens(
 
             near = get_close_matches(name, SPECIMENS, 1)
             hint = say("; did you mean {!r}?", near[0]) if near else "."
-            raise click.BadParameter(
-                say("no specimen sheet {!r}{} Known: {}.", name, hint, ", ".join(SPECIMENS))
+            raise BadParameter(
+                "no specimen sheet {!r}{} Known: {}.", name, hint, ", ".join(SPECIMENS)
             )
     return names or tuple(SPECIMENS)
 

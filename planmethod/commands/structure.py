@@ -11,8 +11,8 @@ from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import is_narrow, write_drawings
 from planmethod.commands.problems import each, finish, guarded, stem
-from planmethod.languages import say
 from planmethod.options import (
+    UsageError,
     dxf_text_option,
     format_option,
     out_option,
@@ -88,7 +88,7 @@ def structure(
         lang = str(asked.sheet["lang"] or LANGUAGES[0])
         told = kind.structure_record(problem) if as_json else kind.structure_text(problem, lang)
         if told is None:
-            raise click.UsageError(say("{} is no mechanism, it has no structure", problem.name))
+            raise UsageError("{} is no mechanism, it has no structure", problem.name)
         click.echo(told if isinstance(told, str) else json.dumps(told, ensure_ascii=is_narrow()))
 
     finish(each(problems, variant, all_variants, show, show_other))

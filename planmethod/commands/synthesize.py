@@ -18,7 +18,14 @@ from planmethod.commands.output import is_narrow, refuse_unknown, write_drawings
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
 from planmethod.languages import say
-from planmethod.options import drawn_by, dxf_text_option, format_option, hand_options
+from planmethod.options import (
+    BadParameter,
+    UsageError,
+    drawn_by,
+    dxf_text_option,
+    format_option,
+    hand_options,
+)
 
 LEAST, MOST = 1e-6, 1e4
 """Lengths that are taken, m."""
@@ -29,9 +36,9 @@ def _number(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
-        raise click.BadParameter(say("{!r} is not a number", text.strip())) from None
+        raise BadParameter("{!r} is not a number", text.strip()) from None
     if not abs(value) < 1e9:
-        raise click.BadParameter(say("{!r} is out of range: below 1e9 is expected", text.strip()))
+        raise BadParameter("{!r} is out of range: below 1e9 is expected", text.strip())
     return value
 
 
@@ -44,9 +51,7 @@ def read_length(ctx: click.Context, param: click.Parameter, value: str | None) -
     """Return a positive length, m."""
     number = read_number(ctx, param, value)
     if number is not None and not LEAST <= number <= MOST:
-        raise click.BadParameter(
-            say("{:g} m: a length from {:g} to {:g} m is expected", number, LEAST, MOST)
-        )
+        raise BadParameter("{:g} m: a length from {:g} to {:g} m is expected", number, LEAST, MOST)
     return number
 
 
@@ -76,7 +81,7 @@ def read_line(
     if rows is None:
         return None
     if len(rows) != 1 or len(rows[0]) != 3:
-        raise click.BadParameter(say("{!r} is not x,y,angle", value))
+        raise BadParameter("{!r} is not x,y,angle", value)
     return rows[0]
 
 
@@ -164,7 +169,7 @@ def synthesize(
     ]
     if strange:
         taken = ", ".join(f"--{name}" for name in known)
-        raise click.UsageError(say("{} takes {}, not {}.", kind, taken, ", ".join(strange)))
+        raise UsageError("{} takes {}, not {}.", kind, taken, ", ".join(strange))
     wanted = {name: given[name] for name in known}
     made = find(kind, wanted)
     words = language(str(asked.sheet["lang"] or LANGUAGES[0]))

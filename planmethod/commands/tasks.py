@@ -10,8 +10,7 @@ import click
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import is_narrow
 from planmethod.commands.problems import guarded
-from planmethod.languages import say
-from planmethod.options import lang_option
+from planmethod.options import UsageError, lang_option
 
 
 @click.command(cls=Spoken)
@@ -37,7 +36,7 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
         for signature in asked:
             if signature not in known:
                 told = ", ".join(known)
-                raise click.UsageError(say("no task has a group {!r}. Known: {}.", signature, told))
+                raise UsageError("no task has a group {!r}. Known: {}.", signature, told)
         found = tuple(task for task in found if task.has(asked))
     if search is not None:
         found = tuple(task for task in found if task.says(search))

@@ -12,8 +12,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
-from planmethod.languages import say
-from planmethod.options import lang_option
+from planmethod.options import BadParameter, UsageError, lang_option
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -31,11 +30,9 @@ def read_fraction(ctx: click.Context, param: click.Parameter, value: str | None)
     try:
         number = Fraction(value.replace(",", ".").replace("−", "-"))
     except (ValueError, ZeroDivisionError):
-        raise click.BadParameter(
-            say("{!r} is not a number: 6.5 or 13/2 is expected", value)
-        ) from None
+        raise BadParameter("{!r} is not a number: 6.5 or 13/2 is expected", value) from None
     if number.denominator > 10**6 or abs(number) > 10**6:
-        raise click.BadParameter(say("{!r} has too many digits: at most six are expected", value))
+        raise BadParameter("{!r} has too many digits: at most six are expected", value)
     return number
 
 
@@ -48,11 +45,9 @@ def read_modules(
     read = (read_fraction(ctx, param, part) for part in value.split(","))
     found = [number for number in read if number is not None]
     if len(found) > 2 or not all(MODULES[0] <= 100 * m <= MODULES[1] for m in found):
-        raise click.BadParameter(
-            say("{!r}: one or two modules in mm are expected, 2 or 2,2.5", value)
-        )
+        raise BadParameter("{!r}: one or two modules in mm are expected, 2 or 2,2.5", value)
     if any((m * 1000).denominator != 1 for m in found):
-        raise click.BadParameter(say("{!r}: a module has at most three decimals", value))
+        raise BadParameter("{!r}: a module has at most three decimals", value)
     return found[0], found[-1]
 
 
@@ -145,17 +140,17 @@ def teeth(
 
     refuse_unknown("no scheme {!r}", scheme, [one.name for one in SCHEMES])
     if ratio == 0 or not 0 <= within < 1:
-        raise click.UsageError(say("--U is not 0, and --within is at least 0 and below 1"))
+        raise UsageError("--U is not 0, and --within is at least 0 and below 1")
     if z_min > z_max:
-        raise click.UsageError(say("--z-min {} is more than --z-max {}", z_min, z_max))
+        raise UsageError("--z-min {} is more than --z-max {}", z_min, z_max)
     (plan,) = (one for one in SCHEMES if one.name == scheme)
     if plan.single and modules is not None and modules[0] != modules[1]:
-        raise click.UsageError(say("the scheme {} has one row of teeth: give one module", scheme))
+        raise UsageError("the scheme {} has one row of teeth: give one module", scheme)
     wanted = Wanted(plan, ratio, within, satellites, z_min, z_max, ring_max, modules)
     number = 0 if write is None else write[1]
     chosen = choose(wanted, first=max(count, number) if count else None)
     if write is not None and number > chosen.found:
-        raise click.UsageError(say("there is no set {}: {} were found", number, chosen.found))
+        raise UsageError("there is no set {}: {} were found", number, chosen.found)
     if as_json:
         click.echo(json.dumps(chosen_record(chosen), ensure_ascii=False, indent=1))
     else:

@@ -19,7 +19,9 @@ How each step errs, sigma by sigma:
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cache
+from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -66,6 +68,10 @@ PROFILES: dict[str, Profile] = {
 """Drawing with CAD, on a board with care (the default), and in haste."""
 
 
+AS_SCALED: Mapping[str, Number] = MappingProxyType({})
+"""Everything is drawn at the scale of its plan."""
+
+
 class Pencil:
     """Strokes of a draughtsman; who mixes it with an arithmetic says what an error is.
 
@@ -74,10 +80,18 @@ class Pencil:
     profile : Profile
     free : frozenset of str
         Given points that cannot be off: the poles, which may stand anywhere.
+    enlarged : mapping of str to Number
+        How many times larger than by its scale a step is drawn, by its name: what is off on paper
+        counts so much less there.
     """
 
-    def __init__(self, profile: Profile, free: frozenset[str] = frozenset()) -> None:
-        self.profile, self.free = profile, free
+    def __init__(
+        self,
+        profile: Profile,
+        free: frozenset[str] = frozenset(),
+        enlarged: Mapping[str, Number] = AS_SCALED,
+    ) -> None:
+        self.profile, self.free, self.enlarged = profile, free, enlarged
 
     def error(self, out: str, sigma: float) -> Number:
         """Return the next error of a stroke: a real number of zero mean."""
@@ -87,9 +101,15 @@ class Pencil:
         """Return a length as it is rounded to the ruler's step."""
         raise NotImplementedError
 
+    def _off(self, out: str, sigma: float) -> Number:
+        """Return the next error of so much on paper, mm at the scale of the plan."""
+        times = self.enlarged.get(out)
+        error = self.error(out, sigma)
+        return error if times is None else error / times
+
     def _spot(self, out: str) -> Number:
         sigma = self.profile.point
-        return self.error(out, sigma) + self.error(out, sigma) * 1j
+        return self._off(out, sigma) + self._off(out, sigma) * 1j
 
     def _across(self, along: Number) -> Number:
         """Return the normal of a line, of length 1; 0 where it has no direction, and needs none."""
@@ -103,18 +123,18 @@ class Pencil:
     def joined(self, out: str, tail: Number, along: Number) -> tuple[Number, Number]:
         """Return a line as the ruler lies at its two points."""
         across = self._across(along)
-        one, two = self.error(out, self.profile.point), self.error(out, self.profile.point)
+        one, two = self._off(out, self.profile.point), self._off(out, self.profile.point)
         return tail + across * one, along + across * (two - one)
 
     def drawn(self, out: str, through: Number, along: Number) -> tuple[Number, Number]:
         """Return a line as the set square draws it."""
         across = self._across(along)
         turn = self.error(out, math.radians(self.profile.parallel))
-        return through + across * self.error(out, self.profile.point), along + along * (turn * 1j)
+        return through + across * self._off(out, self.profile.point), along + along * (turn * 1j)
 
     def arc(self, out: str, centre: Number, radius: Number) -> tuple[Number, Number]:
         """Return an arc as the compass draws it."""
-        return centre + self._spot(out), radius + self.error(out, self.profile.lay_off)
+        return centre + self._spot(out), radius + self._off(out, self.profile.lay_off)
 
     def pricked(self, out: str, point: Number) -> Number:
         """Return a point as it is pricked."""
@@ -122,13 +142,13 @@ class Pencil:
 
     def laid(self, out: str, length: Number) -> Number:
         """Return a length as it is laid off, and how far beside the line; of nothing, nothing."""
-        beside = self.error(out, self.profile.point) * 1j
-        off = length + self.error(out, self.profile.lay_off) + beside
+        beside = self._off(out, self.profile.point) * 1j
+        off = length + self._off(out, self.profile.lay_off) + beside
         return self.unless_zero(self.drawn_at_all(length), off, length)
 
     def read(self, out: str, length: Number) -> Number:
         """Return a length as it is read; what is not there at all is read by nobody."""
-        seen = self.rounded(out, length + self.error(out, self.profile.measure))
+        seen = self.rounded(out, length + self._off(out, self.profile.measure))
         return self.unless_zero(self.drawn_at_all(length), seen, length)
 
     def drawn_at_all(self, length: Number) -> Number:
@@ -153,8 +173,14 @@ class Propagated(Pencil, Duals):
         How many errors the construction has, as `Counted` finds.
     """
 
-    def __init__(self, profile: Profile, free: frozenset[str], causes: int) -> None:
-        super().__init__(profile, free)
+    def __init__(
+        self,
+        profile: Profile,
+        free: frozenset[str],
+        causes: int,
+        enlarged: Mapping[str, Number] = AS_SCALED,
+    ) -> None:
+        super().__init__(profile, free, enlarged)
         self.causes = causes
         self.of: list[str] = []
         self._known: dict[int, Rows] = {}
@@ -182,7 +208,7 @@ class Propagated(Pencil, Duals):
 
     def rounded(self, out: str, length: Number) -> Number:
         """Return a length with the error of rounding, which is spread evenly over a step."""
-        return as_dual(length) + self.error(out, self.profile.ruler / math.sqrt(12.0))
+        return as_dual(length) + self._off(out, self.profile.ruler / math.sqrt(12.0))
 
 
 class Counted(Pencil, Float64):
@@ -221,11 +247,18 @@ class Sampled(Pencil, Float64):
         The same seed draws the same sheets.
     """
 
-    def __init__(self, profile: Profile, free: frozenset[str], draws: int, seed: int) -> None:
-        super().__init__(profile, free)
+    def __init__(
+        self,
+        profile: Profile,
+        free: frozenset[str],
+        draws: int,
+        seed: int,
+        enlarged: Mapping[str, Number] = AS_SCALED,
+    ) -> None:
+        super().__init__(profile, free, enlarged)
         self.draws = draws
         self._random = np.random.default_rng(seed)
-        self._hand = Hand(ruler=profile.ruler)
+        self._hand = Hand(ruler=profile.ruler, enlarged=enlarged)
 
     nonzero = Float64.nonzero
     unless_zero = Float64.unless_zero
@@ -240,7 +273,7 @@ class Sampled(Pencil, Float64):
 
     def rounded(self, out: str, length: Number) -> Number:
         """Return the length rounded to the step of the ruler."""
-        return self._hand.ruled(length)
+        return self._hand.read(out, length)
 
 
 EVEN, _TURN = 1021, 115
@@ -254,8 +287,13 @@ class Even(Sampled):
     Each error that is asked for is the next coordinate of its points.
     """
 
-    def __init__(self, profile: Profile, free: frozenset[str] = frozenset()) -> None:
-        super().__init__(profile, free, EVEN, 0)
+    def __init__(
+        self,
+        profile: Profile,
+        free: frozenset[str] = frozenset(),
+        enlarged: Mapping[str, Number] = AS_SCALED,
+    ) -> None:
+        super().__init__(profile, free, EVEN, 0, enlarged)
         self._asked = 0
 
     def _next(self) -> npt.NDArray[np.intp]:
@@ -273,7 +311,8 @@ class Even(Sampled):
 
     def rounded(self, out: str, length: Number) -> Number:
         """Return the length off by up to half a step."""
-        return length + self.profile.ruler * ((self._next() + 0.5) / EVEN - 0.5)
+        off = self.profile.ruler * ((self._next() + 0.5) / EVEN - 0.5)
+        return length + off / self.enlarged.get(out, 1.0)
 
 
 @cache

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import field
-from difflib import get_close_matches
 
 from planmethod.construct.steps import (
     AtAngle,
@@ -54,6 +53,8 @@ class Program:
         for number, step in enumerate(self.steps, 1):
             for name, kind in operands(step):
                 if name not in made:
+                    from difflib import get_close_matches
+
                     near = get_close_matches(name, made, 1)
                     hint = f"; did you mean {near[0]!r}?" if near else ""
                     raise ProgramError(

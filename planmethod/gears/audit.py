@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from planmethod.construct.drafting import PROFILES
 from planmethod.gears.answers import answer
 from planmethod.gears.construction import construct, read
@@ -11,6 +9,7 @@ from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import draw
 from planmethod.note.audit.audit import Audited
+from planmethod.record import replace
 from planmethod.solved.selected.asking import NoAnswer
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
@@ -21,6 +20,7 @@ from planmethod.gears.motion import Motion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.told import symbol
 from planmethod.problem.figures import Figure, Mistaken
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from typing import NamedTuple
@@ -11,18 +10,19 @@ from typing import NamedTuple
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import LayoutError
-from planmethod.gears.arrangement import Order, Scheme, arrange, best_order
 from planmethod.gears.construction import Construction, Reading, construct, read
 from planmethod.gears.drawn.front import front
 from planmethod.gears.drawn.side import Side
 from planmethod.gears.drawn.velocities import angular, angular_spans, linear, linear_spans
 from planmethod.gears.model import GearProblem, PictureSettings
 from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.order import Order, arrange, best_order
 from planmethod.gears.picture import draw
+from planmethod.gears.scheme import Scheme
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import Language, language
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import merged

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from planmethod.construct.drafting import PROFILES
@@ -13,6 +11,7 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Undefined, move
 from planmethod.moving.sheet import sheet_scales
 from planmethod.note.audit.audit import Audited
+from planmethod.record import replace
 from planmethod.solved.selected.asking import NoAnswer
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise
 from typing import Any, TypeAlias
 
@@ -16,7 +15,7 @@ from planmethod.languages import say
 from planmethod.moving.bounded import Reals
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, Undefined, move
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 

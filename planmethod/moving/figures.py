@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
@@ -16,6 +15,7 @@ from planmethod.moving.reader import WHAT, column_of
 from planmethod.moving.sheet import sheet_scales
 from planmethod.moving.told import SYMBOLS, unit_of
 from planmethod.problem.figures import Figure, Mistaken, Taken
+from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile

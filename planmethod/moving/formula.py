@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from planmethod.languages import say
 from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, Kind, Operation, Parser
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 ANGULAR = ("sin", "cos", "tg", "ctg")
 """Those of angles."""

@@ -6,7 +6,6 @@ A picture is millimetres: the trajectory from its own origin, a hodograph from i
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from math import ceil, floor
 
 import numpy as np
@@ -19,6 +18,7 @@ from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.problem.model import Convention
+from planmethod.record import replace
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset, vector_markup

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +35,7 @@ from planmethod.problem.names import listed, near_hint, segment, short
 from planmethod.problem.reader import laid_over
 from planmethod.problem.sheet import read_head
 from planmethod.problem.source import parse, read_source
+from planmethod.record import replace
 
 TOP = (
     "title", "source", "point", "scales", "stamp", "sheet", "published", "answers", "compare",

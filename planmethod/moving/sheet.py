@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from functools import partial
 from itertools import combinations, pairwise
 from typing import TypeAlias
@@ -33,7 +33,7 @@ from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged

@@ -97,6 +97,10 @@ class QuantityKind(Enum):
         return self.plan is PlanKind.FORCE
 
 
+PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
+"""Plans by the letters that quantities are asked for by."""
+
+
 TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
 """Kinds of what is told of links."""
 

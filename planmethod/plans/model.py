@@ -56,6 +56,9 @@ FACTS: dict[PlanKind, PlanFacts] = {
 MOTION = (PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION)
 """Plans that every problem has, in the order in which they are drawn."""
 
+RATES = MOTION[1:]
+"""Those of them that are vectors from a pole."""
+
 
 class VectorKind(Enum):
     """What a vector of a plan stands for (вид составляющей)."""

@@ -6,12 +6,12 @@ nothing that was laid off is read, and nothing is read twice.
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import field
 from typing import TypeAlias
 
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 Ends: TypeAlias = tuple[PointName, PointName]
 

@@ -12,7 +12,7 @@ from planmethod.errors import Fault
 from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.formula import FormulaError, work_out
-from planmethod.problem.mistyped import value_hint
+from planmethod.problem.mistyped import INSTEAD, value_hint
 from planmethod.problem.model import Drive
 from planmethod.problem.names import (
     describe_lookalikes,
@@ -300,6 +300,8 @@ def report_unknown(
     # the nearest name is searched for only if the fault will be listed
     guess = near(name, names) if faults.count < FAULT_LIMIT else None
     hint = say("Did you mean '{}'?", guess) if guess else ""
+    if "omega" in names:
+        hint = INSTEAD.get(name, hint)
     if not hint and names:
         hint = say("Known here: {}.", listed(names))
     faults.add(path, say(said, short(name)), hint)

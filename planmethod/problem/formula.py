@@ -17,7 +17,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from decimal import Decimal
 from enum import Enum
 from types import MappingProxyType
 
@@ -106,6 +105,8 @@ class FormulaError(Exception):
 
 def is_exact(text: str) -> bool:
     """Tell whether float64 has a number as it is written in decimal."""
+    from decimal import Decimal
+
     return Decimal(text) == Decimal(float(text))
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, fields, replace
+from dataclasses import field, fields
 from enum import Enum
 
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

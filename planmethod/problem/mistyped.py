@@ -35,6 +35,15 @@ _REPAIRS = (
 """Ways in which beginners write, and TOML: pattern and replacement, one after the other."""
 
 
+_SIGN = "The sign of omega, n or v tells the direction: minus is clockwise, or against the guide."
+
+INSTEAD = {
+    **dict.fromkeys(("clockwise", "cw", "ccw", "counterclockwise", "direction", "sense"), _SIGN),
+    **dict.fromkeys(("rpm", "rev", "frequency"), "Revolutions per minute are n = 60."),
+}
+"""Keys of ``[driver]`` that people look for, and what says the same."""
+
+
 def line_hint(what: str, lines: Sequence[str], number: int, column: int) -> str:
     """Guess the likely cause of a syntax error, and say what to write.
 

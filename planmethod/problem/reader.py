@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -26,6 +25,7 @@ from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame,
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.table import with_table
 from planmethod.problem.variants import apply_variant, read_variants
+from planmethod.record import replace
 
 TrainReader: TypeAlias = Callable[[Faults, Mapping[str, Any], object], Geared | None]
 """What reads ``[gears]`` for the driver's ``train``: faults, that table, the label."""

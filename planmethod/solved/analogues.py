@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from planmethod.problem.model import Problem
+from planmethod.record import replace
 from planmethod.solved.reading import Reals, remembered
 from planmethod.solved.solution import PointMotion, Solution
 

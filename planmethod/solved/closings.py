@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from functools import partial
 from typing import assert_never
 
@@ -36,6 +35,7 @@ from planmethod.plans.motion.position import (
 )
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.problem.names import told_length, told_place
+from planmethod.record import replace
 from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain

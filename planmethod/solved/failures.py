@@ -6,7 +6,6 @@ told of in common without a look at the words.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from enum import Enum
 
 from planmethod.errors import AssemblyError
@@ -14,7 +13,7 @@ from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Coordinate, Problem
 from planmethod.problem.names import told_length
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.reading import Reals
 
 

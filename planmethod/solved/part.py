@@ -7,7 +7,6 @@ are joined to it one after the other, as long as what they say can be read and c
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
@@ -17,7 +16,7 @@ from planmethod.problem.fields import Faults
 from planmethod.problem.model import Problem
 from planmethod.problem.reader import TrainReader, read_parsed
 from planmethod.problem.variants import apply_variant, read_variants
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.failures import Failure, PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Reals

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -82,8 +81,10 @@ class Results:
             known += [word for word in WHOLE if self.find(word)]
             # Of a reaction the one that acts back is meant, before any other that is spelt alike.
             near = [result.label for result in self.all if result.opposite == label]
+            from difflib import get_close_matches
+
             near = near or get_close_matches(label, known, 1)
-            hint = say("; did you mean {!r}?", near[0]) if near else ""
+            hint = say("; did you mean {!r}?", near[0]) if near else "."
             raise UnknownResultError("no result {!r}{} Known: {}.", label, hint, ", ".join(known))
         return found
 

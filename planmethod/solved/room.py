@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH, Format
 from planmethod.plans.build import Construction
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import RATES
 from planmethod.record import dataclass
 
 Box: TypeAlias = tuple[float, float]
@@ -43,7 +43,7 @@ class Texts:
     @classmethod
     def of(cls, construction: Construction) -> Texts:
         """Return what is told of a construction."""
-        plans = [construction.plan(k) for k in (PlanKind.VELOCITY, PlanKind.ACCELERATION)]
+        plans = [construction.plan(k) for k in RATES]
         one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
         return cls((one[0], two[0]), (one[1], two[1]))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -20,10 +19,10 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import MOTION, PlanKind
+from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.closings import choose_closings, drive_data
 from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
@@ -196,7 +195,7 @@ class Solution(Remembering):
     @cached_property
     def _own_scales(self) -> dict[PlanKind, tuple[Scale, ...]]:
         facts, scales = (self.construction, self.si, self.views), self.scales
-        own = {kind: own_scales(*facts, scales[kind], kind) for kind in MOTION[1:]}
+        own = {kind: own_scales(*facts, scales[kind], kind) for kind in RATES}
         return {**own, PlanKind.POSITION: (scales[PlanKind.POSITION],) * self.si.count}
 
     @cached_property
@@ -219,7 +218,7 @@ class Solution(Remembering):
     def knots(self) -> dict[PlanKind, tuple[Knot, ...]]:
         """Short segments that are enlarged, by plans: of one position, which has plans alone."""
         found: dict[PlanKind, tuple[Knot, ...]] = {}
-        for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
+        for kind in RATES:
             first = sum(map(len, found.values()))
             alone = len(self.positions) == 1
             least = least_shown(self.profile.ruler)

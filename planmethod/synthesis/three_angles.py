@@ -8,12 +8,12 @@ K2, K3: three pairs determine them, and with the frame d the crank a. The rest i
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from planmethod.errors import AssemblyError
+from planmethod.record import replace
 from planmethod.synthesis.board import Board
 from planmethod.synthesis.model import AskedError, Synthesis, chosen, lengths_of, place, read
 from planmethod.synthesis.passage import passage

@@ -169,7 +169,7 @@ def test_every_ellipse_is_that_of_a_vertex(name: str) -> None:
         assert drawn.enlarged == 1
         for stroke in drawn.strokes:
             near = [
-                drawn_forces(reading.statics).ellipse(end, 0)
+                drawn_forces(reading.statics).ellipse(end, 0) * reading.share(k) ** 2
                 for edge, shift in zip(edges, shifts, strict=True)
                 for end in (edge.tail, edge.head)
                 if abs(reading.corner(k, end) + shift - middle(stroke)) < 1e-6
@@ -238,10 +238,12 @@ def test_dashed_are_vertices_where_first_order_does_not_hold() -> None:
 
 
 def test_what_is_larger_than_half_the_plan_is_told() -> None:
-    (sheet,) = kinematics_sheets(problem_of("levers/six-link"), layout="forces", errors=True)
-    reading = reading_of("levers/six-link")
+    (sheet,) = kinematics_sheets(
+        problem_of("levers/six-link"), layout="forces", errors=True, positions=NEAR_DEAD[:1]
+    )
+    reading = reading_of("levers/six-link", "board", NEAR_DEAD[:1])
     hidden = [vertex_ellipses(reading, k).too_large for k in range(len(reading.plans))]
-    assert shown(sheet).count("эллипсы больше половины плана не показаны") == sum(hidden) == 1
+    assert shown(sheet).count("эллипсы больше половины плана не показаны") == sum(hidden) > 0
 
 
 # Tables -------------------------------------------------------------------------------------------

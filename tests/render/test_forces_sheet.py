@@ -37,6 +37,7 @@ from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import PLAN_BOX
 from planmethod.solved.solution import Solution
 
 RU = language("ru")
@@ -84,7 +85,7 @@ def reading_of(name: str) -> ForceReading:
     per_mm = {view.scale: view.per_mm for view in sheet_of(name).views}
     views_of = composition("forces").views_for("A1", 1)
     reading = ForceReading(Solution(problem_of(name), views=views_of), 0)
-    assert reading.scale.per_mm == per_mm["μ_{F}"]
+    assert reading.own_scale(len(reading.plans) - 1).per_mm == per_mm["μ_{F}"]
     return reading
 
 
@@ -163,26 +164,22 @@ def test_the_sheet_has_all_views_and_no_faults(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", LOADED)
-def test_the_largest_plan_fills_its_view_and_the_scale_is_of_the_series(name: str) -> None:
+def test_each_plan_fills_its_view_and_the_scale_is_of_the_series(name: str) -> None:
     problem = problem_of(name)
     free = replace(problem, scales=replace(problem.scales, mu_F=None))
     reading = ForceReading(Solution(free), 0)
     inverse = name != "press/press"
-    value = 1.0 / reading.scale.per_mm if inverse else reading.scale.per_mm
-    assert f"{value:.6e}".partition("e")[0] in ("1.000000", "2.000000", "2.500000", "4.000000",
-                                                "5.000000")  # fmt: skip
-    sizes = []
     for number in range(len(reading.plans)):
-        ends = [
-            reading.end(end)
-            for edge in drawn_edges(reading, number)
-            for end in (edge.tail, edge.head)
-        ]
-        sizes += [
-            max(p.real for p in ends) - min(p.real for p in ends),
-            max(p.imag for p in ends) - min(p.imag for p in ends),
-        ]
-    assert 40.0 <= max(sizes) <= 100.0
+        own = reading.own_scale(number).per_mm
+        value = 1.0 / own if inverse else own
+        assert f"{value:.6e}".partition("e")[0] in ("1.000000", "2.000000", "2.500000", "4.000000",
+                                                    "5.000000")  # fmt: skip
+        edges = drawn_edges(reading, number)
+        ends = [reading.corner(number, end) for edge in edges for end in (edge.tail, edge.head)]
+        across, up = [p.real for p in ends], [p.imag for p in ends]
+        width, height = max(across) - min(across), max(up) - min(up)
+        assert width < PLAN_BOX[0] + 1.0 and height < PLAN_BOX[1] + 1.0
+        assert max(width / PLAN_BOX[0], height / PLAN_BOX[1]) > 0.45
 
 
 # Arrows -------------------------------------------------------------------------------------------
@@ -300,7 +297,7 @@ def test_the_moments_of_the_textbook() -> None:
     assert lines[0] == (
         "Σ_{2}M_{C} = Φ_{2}·h_{Φ2} + F_{24}·h_{F24} − G_{2}·h_{G2} − M_{Φ2} − F^{τ}_{21}·l_{BC} = 0"
     )
-    assert lines[2].endswith("/0,3 = 3470 Н")
+    assert lines[2].endswith("/0,3 = 3480 Н")
     assert (
         moment_lines(reading, reading.plans[2])[0]
         == "Σ_{1}M_{A} = F_{12}·h_{F12} − M_{Φ1} − M_{ур} = 0"

@@ -72,7 +72,7 @@ def drawn(name: str) -> Drawn:
         return Drawn(solution.construction.program, data, solution.by_hand.trace, solution.hand)
     statics = statics_of(solution)
     data = statics.data(statics.per_mm, slice(None))
-    return Drawn(statics.program, data, statics.by_hand.trace, solution.hand)
+    return Drawn(statics.program, data, statics.by_hand.trace, statics.hand)
 
 
 def flat(value: Any) -> Any:

@@ -8,7 +8,7 @@ from planmethod.check.model import Checked, Diagnosis, Judged, Verdict
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording.language import Language
-from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, shifted
 from planmethod.render.ink.extent import ink_bounds
@@ -18,7 +18,6 @@ from planmethod.render.symbols import vector_arrow
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
 
-KINDS = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
 OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED)
 MARGIN = 3.0
 """Room around everything, mm."""
@@ -87,7 +86,7 @@ class Overlay:
 def overlays(solution: Solution, checked: Checked, words: Language) -> list[Overlay]:
     """Return the plans of velocities and accelerations in the position where trouble begins."""
     index = _position(checked, len(solution.positions))
-    made = (_overlay(solution, checked, kind, index, words) for kind in KINDS)
+    made = (_overlay(solution, checked, kind, index, words) for kind in RATES)
     return [overlay for overlay in made if overlay is not None]
 
 

@@ -8,12 +8,11 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from planmethod.check.model import Checked, Judged
 from planmethod.errors import ExitCode, PlanMethodError
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 COLUMNS = ("student", "id", "points", "remark")
 HEAD = (";".join(COLUMNS) + "\r\n").encode("utf-8-sig")

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict, Written
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.check_model import StudentWording
-from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.model import FACTS, RATES
 from planmethod.record import dataclass
 
-PLANS = {FACTS[kind].scale: kind for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)}
+PLANS = {FACTS[kind].scale: kind for kind in RATES}
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from typing import Any
 from planmethod.check.marks import Settings
 from planmethod.check.model import Checked, Judged, Written
 from planmethod.errors import OutputError
+from planmethod.record import replace
 
 PACKAGES = ("planmethod", "numpy")
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from planmethod.check.model import Sense, Unread, Written
 from planmethod.check.works.cells import Cell, found, read_name, refused
@@ -11,6 +10,7 @@ from planmethod.check.works.numbers import read_number
 from planmethod.check.works.units import read_unit
 from planmethod.check.works.vocabulary import read_sense
 from planmethod.pattern import pattern
+from planmethod.record import replace
 
 POSITION_LIMIT = 100_000
 

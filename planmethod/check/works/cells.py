@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
 
 from planmethod.check.model import Unread, Written
@@ -12,7 +11,7 @@ from planmethod.check.works.vocabulary import BLANKS, key
 from planmethod.note.wording import language
 from planmethod.problem.names import fold, short
 from planmethod.problem.selector import SelectorError, parse_selector
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 TEXT_LIMIT = 200
 """Characters of a cell that are looked at."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, fields, replace
+from dataclasses import field, fields
 
 from planmethod.check.model import Unread, Work, Written
 from planmethod.check.works.answer import NotReadError, read_scaled
@@ -14,7 +14,7 @@ from planmethod.check.works.units import Dimension, read_unit
 from planmethod.check.works.vocabulary import key
 from planmethod.pattern import pattern
 from planmethod.problem.names import fold
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from planmethod.check.model import Unread
 from planmethod.check.works.answer import read_answer
@@ -12,6 +11,7 @@ from planmethod.check.works.gather import Draft, Gathering, scale_name
 from planmethod.check.works.heads import ASPECTS, Head, read_aspect, read_head, read_quantity
 from planmethod.check.works.units import read_unit
 from planmethod.check.works.vocabulary import HEADS, POINT, key
+from planmethod.record import replace
 
 HEAD_ROWS = 20
 """Rows from the top among which the head is looked for."""

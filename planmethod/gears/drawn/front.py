@@ -6,8 +6,8 @@ import cmath
 from collections.abc import Iterator, Mapping
 from math import asin, cos, radians, sin
 
-from planmethod.gears.arrangement import Rim, Scheme
 from planmethod.gears.model import MeshKind
+from planmethod.gears.scheme import Rim, Scheme
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label

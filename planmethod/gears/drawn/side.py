@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from itertools import pairwise
 
-from planmethod.gears.arrangement import Across, Arrangement, Part, Rim, Stub, Worm
+from planmethod.gears.arrangement import Arrangement, Part, Stub
 from planmethod.gears.model import PARALLEL, MeshKind
+from planmethod.gears.scheme import Across, Rim, Worm
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from enum import Enum
 
 import numpy as np
@@ -15,7 +14,7 @@ from planmethod.gears.involute.profile import Contact, Tooth
 from planmethod.gears.involute.sizes import Pair
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 
 class Unit(Enum):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from decimal import Decimal
 from enum import Enum
 
@@ -14,7 +13,7 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.head import Published
 from planmethod.problem.model import Problem, Scales
 from planmethod.problem.selector import FORCES, MACHINE, Selector, parse_selector
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError
 from planmethod.solved.selected.quantities import Quantities, is_angle
 from planmethod.solved.selfcheck import verify

@@ -8,7 +8,7 @@ from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import given
-from planmethod.plans.model import PlanKind, Relation, Vector, VectorKind
+from planmethod.plans.model import RATES, PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.solved.solution import Solution
 
@@ -121,8 +121,7 @@ class MotionNarrator:
 
     def _turned(self, step: Compute) -> PlanKind | None:
         """Return the plan by which a step is how a link turns; None of other steps."""
-        kinds = (PlanKind.VELOCITY, PlanKind.ACCELERATION)
-        return next((kind for kind in kinds if step.out in self.kin.rates(kind).values()), None)
+        return next((kind for kind in RATES if step.out in self.kin.rates(kind).values()), None)
 
     def found(self, step: Compute) -> list[str]:
         """Return the formulas of a number that is a result, without sentences."""

@@ -135,6 +135,13 @@ def forces_records(solution: Solution) -> list[dict[str, Any]]:
             }
         ),
         "mu": [statics.scale.per_mm] * count,
+        "plans": together(
+            [
+                rows({"links": [[*plan.links]] * count, "mu": listed(own)})
+                for plan, own in zip(statics.board.plans, statics.own_scales, strict=True)
+            ],
+            count,
+        ),
         "monte_carlo": named(random, count),
     }
     if statics.lever is not None:

@@ -64,6 +64,7 @@ class SheetWording:
     lever_difference: str
     lever_expected: str
     computed_loads: str
+    load_curve: str
     from_plan: str
     all_zero: str
 

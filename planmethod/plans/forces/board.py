@@ -7,7 +7,7 @@ number, N·m. Places are those of the position plan, so arms are measured where 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import field
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import LineName, NumberName, PointName
@@ -19,7 +19,7 @@ from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.leads import Kinematics
 from planmethod.plans.segments import Ends, Segments
 from planmethod.problem.load_records import Dynamics
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 SCALE = FACTS[PlanKind.FORCE].scale
 PREFIX = FACTS[PlanKind.FORCE].prefix

@@ -12,7 +12,6 @@ a force on every link.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, Lead
@@ -41,7 +40,7 @@ from planmethod.plans.motion.position import (
 )
 from planmethod.plans.segments import Ends
 from planmethod.problem.model import Slide
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,14 +6,13 @@ which a plan is drawn, and which equation found it.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from enum import Enum
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.groups import Lead
 from planmethod.plans.model import Direction, Known, Relation
 from planmethod.plans.segments import Ends
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 
 class Share(Enum):

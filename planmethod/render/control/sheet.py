@@ -16,10 +16,10 @@ and those of `planmethod.render.control.misleading`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import pairwise
 from math import tau
 
+from planmethod.record import replace
 from planmethod.render.control.misleading import misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 
 from planmethod.note.narrate.forces.common import arm_symbol
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import Moments
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.forces.arrows import MANNER, Acting, Segment
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.labels import Label, segment_label

@@ -7,14 +7,13 @@ point from outside, or further out, wherever nothing else lies on the same line.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planmethod.plans.draft import cis
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset, vector_markup

@@ -25,4 +25,5 @@ def vertex_ellipses(reading: ForceReading, number: int) -> Ellipses:
     across = [place.real for place in places.values()]
     up = [place.imag for place in places.values()]
     size = max(max(across) - min(across), max(up) - min(up)) if places else 0.0
-    return shown_ellipses(drawn_forces(reading.statics), reading.index, places, size)
+    share = reading.share(number)
+    return shown_ellipses(drawn_forces(reading.statics), reading.index, places, size, share=share)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from math import radians
 from types import MappingProxyType
 from typing import NamedTuple
@@ -24,6 +23,7 @@ from planmethod.paper import (
     Format,
     paper_format,
 )
+from planmethod.record import replace
 from planmethod.render.frame.forms import Cell
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import (

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable, Iterator
-from dataclasses import field, replace
+from dataclasses import field
 from enum import Enum
 from math import radians
 from typing import TypeAlias
 
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Literal, TypeAlias
 
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Block
 

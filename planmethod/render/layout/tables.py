@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset

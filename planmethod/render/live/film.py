@@ -8,7 +8,7 @@ that plays by itself (SMIL, no script), or its frames as a GIF.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import field, replace
+from dataclasses import field
 from html import escape
 
 import numpy as np
@@ -22,7 +22,7 @@ from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed

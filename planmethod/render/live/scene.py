@@ -23,7 +23,7 @@ from planmethod.note.narrate.letters import mark, shown_letters
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import Fixed, Interpolation, Over, Table, Turning
 from planmethod.problem.model import Problem
@@ -126,7 +126,7 @@ class Scene:
             self.planned = plan_forces(bare, draft, applied(bare))
         self.views: list[View] = [
             self._scheme(),
-            *(self._plan(kind) for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)),
+            *map(self._plan, RATES),
             *(self._forces() if self.planned is not None else []),
         ]
         self.sweep = Sweep(problem, forces=has_loads, drawn=tuple(self._drawn))

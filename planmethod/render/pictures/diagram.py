@@ -65,11 +65,15 @@ class Ordinates:
 
 @dataclass(frozen=True, slots=True)
 class Abscissae:
-    """Axis of abscissae: what stands at its arrow, the drawn positions (mm) and their numbers."""
+    """Axis of abscissae: what stands at its arrow, the drawn positions (mm) and their numbers.
+
+    It goes on ``beyond`` what is drawn, mm.
+    """
 
     name: str
     at: tuple[float, ...]
     numbers: tuple[str, ...]
+    beyond: float = _BEYOND
 
 
 def mark_items(mark: Mark, at: complex) -> list[Item]:
@@ -110,10 +114,12 @@ def diagram_picture(
     name : str
         What the labels of this diagram begin with, for the lint.
     """
-    heights = [place.imag for curve in curves for part in curve.parts for place in part]
-    low, high = min([0.0, *heights]), max([0.0, *heights])
+    places = [place for curve in curves for part in curve.parts for place in part]
+    heights = [0.0, *(place.imag for place in places)]
+    low, high = min(heights), max(heights)
+    far = max([*across.at, *(place.real for place in places)])
     size = max(2.5, 0.7 * letter_height)
-    items = [*_axes(across, up, low, high, letter_height), *construction]
+    items = [*_axes(across, up, (low, high, far), letter_height), *construction]
     if not labels:
         items += _ordinate_numbers(up, low, high, size)
     for x in across.at:
@@ -143,10 +149,16 @@ def _every(at: Sequence[float], least: float) -> int:
     return max(1, ceil(least / min(gaps, default=least) - 1e-9))
 
 
-def _axes(across: Abscissae, up: Ordinates, low: float, high: float, height: float) -> list[Item]:
-    """Return both axes with arrows and what stands at them."""
+def _axes(
+    across: Abscissae, up: Ordinates, reach: tuple[float, float, float], height: float
+) -> list[Item]:
+    """Return both axes with arrows and what stands at them, beyond what curves reach.
+
+    ``reach`` is the lowest and the highest ordinate and the farthest abscissa, mm.
+    """
+    low, high, far = reach
     # Below the axis of abscissae there are no curves to keep clear of, but its numbers above it.
-    right, top = max(across.at) + _BEYOND, max(high + _BEYOND, 3.0 * height)
+    right, top = far + across.beyond, max(high + _BEYOND, 3.0 * height)
     items: list[Item] = [
         Stroke((0j, complex(right - _HEAD / 2, 0.0)), Pen.THIN, tag=AXIS),
         Stroke((complex(0.0, low), complex(0.0, top - _HEAD / 2)), Pen.THIN, tag=AXIS),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field, replace
+from dataclasses import field
 from math import ceil
 
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset

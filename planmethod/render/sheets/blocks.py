@@ -66,6 +66,7 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "text": Kind(text_block, ("text", *_TEXT)),
         "loads": Kind(_late("forces", "loads_view"), _VIEW),
         "load-statement": Kind(_late("forces", "statement_block"), (*_TEXT, "position")),
+        "load-curves": Kind(_late("loads", "load_curves"), (*_FORCES, "width")),
         "cut": Kind(_late("forces", "cut_view"), _FORCES, each=True),
         "force-equations": Kind(_late("forces", "equations_block"), _FORCE_TEXT, each=True),
         "force-plan": Kind(_late("forces", "plan_view"), _FORCES, each=True),

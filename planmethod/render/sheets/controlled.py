@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.mechanism.structure import analyse
 from planmethod.note.numbers import trimmed
 from planmethod.problem.model import Convention, Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.control.remarks import Finding
 from planmethod.render.control.sheet import SHORTEST, inspect
 from planmethod.render.frame.frame import FORMATS

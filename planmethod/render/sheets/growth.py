@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 from planmethod.construct.scale import Scale, series_near
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Scales
+from planmethod.record import replace
 from planmethod.render.sheets.pages import Page
 
 STEPS = 3

@@ -7,12 +7,11 @@ its own. `planmethod.render.sheets.composition.reader` reads them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.solved.room import Box
 from planmethod.solved.scaling import AS_HIGH, Views

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import combinations, groupby, pairwise, product
 from math import inf
 from typing import TypeAlias
 
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Item, View
@@ -256,7 +255,8 @@ class _Stock:
             room -= found[k].width * found[k].height
             if room < 0.0:
                 return None
-        return [Made(manner.entry, found[k]) for k, manner in enumerate(manners)]
+        made = (Made(manner.entry, found[k]) for k, manner in enumerate(manners))
+        return [one for one in made if one.block.height]
 
     def _block(self, manner: Manner) -> Block:
         entry = manner.entry

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import cached_property
 from math import pi
 
@@ -14,7 +13,7 @@ from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
 from planmethod.problem.names import told_length
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution

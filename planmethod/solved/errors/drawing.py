@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Number
-from planmethod.construct.drafting import Profile
+from planmethod.construct.drafting import AS_SCALED, Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName
@@ -75,6 +75,9 @@ class Drafted:
     items : sequence of DrawnQuantity
     points : tuple of PointName
         Those whose ellipses may be asked for.
+    enlarged : mapping of str to Number
+        How many times larger than by its scale a step is drawn, by its name: in all positions, or
+        in each, shape (count,).
     """
 
     program: Program
@@ -84,6 +87,13 @@ class Drafted:
     free: frozenset[str]
     items: tuple[DrawnQuantity, ...]
     points: tuple[PointName, ...] = ()
+    enlarged: Mapping[str, Number] = AS_SCALED
+
+    def times(self, chosen: npt.NDArray[np.intp]) -> dict[str, Number]:
+        """Return how many times larger steps are drawn in some positions."""
+        return {
+            out: times[chosen] if np.ndim(times) else times for out, times in self.enlarged.items()
+        }
 
 
 # Takers --------------------------------------------------------------------------------------

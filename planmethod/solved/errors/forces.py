@@ -14,7 +14,7 @@ import numpy as np
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
-from planmethod.construct.steps import NumberName, PointName
+from planmethod.construct.steps import AtAngle, NumberName, Parallel, Perpendicular, PointName
 from planmethod.plans.forces.board import Force, Reaction
 from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import (
@@ -91,6 +91,7 @@ class DrawnForces(Errors):
                 frozenset(map(str, free)),
                 tuple(_items(statics)),
                 tuple(sorted(_ends(statics))),
+                _enlarged(statics),
             )
         )
 
@@ -144,18 +145,36 @@ def all_errors(statics: Statics) -> Errors:
             drawn.profile,
             drawn.free,
             (*drafting_of(solution).drawing.items, *drawn.items),
+            enlarged=drawn.enlarged,
         )
     )
 
 
-def _ends(statics: Statics) -> set[PointName]:
-    """Return the points of the force plans that are drawn."""
-    return {
-        end
-        for plan in statics.board.plans
-        for edge in (*plan.polygon, *plan.wholes, *([] if plan.inner is None else [plan.inner]))
-        for end in (edge.tail, edge.head)
-    }
+def _ends(statics: Statics) -> dict[PointName, Reals]:
+    """Return the points of the force plans that are drawn, and how much larger than by scale.
+
+    A load stands on the plan of its link.
+    """
+    found: dict[PointName, Reals] = {}
+    for plan, share in zip(statics.board.plans, statics.shares, strict=True):
+        inner = () if plan.inner is None else (plan.inner,)
+        for edge in (*plan.polygon, *plan.wholes, *inner):
+            found.setdefault(edge.tail, share)
+            found.setdefault(edge.head, share)
+    return found
+
+
+def _enlarged(statics: Statics) -> dict[str, Number]:
+    """Return how many times larger than by its scale each step is drawn: whole plans, and knots."""
+    found: dict[str, Number] = {str(end): share for end, share in _ends(statics).items()}
+    for plan, share in zip(statics.board.plans, statics.shares, strict=True):
+        for given in statics.board.given:
+            if given.force is not None and given.applied.link in plan.links:
+                found.setdefault(given.force.head, share)
+    for step in statics.program.steps:
+        if isinstance(step, Parallel | Perpendicular | AtAngle) and step.through in found:
+            found[step.out] = found[step.through]
+    return {**found, **statics.hand.enlarged}
 
 
 def _items(statics: Statics) -> Iterator[DrawnQuantity]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -13,6 +12,7 @@ from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import PointName
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
+from planmethod.record import replace
 from planmethod.solved.errors.drawing import (
     Drafted,
     DrawnKind,
@@ -48,6 +48,7 @@ class Drafting(Errors):
             frozenset(str(plan.pole) for plan in solution.construction.plans),
             tuple(self._items()),
             _plan_points(solution),
+            solution.hand.enlarged,
         )
         super().__init__(drawing, draws=draws, seed=seed)
 

@@ -114,7 +114,9 @@ class Errors:
         return counted.causes
 
     def _propagate(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
-        pencil = Propagated(self.profile, self.drawing.free, self._causes)
+        pencil = Propagated(
+            self.profile, self.drawing.free, self._causes, self.drawing.times(chosen)
+        )
         trace, taken = self._take(pencil, chosen)
 
         def whole(value: Number) -> Dual:
@@ -218,7 +220,8 @@ class Errors:
         off = [name for name, dual in read.items() if dual.part is not None]
         size, turned = np.linalg.eigh(np.moveaxis(_covariance([read[name] for name in off]), -1, 0))
         root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
-        pencil = Even(self.profile, self.drawing.free)
+        wide = {out: np.atleast_1d(k)[:, None] for out, k in self.drawing.times(chosen).items()}
+        pencil = Even(self.profile, self.drawing.free, wide)
         coordinates = iter(np.moveaxis(root @ pencil.normals(root.shape[-1]), 1, 0))
         for name in off:
             value = env[name]
@@ -299,8 +302,10 @@ class Errors:
         """Return every quantity of one position from random sheets: arrays of shape (draws,)."""
         count = self.draws if draws is None else draws
         seed = (self.seed if seed is None else seed) * 1_000_003 + index
-        pencil = Sampled(self.profile, self.drawing.free, count, seed)
-        _, taken = self._take(pencil, np.array([index]))
+        chosen = np.array([index])
+        times = self.drawing.times(chosen)
+        pencil = Sampled(self.profile, self.drawing.free, count, seed, times)
+        _, taken = self._take(pencil, chosen)
         return {
             label: np.broadcast_to(np.asarray(value, dtype=float), (count,))
             for label, value in taken.items()

@@ -29,6 +29,7 @@ from planmethod.problem.load_records import (
     Turning,
 )
 from planmethod.problem.model import Problem
+from planmethod.record import replace
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.reading import Complexes, Reals, Remembering
 from planmethod.solved.solution import LinkMotion, PointMotion
@@ -267,24 +268,37 @@ def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | fl
     size = load.size
     if not isinstance(size, Table):
         return size
+    if size.over is Over.POSITION:
+        what = "force" if isinstance(load, Load) else "couple"
+        return np.asarray(size.values)[_numbers(solution, f"loads[{index}].{what}")]
+    return read(closed(size), abscissae(solution, load, index))
+
+
+def abscissae(solution: MotionValues, load: Load | Couple, index: int) -> Reals:
+    """Return where the table of a load is read in every position, shape (n,), in its own unit.
+
+    Parameters
+    ----------
+    index : int
+        The number of the load in the file.
+    """
+    size = load.size
+    assert isinstance(size, Table)
     match size.over:
-        case Over.POSITION:
-            what = "force" if isinstance(load, Load) else "couple"
-            return np.asarray(size.values)[_numbers(solution, f"loads[{index}].{what}")]
+        case Over.POSITION | Over.S:
+            return solution.positions
         case Over.PHI:
-            return _periodic(size, solution.positions)
-        case Over.S:
-            return _read(size, solution.positions)
+            return size.at[0] + _from(solution.positions, size.at[0], size.turn)
         case Over.X | Over.Y:
             assert isinstance(load, Load), "a couple has no point"
             place = solution.points[load.at].place
-            return _read(size, place.real if size.over is Over.X else place.imag)
+            return place.real if size.over is Over.X else place.imag
         case Over.PATH | Over.STROKES:
             assert isinstance(load, Load), "a couple has no point"
             turn, place = _turn(solution), solution.points[load.at].place
             stroke = turn.stroke(load.at)
             if size.over is Over.PATH:
-                return _read(size, stroke.share(place))
+                return stroke.share(place)
             given, there = round(size.at[-1]), len(stroke.dead)
             if given != there:
                 fault = Fault(
@@ -300,7 +314,7 @@ def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | fl
                 )
                 raise ProblemError(solution.problem.name, [fault])
             turned = turn.turned(solution.positions)
-            return _read(size, stroke.progress(turned, place, turn.cycle))
+            return stroke.progress(turned, place, turn.cycle)
 
 
 def _turn(solution: MotionValues) -> TurnMotion:
@@ -316,18 +330,15 @@ def _turn_of(solution: MotionValues) -> TurnMotion:
     return TurnMotion(solution.problem)
 
 
-def _periodic(table: Table, phi: Reals) -> Reals:
-    """Read a table that repeats with every turn."""
-    start = table.at[0]
-    at = tuple(node - start for node in table.at)
-    values = table.values
-    if at[-1] < table.turn:
-        at, values = (*at, table.turn), (*values, values[0])
-    since = _from(phi, start, table.turn)
-    return _read(Table(table.over, at, values, table.interpolation), since)
+def closed(table: Table) -> Table:
+    """Return a table with the row at which it repeats, if it does."""
+    end = table.at[0] + table.turn
+    if table.over is not Over.PHI or table.at[-1] >= end:
+        return table
+    return replace(table, at=(*table.at, end), values=(*table.values, table.values[0]))
 
 
-def _read(table: Table, at: Reals) -> Reals:
+def read(table: Table, at: Reals) -> Reals:
     """Read a table; beyond its ends it keeps their values."""
     nodes, values = np.asarray(table.at), np.asarray(table.values)
     if table.interpolation is Interpolation.LINEAR:

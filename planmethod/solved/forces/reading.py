@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import replace
 from functools import cached_property
 
 from planmethod.construct.scale import Scale
@@ -19,6 +18,7 @@ from planmethod.plans.forces.polygons import (
 )
 from planmethod.plans.segments import Ends
 from planmethod.problem.model import Balancing, Problem
+from planmethod.record import replace
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reading, Remembering, remembered
 from planmethod.solved.solution import Solution

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from planmethod.construct.steps import Name
 from planmethod.plans.forces.board import SCALE, Board, Reaction
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.record import replace
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces
 from planmethod.solved.results import Results

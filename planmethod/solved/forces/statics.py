@@ -7,7 +7,6 @@ of the drawings, whoever reads them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -28,7 +27,7 @@ from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import Contact, JointForce, contacts
 from planmethod.solved.forces.loads import applied
@@ -39,12 +38,11 @@ from planmethod.solved.room import Box
 from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 
 UNIT = FACTS[PlanKind.FORCE].unit
-PLAN_BOX: Box = (100.0, 100.0)
-"""What the largest of the force plans shall fill, mm: a usual size on training drawings."""
+COMMON_BOX: Box = (100.0, 100.0)
+"""What the largest of all force plans fills at the scale that they have in common, mm."""
 
-SMALL, SMALL_BOX = 0.4, (60.0, 60.0)
-"""A plan that takes less than that part of the room has a scale of its own, to fill a room of its
-own, mm."""
+PLAN_BOX: Box = (200.0, 150.0)
+"""What each force plan fills at the scale of its own at which it is drawn, mm."""
 
 FAINT = 1e-6
 """A plan that is so small a part of what it is in its largest position is nothing."""
@@ -238,7 +236,7 @@ class Statics(Remembering):
         extents = [self._extent(plan) for plan in self.board.plans]
         whole = (max(e[0] for e in extents), max(e[1] for e in extents))
         inverse = scales.convention is Convention.MM_PER_UNIT
-        return Scale(SCALE, choose_scale(whole, PLAN_BOX, mm_per_unit=inverse), UNIT)
+        return Scale(SCALE, choose_scale(whole, COMMON_BOX, mm_per_unit=inverse), UNIT)
 
     def _extent(self, plan: ForcePlan) -> Box:
         """Return width and height of a plan in the position where it is the widest, N."""
@@ -252,39 +250,41 @@ class Statics(Remembering):
         return np.ptp(places.real, axis=0), np.ptp(places.imag, axis=0)
 
     @cached_property
-    def shares(self) -> list[Reals]:
-        """How many times larger than by `scale` each plan is drawn, by positions, shape (n,).
+    def own_scales(self) -> list[Reals]:
+        """Scale of each plan, by positions, N per mm, shape (n,): one that the file gives is all's.
 
-        Such a plan has a scale of its own. One that the file gives is that of all.
+        Plans that are nothing have the common one.
         """
-        found = [np.ones(len(self.solution.positions)) for _ in self.board.plans]
+        found = [np.full(len(self.solution.positions), self.scale.per_mm) for _ in self.board.plans]
         scales = self.solution.problem.scales
         if scales.mu_F is not None:
             return found
         inverse = scales.convention is Convention.MM_PER_UNIT
-        for plan, share in zip(self.board.plans, found, strict=True):
-            size = np.maximum(*self._extents(plan))
-            over = size / PLAN_BOX[0] / self.scale.per_mm
-            small = np.flatnonzero((over < SMALL) & (size > FAINT * np.max(size, initial=0.0)))
-            for index in small:
-                box = (float(size[index]), 0.0)
-                own = choose_scale(box, SMALL_BOX, mm_per_unit=inverse)
-                share[index] = self.scale.per_mm / own
+        for plan, own in zip(self.board.plans, found, strict=True):
+            extents = self._extents(plan)
+            size = np.maximum(*extents)
+            for index in np.flatnonzero(size > FAINT * np.max(size, initial=0.0)):
+                box = float(extents[0][index]), float(extents[1][index])
+                own[index] = choose_scale(box, PLAN_BOX, mm_per_unit=inverse)
         return found
+
+    @cached_property
+    def shares(self) -> list[Reals]:
+        """How many times larger than by `scale` each plan is drawn, by positions, shape (n,)."""
+        return [self.scale.per_mm / own for own in self.own_scales]
 
     def own_scale(self, number: int, index: int) -> Scale:
         """Return the scale at which one of the plans is drawn in a position."""
-        return Scale(SCALE, self.scale.per_mm / float(self.shares[number][index]), UNIT)
+        return Scale(SCALE, float(self.own_scales[number][index]), UNIT)
 
     @cached_property
     def hand(self) -> Hand:
-        """Hand that reads each force on the plan that finds it, at the scale of that."""
+        """Hand that reads each force on the plan that finds it first, at the scale of that."""
         segments, own = self.board.segments, self.solution.hand
-        enlarged: dict[str, Number] = {
-            segments.drawn(edge.ends): share
-            for plan, share in zip(self.board.plans, self.shares, strict=True)
-            for edge in plan.reactions
-        }
+        enlarged: dict[str, Number] = {}
+        for plan, share in zip(self.board.plans, self.shares, strict=True):
+            for edge in plan.reactions:
+                enlarged.setdefault(segments.drawn(edge.ends), share)
         return replace(own, enlarged={**own.enlarged, **enlarged})
 
     @property

@@ -9,7 +9,6 @@ delta²/4 (Artobolevsky, Theory of mechanisms, ch. 19).
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 from math import pi
 from typing import TypeVar
@@ -32,7 +31,7 @@ from planmethod.problem.load_records import (
     Signs,
 )
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.course.curve import Curve, joined
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.forces.statics import statics_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +13,7 @@ from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.failures import (
     Cause,
     Doubt,

@@ -9,7 +9,7 @@ from planmethod.construct.steps import LayOff, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import ZERO
-from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.plans.motion.board import Motion
 from planmethod.plans.segments import Segments
 from planmethod.problem.selector import ANALOGUES, POLE, Selector
@@ -18,7 +18,7 @@ from planmethod.solved.solution import Solution
 
 PLANS: Mapping[str, PlanKind] = {
     "length": PlanKind.POSITION,
-    **{f"segment {kind.value}": kind for kind in MOTION[1:]},
+    **{f"segment {kind.value}": kind for kind in RATES},
 }
 """Quantities in millimetres of a plan, and of which."""
 
@@ -29,7 +29,7 @@ COMPONENTS: Mapping[str, PlanKind] = {
 }
 
 MAGNITUDES: Mapping[str, PlanKind] = {
-    **{FACTS[kind].letter: kind for kind in MOTION[1:]},
+    **{FACTS[kind].letter: kind for kind in RATES},
     "vs": PlanKind.VELOCITY,
 }
 

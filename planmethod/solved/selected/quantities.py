@@ -11,6 +11,7 @@ from functools import cached_property
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
+from planmethod.plans.legend import PLAN_OF
 from planmethod.plans.model import PlanKind
 from planmethod.problem.selector import ANALOGUES, FORCES, Selector
 from planmethod.solved.analogues import analogues
@@ -126,11 +127,10 @@ class Quantities:
             reach = self._reach(name)
             return (PlanKind.POSITION, math.degrees(1.0 / reach)) if reach else None
         rates = {"omega": self.kin.omega, "epsilon": self.kin.epsilon}.get(kind, {})
-        plan = PlanKind.VELOCITY if kind == "omega" else PlanKind.ACCELERATION
         for (of, link), turning in self.kin.turnings.items():
             # Links of a prismatic pair turn alike: the rate was read on one of them.
-            if of is plan and name in rates and rates[link] == rates[name]:
-                return plan, 1.0 / abs(self._place(turning.place) - self._place(turning.joint))
+            if of is PLAN_OF.get(kind) and name in rates and rates[link] == rates[name]:
+                return of, 1.0 / abs(self._place(turning.place) - self._place(turning.joint))
         return None
 
     def _place(self, point: str) -> complex:

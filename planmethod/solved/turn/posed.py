@@ -7,7 +7,6 @@ mechanism assembles anywhere is tried, and a root counts if the rules close the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from planmethod.languages import say
 from planmethod.problem.keys import EXTREMES, GOING, UNITS
 from planmethod.problem.model import Posed, PosedBy, Problem, Zero
 from planmethod.problem.names import split_pair, told_length
+from planmethod.record import replace
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.solution import Solution

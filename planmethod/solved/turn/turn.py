@@ -8,7 +8,6 @@ or a group just closes, are roots of what the program says there.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from enum import Enum
 from functools import cached_property, partial
 
@@ -21,7 +20,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import CycleTask, Zero
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from planmethod.construct.steps import Name
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.narrate.equations import balance_lines
@@ -18,6 +16,7 @@ from planmethod.note.narrate.structure import group_title
 from planmethod.note.plaintext import WIDTH
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import Known
+from planmethod.record import replace
 from planmethod.solved.forces.reading import ForceReading
 
 
@@ -48,7 +47,8 @@ def tell_forces(text: Steps, say: Formulas, index: int) -> None:
 def _loads(text: Steps, context: ForceContext) -> None:
     said, voice = context.said, LoadNarrator(context)
     text.chapter(said.title_loads)
-    text.item([said.scale.format(scale=voice.scale())])
+    if context.solution.problem.scales.mu_F is not None:
+        text.item([said.scale.format(scale=voice.scale())])
     for link in context.solution.problem.mechanism.links:
         text.item(voice.link(link))
 
@@ -84,7 +84,7 @@ def _plan(text: Steps, context: ForceContext, plan: ForcePlan, number: int) -> N
         return
     for lines in moments.before():
         text.item(lines)
-    if voice.scale != context.reading.scale:
+    if context.solution.problem.scales.mu_F is None:
         text.item([context.said.own_scale.format(scale=voice.inscription())])
     for lines in voice.steps():
         text.item(lines)

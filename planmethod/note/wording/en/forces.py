@@ -24,7 +24,7 @@ FORCES = ForceWording(
     absent="{symbol} does not act in this position",
     unloaded="Link {link} is taken for weightless; no load is given on it.",
     title_plans="Force analysis",
-    own_scale="The plan has a scale of its own: {scale}.",
+    own_scale="We take the scale {scale} for this plan.",
     order="We go in the order opposite to that of the kinematics: {order}.",
     indices="The first index of a reaction is the link that it acts on, the second the link that "
     "exerts it; 0 is the frame. The arms h are measured on the position plan.",

@@ -54,6 +54,7 @@ SHEETS = SheetWording(
     lever_difference="Difference {share} %",
     lever_expected="Expected standard deviation of the difference σ = {sigma}",
     computed_loads="Weights and inertia forces: {loads}.",
+    load_curve="Diagram of load {name}",
     from_plan="From the force plan: {found}.",
     all_zero="All forces are zero, there is no plan: {zeros} = 0.",
     reactions="Reactions in the joints",

@@ -54,6 +54,7 @@ SHEETS = SheetWording(
     lever_difference="Расхождение {share} %",
     lever_expected="Ожидаемое СКО расхождения σ = {sigma}",
     computed_loads="Силы тяжести и инерции: {loads}.",
+    load_curve="Диаграмма нагрузки {name}",
     from_plan="Из плана сил: {found}.",
     all_zero="Все силы равны нулю, план не строится: {zeros} = 0.",
     reactions="Реакции в кинематических парах",

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from planmethod.languages import say
-from planmethod.plans.model import MOTION, PlanKind
+from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.fields import Faults, Table, read_keys, read_text
 from planmethod.problem.names import is_label
 from planmethod.render.sheets.blocks import BLOCKS
@@ -40,7 +40,7 @@ GROUP_DEPTH = 4
 MOST_PER_ROW = 12
 MOST_LETTERS = 40
 
-OF = {kind.value: kind for kind in MOTION if kind is not PlanKind.POSITION}
+OF = {kind.value: kind for kind in RATES}
 COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
 
 

@@ -1,0 +1,121 @@
+"""Every shipped problem (задачи поставки): solved in its variants, drawn, looked over.
+
+Run ``python -m benchmarks.shipped [PROBLEM]...``; it prints what does not solve, what the norm
+control marks, and the counts.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+
+from benchmarks.sheets import positions_of
+from planmethod.commands.problems import guarded
+from planmethod.construct.drafting import PROFILES
+from planmethod.errors import PlanMethodError
+from planmethod.kinds import kind_of, load
+from planmethod.note.records.solution import record
+from planmethod.problem import variant_names
+from planmethod.problem.tasks import home
+from planmethod.render.control.remarks import REMARKS
+from planmethod.render.sheets.controlled import (
+    Controlled,
+    controlled_kinematics,
+    looked_over,
+)
+from planmethod.solved.solution import Solution
+
+HEAD = ("| files | positions | sheets | errors | warnings | of them |", "| --- " * 6 + "|")
+
+
+def solved(path: Path, variant: str | None) -> None:
+    """Solve a problem of any kind in a variant."""
+    kind = kind_of(path)
+    if kind is None:
+        record(Solution(load(path, variant=variant)))
+    else:
+        kind.record(kind.load(path, variant), "ru")
+
+
+def looked(path: Path, variant: str | None, count: int) -> list[Controlled]:
+    """Draw the default sheets in so many positions and look them over; of trains only the one."""
+    kind = kind_of(path)
+    if kind is not None:
+        problem = kind.load(path, variant)
+        return looked_over(
+            kind.drawings(problem, fields={}, profile=PROFILES["board"]), kind.scales
+        )
+    linkage = load(path, variant=variant)
+    own = count == 1 and len(linkage.drive.positions) == 1
+    return controlled_kinematics(linkage, positions=None if own else positions_of(linkage, count))
+
+
+def _files(problems: tuple[Path, ...]) -> Iterator[tuple[Path, list[str | None]]]:
+    for path in problems or sorted(home().rglob("*.toml")):
+        yield path, [*variant_names(path)] or [None]
+
+
+@click.command()
+@click.argument("problems", nargs=-1, metavar="[PROBLEM]...", type=click.Path(path_type=Path))
+@click.option("--positions", "counts", type=int, multiple=True, default=(1, 3), show_default=True)
+@click.option("--all-variants", is_flag=True, help="Sheets of every variant, not of the first.")
+@guarded
+def main(problems: tuple[Path, ...], counts: tuple[int, ...], all_variants: bool) -> None:
+    """Solve every shipped problem in all its variants, draw its sheets and look them over."""
+    files = list(_files(problems))
+    tried = failed = 0
+    for path, variants in files:
+        for variant in variants:
+            tried += 1
+            try:
+                solved(path, variant)
+            except PlanMethodError as error:
+                failed += 1
+                click.echo(f"{_called(path, variant)}: {error}")
+    click.echo(f"{len(files)} files, {tried} problems with their variants, {failed} unsolved.\n")
+    rows = [_row(files, count, all_variants) for count in counts]
+    click.echo("\n".join(("", *HEAD, *rows)))
+
+
+def _row(files: list[tuple[Path, list[str | None]]], count: int, all_variants: bool) -> str:
+    """Look over the sheets of all files in so many positions; return their row."""
+    drawn = sheets = 0
+    codes: Counter[str] = Counter()
+    for path, variants in files:
+        if count > 1 and kind_of(path) is not None:
+            continue
+        drawn += 1
+        for variant in variants if all_variants else variants[:1]:
+            try:
+                seen = looked(path, variant, count)
+            except PlanMethodError as error:
+                codes["undrawn"] += 1
+                click.echo(f"{_called(path, variant)} in {count}: {error}")
+                continue
+            sheets += len(seen)
+            found = [finding.code for sheet in seen for finding in sheet.findings]
+            codes.update(found)
+            wrong = [code for code in found if REMARKS[code].severity == "error"]
+            if wrong:
+                click.echo(f"{_called(path, variant)} in {count}: {', '.join(wrong)}")
+    errors = sum(n for code, n in codes.items() if code not in REMARKS or _is_error(code))
+    warnings = {code: n for code, n in sorted(codes.items()) if code in REMARKS}
+    of_them = ", ".join(f"{n} {code}" for code, n in warnings.items() if not _is_error(code))
+    return (
+        f"| {drawn} | {count} | {sheets} | {errors} | {sum(codes.values()) - errors} | {of_them} |"
+    )
+
+
+def _called(path: Path, variant: str | None) -> str:
+    return path.stem if variant is None else f"{path.stem} {variant}"
+
+
+def _is_error(code: str) -> bool:
+    return REMARKS[code].severity == "error"
+
+
+if __name__ == "__main__":
+    main()

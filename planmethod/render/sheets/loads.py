@@ -1,0 +1,141 @@
+"""Loads that change as the file has them, over what it has them (диаграммы нагрузок)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil, floor
+
+import numpy as np
+
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.problem.load_records import Couple, Interpolation, Load, Over, Table
+from planmethod.problem.model import Convention
+from planmethod.record import replace
+from planmethod.render.ink.drawing import Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column
+from planmethod.render.pictures.diagram import Abscissae, Curve, Mark, Ordinates, diagram_picture
+from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.views import named, shown_position
+from planmethod.solved.forces.loads import abscissae, closed, external, read
+from planmethod.solved.solution import Solution
+
+_ACROSS, _UP = 0.5, 0.15
+"""Largest width and height of a diagram, parts of the width of a column."""
+
+_NUMBERS = 6
+"""Most steps between the numbers of the axis of abscissae."""
+
+
+def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the tables of loads over angles, coordinates and strokes, and what a position has.
+
+    Where a load does not act it has nothing.
+    """
+    dynamics, index = solution.problem.dynamics, shown_position(solution, indices, manner)
+    assert dynamics is not None
+    blocks: list[Block] = []
+    for number, load in enumerate(dynamics.loads):
+        if not isinstance(load.size, Table) or load.size.over is Over.POSITION:
+            continue
+        acting = [one for one in external(solution, dynamics, load.link) if one.name == load.name]
+        acts = any(one.force[index] if one.point else one.couple[index] for one in acting)
+        table = _from_zero(load.size)
+        at = float(abscissae(solution, load, number)[index])
+        at = at % table.turn if table.over is Over.PHI else at
+        blocks.append(_diagram(solution, load, table, at if acts else None, manner))
+    return Column(blocks, gap=8.0)
+
+
+def _diagram(
+    solution: Solution, load: Load | Couple, table: Table, now: float | None, manner: Manner
+) -> Block:
+    say, (letter, unit) = manner.words.say, _over(solution, load, table)
+    column, start, span = manner.width(manner.sizes.column), table.at[0], table.at[-1] - table.at[0]
+    across = choose_scale((span, 0.0), (_ACROSS * column, 1.0))
+    reach = max(*table.values, 0.0) - min(*table.values, 0.0)
+    up = choose_scale((0.0, reach), (1.0, _UP * column))
+    step = choose_scale((span, 0.0), (_NUMBERS, 1.0))
+    first, last = ceil(start / step - 1e-9), floor((start + span) / step + 1e-9)
+    ticks = [step * k for k in range(first, last + 1)]
+    marks: list[tuple[Mark, complex]] = []
+    found: list[Item] = []
+    if now is not None:
+        value = float(read(table, np.array(now))) / up
+        foot = min(max(now - start, 0.0), span) / across
+        marks.append((Mark.RING, complex(foot, value)))
+        found.append(Stroke((foot, complex(foot, value), 1j * value), Pen.THIN, tag="found"))
+    symbol, newtons = ("F", "N") if isinstance(load, Load) else ("M", "N·m")
+    picture = diagram_picture(
+        Abscissae(
+            letter,
+            tuple((tick - start) / across for tick in ticks),
+            tuple(say.given(tick) for tick in ticks),
+            typeset(letter, manner.letter).width + 5.0,
+        ),
+        Ordinates(f"{load.name}, {say.units[newtons]}", up, say),
+        [Curve("", _parts(table, across, up))],
+        marks,
+        letter_height=manner.letter,
+        name=f"load {load.name}",
+        construction=found,
+    )
+    scales = [Scale(f"mu_{symbol}", up, newtons)]
+    scales += [Scale(f"mu_{letter[0]}", across, unit)] if unit else []
+    told = "; ".join(scale_inscription(one, Convention.UNIT_PER_MM, say) for one in scales)
+    title = manner.words.sheets.load_curve.format(name=load.name)
+    return named(picture, title, [told], manner)
+
+
+def _from_zero(table: Table) -> Table:
+    """Return a table over a turn from zero on, wherever its rows begin; others as they are."""
+    if table.over is not Over.PHI:
+        return table
+    whole, turn = closed(table), table.turn
+    start = whole.at[0] % turn
+    end = start + whole.at[-1] - whole.at[0]
+    rows = [
+        (start + at - whole.at[0], value) for at, value in zip(whole.at, whole.values, strict=True)
+    ]
+    if start and turn < end:
+        cut = (turn, float(read(whole, np.array(turn - start + whole.at[0]))))
+        rows = (
+            [(cut[0] - turn, cut[1])]
+            + [(at - turn, value) for at, value in rows if at > turn]
+            + [row for row in rows if row[0] < turn]
+            + [cut]
+        )
+    return replace(table, at=tuple(at for at, _ in rows), values=tuple(value for _, value in rows))
+
+
+def _over(solution: Solution, load: Load | Couple, table: Table) -> tuple[str, str]:
+    """Return the letter of what a table is over, and its unit; none of a share of the stroke."""
+    if table.over in (Over.PHI, Over.S):
+        coordinate = solution.problem.drive.coordinate
+        return coordinate.symbol, coordinate.unit
+    assert isinstance(load, Load), "a couple has no point"
+    point = point_name(load.at)
+    if table.over in (Over.X, Over.Y):
+        return f"{table.over.value}_{{{point}}}", "m"
+    return f"s_{{{point}}}/H", ""
+
+
+def _parts(table: Table, across: float, up: float) -> tuple[tuple[complex, ...], ...]:
+    """Return the unbroken parts of a curve, mm: it ends where the table jumps."""
+    rows = list(zip(table.at, table.values, strict=True))
+    if table.interpolation is Interpolation.STEP:
+        ends = [*table.at[1:], table.at[-1]]
+        broken = [[(at, value), (end, value)] for (at, value), end in zip(rows, ends, strict=True)]
+    else:
+        broken = [[]]
+        for row in rows:
+            if broken[-1] and broken[-1][-1][0] == row[0]:
+                broken.append([])
+            broken[-1].append(row)
+    return tuple(
+        tuple(complex((at - table.at[0]) / across, value / up) for at, value in part)
+        for part in broken
+        if len(part) > 1
+    )

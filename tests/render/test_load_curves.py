@@ -1,0 +1,71 @@
+"""Diagrams of the loads that are tables: their rows, and what a position has of them."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from worked import problem_of
+
+from planmethod.note.wording import language
+from planmethod.problem.load_records import Interpolation, Over, Table
+from planmethod.problem.model import Problem
+from planmethod.render.ink.drawing import Arc, Item, Stroke
+from planmethod.render.pictures.diagram import AXIS, CURVE
+from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.loads import load_curves
+from planmethod.render.sheets.model import Extras, Manner
+from planmethod.solved.solution import Solution
+
+LAYOUT = composition("forces")
+(ENTRY,) = (entry for entry in LAYOUT.blocks if entry.kind == "load-curves")
+MANNER = Manner(ENTRY, LAYOUT.sizes_for("A1"), 800.0, Extras(language("en")))
+
+
+def with_table(table: Table, phi: float) -> list[Item]:
+    problem = problem_of("press/press")
+    assert problem.dynamics is not None
+    (load,) = problem.dynamics.loads
+    dynamics = replace(problem.dynamics, loads=(replace(load, size=table),))
+    changed: Problem = replace(problem, dynamics=dynamics)
+    return load_curves(Solution(changed, positions=[phi]), [0], MANNER).place(0j)
+
+
+def corner(items: list[Item]) -> complex:
+    across = max((i for i in items if isinstance(i, Stroke) and i.tag == AXIS),
+                 key=lambda axis: axis.points[1].real - axis.points[0].real)  # fmt: skip
+    return across.points[0]
+
+
+@pytest.mark.parametrize("turned", [0.0, 40.0, 130.0, 300.0])
+@pytest.mark.parametrize("interpolation", Interpolation)
+def test_a_ring_stands_on_the_curve_where_the_load_is(
+    turned: float, interpolation: Interpolation
+) -> None:
+    """Wherever the rows of a turn begin, the axis is from 0 to 360 degrees."""
+    at = (turned, turned + 90.0, turned + 200.0)
+    items = with_table(Table(Over.PHI, at, (100.0, 500.0, 300.0), interpolation), 250.0)
+    (ring,) = (item.centre for item in items if isinstance(item, Arc))
+    parts = [i.points for i in items if isinstance(i, Stroke) and i.tag.startswith(CURVE)]
+    start = corner(items)
+    places = np.array([place - start for points in parts for place in points])
+    assert np.ptp(places.real) == pytest.approx(360.0 / 4.0)
+    assert (ring - start).real == pytest.approx(250.0 / 4.0)
+    on = [
+        abs(abs(ring - a) + abs(b - ring) - abs(b - a))
+        for points in parts
+        for a, b in itertools.pairwise(points)
+    ]
+    assert min(on) < 1e-9
+
+
+def test_where_a_load_does_not_act_its_diagram_shows_no_size() -> None:
+    assert not [
+        i for i in with_table(Table(Over.PHI, (0.0, 90.0), (0.0, 0.0)), 50.0) if isinstance(i, Arc)
+    ]
+
+
+def test_loads_that_do_not_change_have_no_diagram() -> None:
+    assert load_curves(Solution(problem_of("levers/six-link")), [0], MANNER).height == 0.0
