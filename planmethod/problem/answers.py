@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
+from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.extras import check_what, read_position
 from planmethod.problem.fields import (
@@ -40,8 +40,8 @@ DIGIT_LIMIT = 8
 POINTS_LIMIT = 1000.0
 
 # No sign that would begin a formula in a spreadsheet, no space that a form could lose.
-_ID_RE = re.compile(r"[^\W\d_][\w./@'{}^-]*\Z")
-_REACTION_RE = re.compile(r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z")
+_ID_RE = pattern(r"[^\W\d_][\w./@'{}^-]*\Z")
+_REACTION_RE = pattern(r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z")
 _BALANCING = {"dr": "balance", "lever": "lever"}
 _TAKEN = (*keys.SCALES[1:], "ruler_mm")
 """What a row of a group's table is called that is no answer."""
