@@ -224,13 +224,16 @@ def coriolis_of_absolute(scene: Scene) -> Iterator[Change]:
 
 
 def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
-    """A5: ω of the crank in place of that of the slotted link."""
+    """A5: ω of the crank in place of that of the slotted link: its size alone, its sense as well."""
     drive = scene.problem.drive
     rate = scene.kin.omega.get(drive.link)
     for relative, step in _turned(scene):
         if rate is not None and rate in scene.made and step.powers[0][0] != rate:
-            made = scene.signed(step, ((rate, 1), step.powers[1]), abs(step.factor))
-            yield Change("A5", relative.name, {step.out: (made,)})
+            powers = ((rate, 1), step.powers[1])
+            sized = scene.signed(step, powers, abs(step.factor))
+            for factor in dict.fromkeys((sized.factor, step.factor)):
+                made = Compute(step.out, factor, powers)
+                yield Change("A5", relative.name, {step.out: (made,)})
 
 
 def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:
