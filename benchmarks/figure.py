@@ -14,6 +14,8 @@ from planmethod.bench.speed import Reading
 
 MARKS = (
     ("sweep, float64", "o", "#1f5aa6"),
+    ("sweep, machine code", "P", "#d2691e"),
+    ("sweep, bound call", "*", "#d2691e"),
     ("sweep, float32", "s", "#5aa61f"),
     ("step by step", "D", "#7b3fa0"),
     ("solve()", "D", "#b58cc9"),
@@ -41,7 +43,7 @@ def draw(
 
 def _errors(axes: Axes, readings: Sequence[Reading], rivals: Sequence[Rival]) -> None:
     for start, mark, colour in MARKS:
-        mine = [r for r in readings if r.name.startswith(start)]
+        mine = [r for r in readings if r.name.startswith(start) and r.error == r.error]
         if not mine:
             continue
         axes.loglog(
@@ -62,6 +64,10 @@ def _errors(axes: Axes, readings: Sequence[Reading], rivals: Sequence[Rival]) ->
                 label=rival.name,
                 markersize=7,
             )
+    stored = [r.per_position for r in readings if r.name.startswith("its results stored")]
+    if stored:  # nothing that keeps its results is to the left of it
+        limit = min(stored)
+        axes.axvline(limit, color="0.4", linestyle=":", label="results stored, nothing computed")
     axes.set_xlabel("time for a position, s")
     axes.set_ylabel("largest error, parts of the largest value")
     axes.set_ylim(1e-55, 1)

@@ -13,12 +13,14 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from benchmarks.scenes import MANY_LOADS
 from planmethod.bench.clock import Timing, clock
 from planmethod.kinds import part_of
 from planmethod.note.wording import language
 from planmethod.problem import load, template
 from planmethod.render.backends import render
 from planmethod.render.ink.drawing import Drawing
+from planmethod.render.labels.place import _placed
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sketch import VIEWS, sketch
 
@@ -57,6 +59,19 @@ COMMANDS = (
 )
 
 
+LOADED = (
+    ("solve --json, 360 loaded positions", 0.5, "press", ("solve", "--json", "--phi", "0:359:1")),
+    (
+        "sheet --layout forces-cycle, 36 positions",
+        1.5,
+        "press",
+        ("sheet", "--layout", "forces-cycle", "--phi", "0:350:10", "-o", "{out}"),
+    ),
+    ("solve --json, 60 loads on a point", 1.0, "loads", ("solve", "--json")),
+)
+"""Commands on loaded mechanisms: a name, seconds that it may take, the problem, words."""
+
+
 @dataclass(frozen=True, slots=True)
 class Command:
     """What one command costs.
@@ -83,17 +98,22 @@ class Command:
 def commands(*, runs: int = 5) -> list[Command]:
     """Measure commands on a slotted link, each in processes of its own, taking turns.
 
-    First come the yardsticks.
+    First come the yardsticks, last those on loaded mechanisms.
     """
     with tempfile.TemporaryDirectory() as folder:
         problem = Path(folder) / "slotted-link.toml"
         problem.write_text(template("slotted-link"), encoding="utf-8")
+        press, many = ROOT / "problems" / "press" / "press.toml", Path(folder) / "loads.toml"
+        many.write_text(MANY_LOADS, encoding="utf-8")
         lines: list[tuple[str, list[str]]] = []
         for name, more in COMMANDS:
             words = name.split()
             target = [] if name.startswith("--") else [str(problem)]
             rest = [word.format(out=folder) for word in more]
             lines.append((name, [words[0], *target, *words[1:], *rest]))
+        for name, _, which, loaded in LOADED:
+            rest = [word.format(out=folder) for word in loaded[1:]]
+            lines.append((name, [loaded[0], str(press if which == "press" else many), *rest]))
         plain = [[sys.executable, "-c", source] for source in YARDSTICKS]
         # The module is run as the installed script runs it.
         start = "import sys; from planmethod.cli import main; main()"
@@ -142,7 +162,12 @@ def warm_sheets() -> list[tuple[str, Timing, Timing]]:
             clock(again, enough=1.0, least=3),
             clock(partial(render, again(), "svg"), enough=1.0, least=3),
         )
-    make = clock(lambda: kinematics_sheets(problem), enough=2.0, least=3)
+
+    def drawn() -> list[Drawing]:
+        _placed.cache_clear()  # else the letters would have their places already
+        return kinematics_sheets(problem)
+
+    make = clock(drawn, enough=2.0, least=3)
     sheet = kinematics_sheets(problem)[0]
     return [
         *((f, make, clock(partial(render, sheet, f), enough=1.0, least=3)) for f in FORMATS),
@@ -152,6 +177,7 @@ def warm_sheets() -> list[tuple[str, Timing, Timing]]:
 
 def _sketched(path: Path) -> Drawing:
     """Read a file again and draw its sketch, as ``--watch`` does."""
+    _placed.cache_clear()
     title, part = part_of(path, variant=None, views=VIEWS)
     return sketch(part, title, language("en"), [])
 

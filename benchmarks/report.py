@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import platform
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks import processes, rivals
+from benchmarks import bounds, processes, rivals
 from benchmarks.figure import draw
+from benchmarks.many import many_section
 from benchmarks.peers import PEERS, missing
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
 from planmethod.bench import speed
@@ -191,45 +193,76 @@ def memory_section(rows: Sequence[tuple[str, float]]) -> Table:
 # The whole --------------------------------------------------------------------------------------
 
 
-def measure(say: Callable[[str], None], *, quick: bool = False) -> tuple[list[Table], bytes]:
-    """Measure everything and return the sections and the figure.
+class Measured:
+    """What is measured when a section is asked for; the figure shows some of it again.
 
     Parameters
     ----------
-    say : callable
-        Told what is being measured.
     quick : bool
         Smaller sizes and fewer runs: a look, not a measurement.
     """
-    sizes = (12, 10_000) if quick else rivals.SIZES
-    say("time against error")
-    readings = [
-        *speed.sweeps(fourbar(), sizes, FOURBAR_ROWS),
-        *speed.sweeps(slotted(), sizes),
-        *speed.single_readings(fourbar()),
-        *speed.single_readings(slotted()),
-    ]
-    say("peers")
-    compared = rivals.rivals(sizes, rounds=1 if quick else 3)
-    say("positions and links")
-    counts = (1, 12, 100, 1000, 10_000) + (() if quick else (100_000, 1_000_000))
-    positions = rivals.by_positions(counts)
-    links = rivals.by_links((1, 2, 5) if quick else (1, 2, 4, 8, 16, 25))
-    say("scenes")
-    scenes = rivals.by_scene()
-    say("commands")
-    commands = processes.commands(runs=1 if quick else 7)
-    warm = processes.warm_sheets()
-    say("memory")
-    sections = [
-        speed_section(readings),
-        rivals_section(compared),
-        growth_section(positions, links),
-        scenes_section(scenes),
-        commands_section(commands, warm),
-        memory_section(processes.memory()),
-    ]
-    return sections, draw(readings, compared, positions, links)
+
+    def __init__(self, *, quick: bool = False) -> None:
+        self.quick = quick
+        self.sizes = (12, 10_000) if quick else rivals.SIZES
+
+    @cached_property
+    def readings(self) -> list[speed.Reading]:
+        """Time beside error of two mechanisms."""
+        return [
+            *speed.sweeps(fourbar(), self.sizes, FOURBAR_ROWS),
+            *speed.sweeps(slotted(), self.sizes),
+            *speed.single_readings(fourbar()),
+            *speed.single_readings(slotted()),
+        ]
+
+    @cached_property
+    def compared(self) -> list[rivals.Rival]:
+        """The four-bar and its peers."""
+        return rivals.rivals(self.sizes, rounds=1 if self.quick else 9)
+
+    @cached_property
+    def positions(self) -> list[tuple[int, float]]:
+        """Cost by positions."""
+        more = () if self.quick else (100_000, 1_000_000)
+        return rivals.by_positions((1, 12, 100, 1000, 10_000, *more))
+
+    @cached_property
+    def links(self) -> list[tuple[int, int, float, float, float]]:
+        """Cost by links."""
+        return rivals.by_links((1, 2, 5) if self.quick else (1, 2, 4, 8, 16, 25))
+
+    def speed(self) -> Table:
+        """Return time beside error."""
+        held = bounds.bounds_table(bounds.of_sweeps(self.readings))
+        return [*speed_section(self.readings), *held]
+
+    def peers(self) -> Table:
+        """Return the four-bar with its peers."""
+        held = bounds.bounds_table(bounds.of_rivals(self.compared))
+        return [*rivals_section(self.compared), *held]
+
+    def size(self) -> Table:
+        """Return cost against size, and what asking for less saves."""
+        scenes = scenes_section(rivals.by_scene())
+        return [*growth_section(self.positions, self.links), "", *scenes]
+
+    def commands(self) -> Table:
+        """Return whole commands, and memory."""
+        found = processes.commands(runs=1 if self.quick else 9)
+        told = commands_section(found, processes.warm_sheets())
+        return [
+            *told, *bounds.bounds_table(bounds.of_commands(found)),
+            "", *memory_section(processes.memory()),
+        ]  # fmt: skip
+
+    def many(self) -> Table:
+        """Return how variants and positions grow, and what processes are worth."""
+        return many_section(quick=self.quick)
+
+    def figure(self) -> bytes:
+        """Return the figure as PNG."""
+        return draw(self.readings, self.compared, self.positions, self.links)
 
 
 def document(sections: Sequence[Table], *, figure: str, command: str) -> str:

@@ -89,6 +89,12 @@ couple = 15
 """Masses and loads of the six-link mechanism whose forces are timed."""
 
 
+MANY_LOADS = template("six-link") + "".join(
+    f'[[loads]]\nlink = "5"\nat = "E"\nforce = {50 + k}\nangle = {6 * k}\n' for k in range(60)
+)
+"""A six-link mechanism with sixty loads on a point."""
+
+
 def loaded() -> Problem:
     """Return a six-link mechanism with masses and loads: slotted link, rod and slider."""
     return loads(template("six-link") + LOADS, name="six-link with loads")

@@ -14,7 +14,10 @@ from planmethod.bench.drawn import compare_all
 from planmethod.bench.report import Table, drafting_section, forces_section, machine_section
 from planmethod.problem.model import Problem
 
-SECTIONS = ("speed", "forces", "hard", "random", "machine", "drafting")
+MEASURED = ("speed", "peers", "size", "commands", "many")
+"""Sections on speed, by the names of what `report.Measured` returns."""
+
+SECTIONS = (*MEASURED, "forces", "hard", "random", "machine", "drafting")
 
 
 def make(
@@ -25,7 +28,7 @@ def make(
     quick: bool,
     count: int,
 ) -> tuple[str, bytes]:
-    """Return the document, or the sections wanted of it, and the figure (empty without speed).
+    """Return the document, or the sections wanted of it, and the figure (empty without all).
 
     Parameters
     ----------
@@ -41,10 +44,12 @@ def make(
         Random mechanisms.
     """
     sections: list[Table] = []
-    figure = b""
-    if "speed" in wanted:
-        measured, figure = report.measure(say, quick=quick)
-        sections += measured
+    measured = report.Measured(quick=quick)
+    for name in MEASURED:
+        if name in wanted:
+            say(name)
+            sections.append(getattr(measured, name)())
+    figure = measured.figure() if set(wanted) >= set(SECTIONS) else b""
     if "forces" in wanted:
         say("forces")
         sections.append(_forces(problems, (1, 12) if quick else (1, 12, 10_000)))

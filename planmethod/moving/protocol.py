@@ -7,34 +7,12 @@ from typing import assert_never
 
 import numpy as np
 
+from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import (
-    AtAngle,
-    Carry,
-    Compute,
-    Given,
-    Join,
-    Known,
-    LayOff,
-    LineName,
-    Measure,
-    MeasureAlong,
-    MeasureArm,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
-    Name,
-    Parallel,
-    Perpendicular,
-    PointName,
-    Similar,
-    Step,
-    Total,
-    Touch,
-)
+from planmethod.construct.steps import LineName, Name, PointName, Step
 from planmethod.moving.construction import POLES, Construction, construct, read_hodograph
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
@@ -156,7 +134,7 @@ class _Teller:
     def _of(self, name: PointName) -> str:
         """Return a point in the genitive: "точки P", "полюса p", "конца a_x"."""
         words = self.words.note
-        while isinstance(step := self.step[name], LayOff) and not self._number(step.length):
+        while isinstance(step := self.step[name], steps.LayOff) and not self._number(step.length):
             name = step.origin  # nothing was laid off
         if name.endswith(":"):
             return self.words.point.end.format(symbol=name.rstrip(":"))
@@ -166,32 +144,34 @@ class _Teller:
     def _tell(self, step: Step) -> Iterator[str]:
         said = self.words.point
         match step:
-            case AtAngle(_, through, _, angle):
+            case steps.AtAngle(_, through, _, angle):
                 turn = self._put(self._number(angle))
                 text = said.ray if self._number(angle) else said.level
                 yield text.format(of=self._of(through), angle=turn)
-            case LayOff(out, origin, along, length):
+            case steps.LayOff(out, origin, along, length):
                 yield self._laid(out, origin, along, length)
-            case Join(_, tail, head) if head == "M":
+            case steps.Join(_, tail, head) if head == "M":
                 yield said.join.format(tail=self._letter(tail), head=self._letter(head))
-            case Parallel(_, through, to) if isinstance(self.step[to], Join):
+            case steps.Parallel(_, through, to) if isinstance(self.step[to], steps.Join):
                 yield said.tangent.format(of=self._of(through))
-            case MeetLines(out):
+            case steps.MeetLines(out):
                 yield said.foot.format(point=self._letter(out))
-            case Compute(out, _, powers, _):
-                if isinstance(self.step[powers[0][0]], Measure | MeasureAlong):
+            case steps.Compute(out, _, powers, _):
+                if isinstance(self.step[powers[0][0]], steps.Measure | steps.MeasureAlong):
                     yield self._value(out, powers[0][0])
                 elif out == "rho" and np.isfinite(self._number(out)):
                     v, a = (self._put(self._number(name)) for name, _ in powers)
                     found = with_unit(self._put(self._number(out)), self.words.say.units["m"])
                     yield f"ρ = v^{{2}}/a_{{n}} = {v}^{{2}}/{a} = {found}."
-            case Measure(out) if out == "PM":
+            case steps.Measure(out) if out == "PM":
                 yield said.measured.format(segment="PM", length=self._put(self._number(out)))
-            case Given() | Known() | Join() | Parallel() | Perpendicular() | Measure():
+            case steps.Given() | steps.Known() | steps.Join() | steps.Parallel():
                 return
-            case MeasureAlong() | MeasureArm() | Carry() | Similar() | Touch() | Total():
+            case steps.Perpendicular() | steps.Measure() | steps.MeasureAlong():
                 return
-            case MeetCircles() | MeetLineCircle():
+            case steps.MeasureArm() | steps.Carry() | steps.Similar() | steps.Touch():
+                return
+            case steps.Total() | steps.MeetCircles() | steps.MeetLineCircle():
                 return
             case _:
                 assert_never(step)
@@ -199,7 +179,7 @@ class _Teller:
     def _laid(self, out: Name, origin: PointName, along: LineName, length: Name) -> str:
         """Tell a vector, or a side of the wheel, that is laid off: how long, from where, along."""
         said, step = self.words.point, self.step[length]
-        assert isinstance(step, Compute)
+        assert isinstance(step, steps.Compute)
         mm, plan = self._number(length), self.plan.get(PointName(out), "l")
         if step.powers[-1][0] == "PM":
             return said.across_pm.format(length=self._put(abs(mm)))
@@ -209,7 +189,7 @@ class _Teller:
         numbers = f"{self._put(abs(self._number(step.powers[0][0])))}/"
         numbers += self._put(self.built.scales[plan].per_mm)
         line = self.step[along]
-        turned = isinstance(line, Perpendicular)
+        turned = isinstance(line, steps.Perpendicular)
         way = said.ways[("across" if turned else "along") + ("" if mm >= 0 else " back")]
         told = said.lay_off if plan != "l" else said.lay_off_side
         return told.format(

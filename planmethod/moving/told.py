@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 
 from planmethod.moving.model import Law, PointProblem
@@ -52,7 +51,7 @@ def textbook(text: str, decimal: str) -> str:
     return raised_powers(shown)
 
 
-_PI, _ROOT = re.compile(r"\bpi\b"), re.compile(r"\bsqrt\b")
+_PI, _ROOT = pattern(r"\bpi\b"), pattern(r"\bsqrt\b")
 
 
 def raised_powers(text: str) -> str:

@@ -7,24 +7,10 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.construct import steps
 from planmethod.construct.evaluate import Trace, limit_of
 from planmethod.construct.program import Program
-from planmethod.construct.steps import (
-    AtAngle,
-    Join,
-    LineName,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
-    NumberName,
-    Parallel,
-    Perpendicular,
-    PointName,
-    Similar,
-    Step,
-    Touch,
-    operands,
-)
+from planmethod.construct.steps import LineName, NumberName, PointName, Step, operands
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
 from planmethod.record import replace
@@ -110,14 +96,17 @@ def _without_length(
     step: Step, program: Program, point: Callable[[PointName], complex]
 ) -> tuple[PointName, PointName] | None:
     """Return two points that coincide and should have given a line of a step its direction."""
-    steps = {other.out: other for other in program.steps}
+    made = {other.out: other for other in program.steps}
     for name, kind in operands(step):
-        line = steps[name]
-        while kind is LineName and not isinstance(line, Join):
-            if not isinstance(line, Parallel | Perpendicular | AtAngle) or line.to is None:
+        line = made[name]
+        while kind is LineName and not isinstance(line, steps.Join):
+            if (
+                not isinstance(line, steps.Parallel | steps.Perpendicular | steps.AtAngle)
+                or line.to is None
+            ):
                 break
-            line = steps[line.to]
-        if isinstance(line, Join) and point(line.tail) == point(line.head):
+            line = made[line.to]
+        if isinstance(line, steps.Join) and point(line.tail) == point(line.head):
             return line.tail, line.head
     return None
 
@@ -134,19 +123,19 @@ def _failure(
         return Failure(Cause.FORCES, place)
     letter = draft.letters.get(PointName(step.out), str(step.out))
     match step:
-        case MeetCircles(out, a, r, b, q, _):
+        case steps.MeetCircles(out, a, r, b, q, _):
             gap, one, two = abs(point(b) - point(a)), real(r), real(q)
             miss = max(gap - one - two, abs(one - two) - gap)
             cause = Cause.SAME_ARCS if gap == 0 and one == two else Cause.ARCS
             return Failure(cause, place, out, (a, b), (one, two, gap, miss))
-        case MeetLineCircle(out, _, a, r, _):
+        case steps.MeetLineCircle(out, _, a, r, _):
             return Failure(Cause.ARC, place, out, (a,), (real(r),))
-        case Touch(_, a, r, b, _):
+        case steps.Touch(_, a, r, b, _):
             return Failure(Cause.TANGENT, place, "", (a, b), (real(r), abs(point(b) - point(a))))
-        case MeetLines():
+        case steps.MeetLines():
             cause = Cause.GUIDES if plan is PlanKind.POSITION else Cause.RAYS
             return Failure(cause, place, letter, plan=plan)
-        case Similar(_, _, _, _, one, two):
+        case steps.Similar(_, _, _, _, one, two):
             return Failure(Cause.SIMILAR, place, letter, (one, two))
         case _:
             return Failure(Cause.STEP, place, step.out)

@@ -30,10 +30,6 @@ CORNER = 14.0
 LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (4.2, 3.5), "A0": (5.0, 3.5)}
 """Heights of the texts and of the calculation that a format is to have room for, mm."""
 
-OVER = 1.06
-"""What the estimate is above the height that rows of many plans really take: letters of the one
-stand in hollows of the other."""
-
 _OPTIONS = 8  # shapes of a run of blocks that are kept
 
 
@@ -74,8 +70,7 @@ def has_room(paper: Format, texts: Sequence[Box], views: Sequence[Box], position
     shipped compositions for one, for a few and for many positions.
     """
     left, low, right, high = paper.inner
-    over = OVER if positions > FEW else 1.0
-    room = (right - left - 2 * EDGE, over * (high - low - 2 * EDGE))
+    room = (right - left - 2 * EDGE, high - low - 2 * EDGE)
     statement, one, two, reckoned, reckoned_too, (wide, tall) = texts
     scheme, velocity, acceleration = views
     scheme = (scheme[0], scheme[1] + CORNER)

@@ -114,6 +114,9 @@ ROWS = 2
 BESIDE, UNDER = 24.0, 22.0
 """Room that the letters of a plan take beside it, and with its caption under it, mm."""
 
+SAID = 5.5
+"""Room that a scale of its own takes under a plan, mm."""
+
 NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
 """Room that a view's letters take above and below it, with its name and its scale, mm."""
 
@@ -135,9 +138,12 @@ STEP = 0.55
 FAR = 1.4
 """A plan that would be so many times larger than its share of the room has a scale of its own."""
 
-NEAR, SMALL = 0.4, 0.7
+NEAR, SMALL = 0.4, 0.9
 """A plan that takes less than that part of its share is drawn at a finer scale of its own, so that
 it takes so much of it at most."""
+
+LEAST = 30.0
+"""Larger side below which a plan has a finer scale of its own, mm: half of what it shall have."""
 
 FEW_FAR = 0.2
 """Part of the plans of a kind that may have scales of their own."""
@@ -387,20 +393,31 @@ class _Drawn:
 
     def _on_paper(self, per_mm: float) -> tuple[Reals, Reals]:
         """Return the width and height of every plan with its letters, mm, shape (n,)."""
+        width, height = self.sizes
+        each = self.each(per_mm)
+        if (each > per_mm).mean() > FEW_FAR:
+            return np.full(self.si.count, np.inf), np.full(self.si.count, np.inf)
+        return width / each + BESIDE, height / each + UNDER + np.where(each == per_mm, 0.0, SAID)
+
+    def each(self, per_mm: float) -> Reals:
+        """Return the scale at which it is drawn in every position, shape (n,).
+
+        It is the common one, but for a plan that would leave its view by far (near a dead
+        position), or would be too small to be read where the file gives no scale.
+        """
         own, count = self.views.plan_box(self.kind, self.si.count), self.si.count
         width, height = self.sizes
         over = np.maximum(width / own[0], height / own[1]) / per_mm
-        far = over > _far(count)
-        if far.mean() > FEW_FAR:
-            return np.full(count, np.inf), np.full(count, np.inf)
-        near = (over < NEAR) & (over > 0)
-        wide, high = width / per_mm, height / per_mm
         asked = self.construction.draft.problem.scales
-        for k in np.flatnonzero(far | near):
+        given = getattr(asked, FACTS[self.kind].scale) is not None
+        far, small = over > _far(count), over < NEAR
+        small |= np.maximum(width, height) < LEAST * per_mm
+        own_too = far if given or count == 1 else (far | small) & (over > 0.0)
+        each = np.full(count, per_mm)
+        for k in np.flatnonzero(own_too & (count > 1 or not given)):
             box = own if far[k] else (SMALL * own[0], SMALL * own[1])
-            scale = _fitting(asked, box, (float(width[k]), float(height[k])))
-            wide[k], high[k] = width[k] / scale, height[k] / scale
-        return wide + BESIDE, high + UNDER
+            each[k] = _fitting(asked, box, (float(width[k]), float(height[k])))
+        return each
 
 
 def _far(count: int) -> float:
@@ -419,20 +436,12 @@ def _fitting(asked: Scales, box: Box, size: Box) -> float:
     return choose_scale(size, box, mm_per_unit=asked.convention is Convention.MM_PER_UNIT)
 
 
-def own_scale(
-    construction: Construction, si: Reading, views: Views, common: Scale, kind: PlanKind, index: int
-) -> Scale:
-    """Return the scale at which a plan is drawn in one position.
-
-    It is the common one, but for a plan that would leave its view by far (near a dead position),
-    or would be too small to be read where the file gives no scale.
-    """
-    size, box = plan_extent(construction, si, kind, index), views.plan_box(kind, si.count)
-    over = max(size[0] / box[0], size[1] / box[1]) / common.per_mm
-    asked = construction.draft.problem.scales
-    given = getattr(asked, common.symbol) is not None
-    if si.count > 1 and given is False and 0.0 < over < NEAR:
-        box = (SMALL * box[0], SMALL * box[1])
-    elif over <= _far(si.count) or (given and si.count == 1):
-        return common
-    return Scale(common.symbol, _fitting(asked, box, size), common.unit)
+def own_scales(
+    construction: Construction, si: Reading, views: Views, common: Scale, kind: PlanKind
+) -> tuple[Scale, ...]:
+    """Return the scales at which a plan is drawn in every position: the common one, mostly."""
+    each = _Drawn(construction, si, views, kind).each(common.per_mm).tolist()
+    return tuple(
+        common if per_mm == common.per_mm else Scale(common.symbol, per_mm, common.unit)
+        for per_mm in each
+    )

@@ -28,7 +28,7 @@ from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
-from planmethod.solved.scaling import Views, choose_scales, choose_views, own_scale
+from planmethod.solved.scaling import Views, choose_scales, choose_views, own_scales
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
@@ -180,9 +180,23 @@ class Solution(Remembering):
         """Return the scale at which a plan is drawn in one position.
 
         It is the common one, but for a plan that would leave its view by far (near a dead
-        position).
+        position), or would be too small to be read.
         """
-        return own_scale(self.construction, self.si, self.views, self.scales[kind], kind, index)
+        return self._own_scales[kind][index]
+
+    def has_common(self, kind: PlanKind, indices: Sequence[int]) -> bool:
+        """Tell whether at least half of the plans of some positions are drawn at the common scale.
+
+        Where it holds for fewer it is named with none of them.
+        """
+        own = sum(self.own_scale(kind, i) != self.scales[kind] for i in indices)
+        return 2 * own <= len(indices)
+
+    @cached_property
+    def _own_scales(self) -> dict[PlanKind, tuple[Scale, ...]]:
+        facts, scales = (self.construction, self.si, self.views), self.scales
+        own = {kind: own_scales(*facts, scales[kind], kind) for kind in RATES}
+        return {**own, PlanKind.POSITION: (scales[PlanKind.POSITION],) * self.si.count}
 
     @cached_property
     def views(self) -> Views:

@@ -11,22 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import choose_scale, series_near
-from planmethod.construct.steps import (
-    Given,
-    Join,
-    LayOff,
-    LineName,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
-    NumberName,
-    PointName,
-    makes,
-)
+from planmethod.construct.steps import LineName, NumberName, PointName, makes
 from planmethod.record import dataclass, replace
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
@@ -136,14 +126,14 @@ class Drawn:
         found: dict[LineName, list[PointName]] = {}
         for step in self.synthesis.board.steps:
             match step:
-                case Join(out, tail, head):
+                case steps.Join(out, tail, head):
                     found[out] = [tail, head]
-                case MeetLines(out, first, second):
+                case steps.MeetLines(out, first, second):
                     found[first].append(out)
                     found[second].append(out)
-                case MeetLineCircle(out, line) | LayOff(out, _, line):
+                case steps.MeetLineCircle(out, line) | steps.LayOff(out, _, line):
                     found[line].append(out)
-                case Given() | MeetCircles():
+                case steps.Given() | steps.MeetCircles():
                     pass
                 case _ if makes(step) is LineName:
                     found[LineName(step.out)] = [step.through]  # type: ignore[union-attr]

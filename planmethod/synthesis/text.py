@@ -6,30 +6,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any, assert_never
 
-from planmethod.construct.steps import (
-    AtAngle,
-    Carry,
-    Compute,
-    Given,
-    Join,
-    Known,
-    LayOff,
-    LineName,
-    Measure,
-    MeasureAlong,
-    MeasureArm,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
-    Name,
-    NumberName,
-    Parallel,
-    Perpendicular,
-    Similar,
-    Step,
-    Total,
-    Touch,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import LineName, Name, NumberName, Step
 from planmethod.note.narrate.numbered import Steps
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import NO_BREAK, fixed, given, plain_text, table, wrap
@@ -71,10 +49,10 @@ class Teller:
             else:
                 told = self._tell(step)
             if waiting and told:
-                joined = isinstance(step, Compute)
+                joined = isinstance(step, steps.Compute)
                 yield f"{waiting[:-1]}; {told}" if joined else waiting
                 waiting, told = "", "" if joined else told
-            if told and isinstance(step, Measure):
+            if told and isinstance(step, steps.Measure):
                 waiting = told
             elif told:
                 yield told
@@ -117,12 +95,12 @@ class Teller:
     def _direction(self, line: LineName) -> str:
         """Return how a line runs: parallel, perpendicular or at an angle to another."""
         step, note = self.step[line], self.note
-        if isinstance(step, Join):
+        if isinstance(step, steps.Join):
             return note.along.format(base=self._segment(step.tail, step.head))
-        assert isinstance(step, Parallel | Perpendicular | AtAngle), step
+        assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle), step
         base = note.x_axis if step.to is None else self._base(step.to)
-        angle = 90.0 if isinstance(step, Perpendicular) else 0.0
-        if isinstance(step, AtAngle):
+        angle = 90.0 if isinstance(step, steps.Perpendicular) else 0.0
+        if isinstance(step, steps.AtAngle):
             angle = math.remainder(float(self.board.data[step.angle].real), 360.0)
         if abs(angle) in (0.0, 180.0):
             return note.parallel.format(base=base)
@@ -139,20 +117,20 @@ class Teller:
         if (said := self.board.said.get(line)) is not None:
             base = self._segment(str(said[1]["tail"]), str(said[1]["head"]))
             return self.words.synthesis.to_bisector.format(base=base)
-        if isinstance(step, Join):
+        if isinstance(step, steps.Join):
             return note.line_join.format(base=self._segment(step.tail, step.head))
-        assert isinstance(step, Parallel | Perpendicular | AtAngle)
+        assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
         of = note.of_point.format(point=point_name(step.through))
         return note.line_through.format(of=of, direction=self._direction(line))
 
     def _tell(self, step: Step) -> str:
         note = self.note
         match step:
-            case Given(out):
+            case steps.Given(out):
                 at = place(self.drawn.paper, out)
                 x, y = (given(value + 0.0, note, 5) for value in (at.real, at.imag))
                 return self.words.synthesis.point.format(point=point_name(out), x=x, y=y)
-            case LayOff(out, origin, along, length):
+            case steps.LayOff(out, origin, along, length):
                 reverse = self._hand(length) < 0.0
                 return note.lay_off.format(
                     of=note.of_point.format(point=point_name(origin)),
@@ -161,12 +139,12 @@ class Teller:
                     sense=note.backwards if reverse else "",
                     point=point_name(out),
                 )
-            case MeetLines(out, first, second):
+            case steps.MeetLines(out, first, second):
                 return note.meet.format(
                     first=self._line(first), second=self._line(second),
                     point=point_name(out), coincide="",
                 )  # fmt: skip
-            case MeetLineCircle(out, line, centre, radius, way):
+            case steps.MeetLineCircle(out, line, centre, radius, way):
                 course = complex(self.drawn.paper.value[line][1]) * way.value
                 if abs(course.real) >= abs(course.imag):
                     which = note.rightmost if course.real > 0 else note.leftmost
@@ -176,24 +154,28 @@ class Teller:
                     centre=point_name(centre), radius=self._mm(radius),
                     line=self._line(line), way=which, point=point_name(out),
                 )  # fmt: skip
-            case MeetCircles(out, one, first, two, second, side):
+            case steps.MeetCircles(out, one, first, two, second, side):
                 return note.two_arcs.format(
                     one=point_name(one), first=self._mm(first), two=point_name(two),
                     second=self._mm(second), point=point_name(out),
                     side=note.left if side.value > 0 else note.right,
                 )  # fmt: skip
-            case Measure(out, tail, head):
+            case steps.Measure(out, tail, head):
                 exact = abs(float(self.drawn.paper.value[out]))
                 return note.measure.format(
                     segment=self._segment(tail, head), exact=fixed(exact, note),
                     length=given(abs(self._hand(out)), note, 5),
                 )  # fmt: skip
-            case Compute(out, factor, powers):
+            case steps.Compute(out, factor, powers):
                 return self._found(out, factor, powers[0][0]) if out.startswith("l ") else ""
-            case Known() | Join() | Parallel() | Perpendicular() | AtAngle() | Total():
+            case steps.Known() | steps.Join() | steps.Parallel() | steps.Perpendicular():
                 return ""
-            case Touch() | Similar() | MeasureAlong() | Carry() | MeasureArm():
+            case steps.AtAngle() | steps.Total():
+                return ""
+            case steps.Touch() | steps.Similar() | steps.MeasureAlong():
                 return ""  # no synthesis is drawn with them
+            case steps.Carry() | steps.MeasureArm():
+                return ""
             case _:
                 assert_never(step)
 
@@ -203,20 +185,20 @@ class Teller:
         value = say.short(self._hand(out), 4)
         symbol = "e" if name == "e" else f"l_{{{name}}}"
         made = self.step[read]
-        if isinstance(made, Compute):  # half the difference, which is laid off as well
+        if isinstance(made, steps.Compute):  # half the difference, which is laid off as well
             factor, made = made.factor, self.step[made.powers[0][0]]
         half = " / 2" if factor == 0.5 else ""
         return f"{symbol} = μ_{{l}}·{self._sides(made)}{half} = {value} {say.units['m']}."
 
     def _sides(self, made: Step) -> str:
-        if isinstance(made, Measure):
+        if isinstance(made, steps.Measure):
             return self._segment(made.tail, made.head)
-        assert isinstance(made, Total)
+        assert isinstance(made, steps.Total)
         parts = []
         for k, term in enumerate(made.terms):
             step = self.step[term]
             sign = " + "
-            if isinstance(step, Compute):
+            if isinstance(step, steps.Compute):
                 sign, step = " − ", self.step[step.powers[0][0]]
             parts.append((sign if k else "") + self._sides(step))
         return f"({''.join(parts)})"

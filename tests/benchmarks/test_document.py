@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from benchmarks import report, rivals
+from benchmarks import bounds, many, report, rivals
 from benchmarks.__main__ import main
 from benchmarks.figure import draw
 from benchmarks.peers import ROWS, peers
@@ -56,8 +56,8 @@ def test_the_document_has_its_tables_and_figure() -> None:
     positions, links = rivals.by_positions((1, 12)), rivals.by_links((1, 2), count=100)
     scenes = rivals.by_scene(100)
     sections = [
-        speed_section(readings),
-        report.rivals_section(compared),
+        [*speed_section(readings), *bounds.bounds_table(bounds.of_sweeps(readings))],
+        [*report.rivals_section(compared), *bounds.bounds_table(bounds.of_rivals(compared))],
         report.growth_section(positions, links),
         report.scenes_section(scenes),
     ]
@@ -79,3 +79,11 @@ def test_sections_by_themselves() -> None:
     assert "## Random mechanisms" in told.stdout and "4 mechanisms" in told.stdout
     assert "exceptions: 0; results that are NaN without a reason: 0" in told.stdout
     assert "on a wrong branch: 0 of 48 positions" in told.stdout
+
+
+def test_what_shall_hold_is_told_with_its_number() -> None:
+    told = bounds.bounds_table([bounds.Bound("more", 2.0, 1.0)])
+    assert told[-1] == "| more | 2 | at most 1 | no |"
+    linear = [many.Grown(n, 1.0 + 1e-3 * n, 30.0) for n in (10, 100, 1000, 10_000)]
+    assert many.exponent(linear, "seconds") == pytest.approx(1.0)
+    assert many.exponent(linear, "peak_mb") == 0.0

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import pickle
-import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -18,34 +16,15 @@ from typing import Any
 import pytest
 from cases import some
 from click.testing import CliRunner
-from worked import PROBLEMS, ROOT, path_of
+from worked import PROBLEMS, path_of
 
+from benchmarks.many import killed
 from planmethod.cli import cli
 from planmethod.commands import batch
 from planmethod.commands.batch import Order
 
 POINT = str(PROBLEMS / "point/k11-01.toml")
 VARIANTS = "\n".join(f"[variants.v{n}]\ndriver.phi = {20 + 5 * n}" for n in range(3))
-
-PROGRAM = """
-import os, signal, sys, threading, time
-from pathlib import Path
-
-def kill(cluster, out):
-    while not list(out.glob("*.pdf")):
-        time.sleep(0.01)
-    pids = [nanny.pid for nanny in cluster.workers.values()]
-    os.kill(pids[0], signal.SIGKILL)
-    print("killed", flush=True)
-
-if __name__ == "__main__":
-    from distributed import LocalCluster
-    from planmethod.cli import cli
-    args = sys.argv[1:]
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
-        threading.Thread(target=kill, args=(cluster, Path("out")), daemon=True).start()
-        cli([*args, "--scheduler", cluster.scheduler_address], standalone_mode=False)
-"""
 
 
 class Here:
@@ -108,17 +87,9 @@ def test_what_is_made_is_that_of_the_commands_and_not_made_again(
 
 @pytest.mark.skipif(some(1, few=0) == 0, reason="takes ten seconds: with --thorough")
 def test_a_killed_worker_changes_no_byte(desk: Path) -> None:
-    Path("program.py").write_text(PROGRAM)
-    done = subprocess.run(
-        [sys.executable, "program.py", "batch", "ex3.toml", POINT, "--keys"],
-        capture_output=True,
-        encoding="utf-8",
-        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"},
-        timeout=180,
-    )
-    assert done.returncode == 0, done.stderr
-    assert "killed" in done.stdout
-    assert "4 made, 0 there already." in done.stdout
+    said = killed(["ex3.toml", POINT, "--keys"], desk)
+    assert "killed" in said
+    assert "4 made, 0 there already." in said
     assert_same()
 
 

@@ -20,7 +20,7 @@ from planmethod.render.pictures.paths import TRAJECTORY, Paths
 from planmethod.render.pictures.positions import PRIMES, Positions, bold_position, written
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.scaling import Views
+from planmethod.solved.scaling import LEAST, Views, sizes
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
 
@@ -275,3 +275,30 @@ def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
         assert {f"{letter}{k}" for k in TWELVE} <= set(shown)
     assert sum(word.startswith("N") and word[1:].isdigit() for word in shown) == 1
     assert lint(sheet.items) == []
+
+
+def test_a_scale_is_common_where_it_holds_for_half_of_the_plans() -> None:
+    """Else each plan has its own under it, large enough to be measured."""
+    positions = [30.0 * k for k in range(11)]
+    problem = problem_of("levers/task-49")
+    solution = Solution(problem, positions=positions)
+    (sheet,) = kinematics_sheets(problem, positions=positions)
+    for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
+        own = [solution.own_scale(kind, i) for i in range(11)]
+        others = [scale for scale in own if scale != solution.scales[kind]]
+        (view,) = (v for v in sheet.views if v.kind == kind.value)
+        left, low, right, high = view.box
+        said = [
+            item
+            for item in sheet.items
+            if isinstance(item, Text)
+            and item.text == "μ"
+            and left < item.at.real < right
+            and low < item.at.imag < high
+        ]
+        common = 2 * len(others) <= len(own)
+        assert common is (kind is PlanKind.VELOCITY)
+        assert len(said) == (1 + len(others) if common else len(own))
+        width, height = sizes(solution.construction, solution.si, kind)
+        drawn = np.maximum(width, height) / [scale.per_mm for scale in own]
+        assert drawn.min() >= LEAST

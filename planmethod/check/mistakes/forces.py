@@ -5,17 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.check.mistakes.model import Change, Scene, times
-from planmethod.construct.steps import (
-    Carry,
-    Compute,
-    Join,
-    LineName,
-    MeasureAlong,
-    MeasureArm,
-    Name,
-    NumberName,
-    Step,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import LineName, Name, NumberName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import Given
 from planmethod.plans.forces.loads import LoadKind
@@ -34,7 +25,7 @@ def inertia_along(scene: Scene) -> Iterator[Change]:
     for given in _loads(scene, LoadKind.INERTIA):
         assert given.force is not None
         carry = scene.made.get(given.force.head)
-        step = scene.compute(carry.times) if isinstance(carry, Carry) else None
+        step = scene.compute(carry.times) if isinstance(carry, steps.Carry) else None
         if step is not None:
             every[step.out] = times(step, -1.0)
             yield Change("F1", given.applied.link, {step.out: every[step.out]})
@@ -57,7 +48,7 @@ def inertia_couple_wrong(scene: Scene) -> Iterator[Change]:
 
 def weight_wrong(scene: Scene) -> Iterator[Change]:
     """F3: weights forgotten, or mass taken for weight: of one link, of all."""
-    found: list[tuple[str, Compute]] = []
+    found: list[tuple[str, steps.Compute]] = []
     for given in _loads(scene, LoadKind.WEIGHT):
         assert given.force is not None and scene.board is not None
         step = scene.compute(scene.board.segments.values.get(given.force.ends))
@@ -71,30 +62,30 @@ def weight_wrong(scene: Scene) -> Iterator[Change]:
             yield Change("F3", "", every, prior=2.0)
 
 
-def _without_g(step: Compute) -> tuple[Step, ...]:
+def _without_g(step: steps.Compute) -> tuple[Step, ...]:
     return (replace(step, powers=step.powers[:1]),)
 
 
 def arm_along(scene: Scene) -> Iterator[Change]:
     """F4: an arm measured along the force in place of across."""
     for step in scene.steps:
-        if isinstance(step, MeasureArm):
+        if isinstance(step, steps.MeasureArm):
             line = LineName(f"{step.out} line")
-            along = MeasureAlong(step.out, step.about, step.at, line)
-            yield Change("F4", "", {step.out: (Join(line, step.tail, step.head), along)})
+            along = steps.MeasureAlong(step.out, step.about, step.at, line)
+            yield Change("F4", "", {step.out: (steps.Join(line, step.tail, step.head), along)})
 
 
 def moments_in_mm(scene: Scene) -> Iterator[Change]:
     """F4: arms in mm in place of metres."""
     mu_l = NumberName(FACTS[PlanKind.POSITION].scale)
-    steps: dict[Name, tuple[Step, ...]] = {}
+    changed: dict[Name, tuple[Step, ...]] = {}
     for step in scene.steps:
-        if isinstance(step, Compute) and any(
-            isinstance(scene.made[name], MeasureArm) for name, _ in step.powers
+        if isinstance(step, steps.Compute) and any(
+            isinstance(scene.made[name], steps.MeasureArm) for name, _ in step.powers
         ):
-            steps[step.out] = times(step, 1000.0) if (mu_l, 1) in step.powers else (step,)
-    if steps:
-        yield Change("F4", "", steps)
+            changed[step.out] = times(step, 1000.0) if (mu_l, 1) in step.powers else (step,)
+    if changed:
+        yield Change("F4", "", changed)
 
 
 def reaction_not_reversed(scene: Scene) -> Iterator[Change]:
@@ -105,38 +96,41 @@ def reaction_not_reversed(scene: Scene) -> Iterator[Change]:
         if reaction.by == FRAME:
             continue
         tail, head = reaction.force.ends
-        steps: dict[Name, tuple[Step, ...]] = {}
+        changed: dict[Name, tuple[Step, ...]] = {}
         for step in scene.steps:
-            if isinstance(step, Carry | MeasureArm) and (step.tail, step.head) == (head, tail):
-                steps[step.out] = (replace(step, tail=tail, head=head),)
-        if steps:
-            yield Change("F5", f"{reaction.by}{reaction.on}", steps)
+            if isinstance(step, steps.Carry | steps.MeasureArm) and (step.tail, step.head) == (
+                head,
+                tail,
+            ):
+                changed[step.out] = (replace(step, tail=tail, head=head),)
+        if changed:
+            yield Change("F5", f"{reaction.by}{reaction.on}", changed)
 
 
 def lever_not_turned(scene: Scene) -> Iterator[Change]:
     """Z1: forces on the velocity plan that was not turned."""
-    steps: dict[Name, tuple[Step, ...]] = {
+    changed: dict[Name, tuple[Step, ...]] = {
         step.out: (replace(step, turned=False),)
         for step in scene.steps
-        if isinstance(step, Carry) and step.turned
+        if isinstance(step, steps.Carry) and step.turned
     }
-    if steps:
-        yield Change("Z1", "", steps)
+    if changed:
+        yield Change("Z1", "", changed)
 
 
 def couple_not_converted(scene: Scene) -> Iterator[Change]:
     """Z2: a couple on the lever as it is, without (bc)/l."""
     mu_v = NumberName(FACTS[PlanKind.VELOCITY].scale)
     couples = {given.couple for given in (scene.board.given if scene.board else ()) if given.couple}
-    steps: dict[Name, tuple[Step, ...]] = {}
+    changed: dict[Name, tuple[Step, ...]] = {}
     for step in scene.steps:
-        if not isinstance(step, Compute) or len(step.powers) != 2:
+        if not isinstance(step, steps.Compute) or len(step.powers) != 2:
             continue
         (one, _), (two, power) = step.powers
         if one in couples and two in scene.rates and power == 1 and mu_v in scene.made:
-            steps[step.out] = (replace(step, powers=((one, 1), (mu_v, 1))),)
-    if steps:
-        yield Change("Z2", "", steps)
+            changed[step.out] = (replace(step, powers=((one, 1), (mu_v, 1))),)
+    if changed:
+        yield Change("Z2", "", changed)
 
 
 MISTAKES = (

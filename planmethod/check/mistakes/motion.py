@@ -5,23 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.check.mistakes.model import Change, Powers, Scene, fresh, known, times
-from planmethod.construct.steps import (
-    Carry,
-    Compute,
-    Join,
-    LayOff,
-    LineName,
-    Measure,
-    MeasureAlong,
-    MeetLines,
-    Name,
-    NumberName,
-    Parallel,
-    Perpendicular,
-    PointName,
-    Similar,
-    Step,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Relative, Turning
@@ -38,17 +23,19 @@ V, A = PlanKind.VELOCITY, PlanKind.ACCELERATION
 def _along_the_link(scene: Scene, plan: PlanKind, code: str) -> Iterator[Change]:
     for link, turning in scene.turnings(plan):
         for step in scene.steps:
-            if isinstance(step, Perpendicular) and _is_ray(scene, step, turning):
-                swapped = Parallel(step.out, step.through, step.to)
+            if isinstance(step, steps.Perpendicular) and _is_ray(scene, step, turning):
+                swapped = steps.Parallel(step.out, step.through, step.to)
                 yield Change(code, link, {step.out: (swapped,)})
 
 
-def _is_ray(scene: Scene, step: Perpendicular, turning: Turning) -> bool:
+def _is_ray(scene: Scene, step: steps.Perpendicular, turning: Turning) -> bool:
     """Tell whether a perpendicular is the line across a link that its turning is read along."""
     line = scene.made[step.to]
     ends = {turning.joint, turning.place}
     return (
-        step.through == turning.start and isinstance(line, Join) and {line.tail, line.head} == ends
+        step.through == turning.start
+        and isinstance(line, steps.Join)
+        and {line.tail, line.head} == ends
     )
 
 
@@ -74,10 +61,10 @@ def driver_reversed(scene: Scene) -> Iterator[Change]:
 def similarity_wrong(scene: Scene) -> Iterator[Change]:
     """V3: the ratio from the other end; the triangle mirrored."""
     for step in scene.steps:
-        if not isinstance(step, Similar):
+        if not isinstance(step, steps.Similar):
             continue
         where = scene.draft.letters.get(step.out, str(step.out)).upper()
-        turned = Similar(
+        turned = steps.Similar(
             step.out,
             step.plan_c,
             step.plan_b,
@@ -92,11 +79,11 @@ def similarity_wrong(scene: Scene) -> Iterator[Change]:
         line, across = LineName(f"{step.out} base"), LineName(f"{step.out} across")
         foot, image = fresh(step.out, "foot"), fresh(step.out, "image")
         mirrored = (
-            Join(line, step.link_b, step.link_c),
-            Perpendicular(across, step.link_s, line),
-            MeetLines(foot, line, across),
-            Carry(image, foot, step.link_s, foot),
-            Similar(
+            steps.Join(line, step.link_b, step.link_c),
+            steps.Perpendicular(across, step.link_s, line),
+            steps.MeetLines(foot, line, across),
+            steps.Carry(image, foot, step.link_s, foot),
+            steps.Similar(
                 step.out,
                 step.plan_b,
                 step.plan_c,
@@ -117,17 +104,17 @@ def sliding_forgotten(scene: Scene) -> Iterator[Change]:
         head, start = relative.head, relative.start
         if head not in scene.made:
             continue
-        steps: dict[Name, tuple[Step, ...]] = {head: (Carry(head, start, start, start),)}
+        changed: dict[Name, tuple[Step, ...]] = {head: (steps.Carry(head, start, start, start),)}
         for step in scene.steps:
-            if isinstance(step, MeasureAlong) and step.head == head and step.tail != start:
+            if isinstance(step, steps.MeasureAlong) and step.head == head and step.tail != start:
                 read = NumberName(f"{step.out} whole")
                 turn = -1.0 if scene.exact(step.out) < 0 else 1.0
                 whole = (
-                    Measure(read, step.tail, step.head),
-                    Compute(step.out, turn, ((read, 1),)),
+                    steps.Measure(read, step.tail, step.head),
+                    steps.Compute(step.out, turn, ((read, 1),)),
                 )
-                steps[step.out] = whole
-        yield Change("V4", relative.name, steps)
+                changed[step.out] = whole
+        yield Change("V4", relative.name, changed)
 
 
 def _swinging(scene: Scene) -> Iterator[Relative]:
@@ -148,7 +135,7 @@ def arm_wrong(scene: Scene) -> Iterator[Change]:
         for length in sorted(_arms(scene, link, turning)):
             if abs(length - right) > 1e-6 * right:
                 number, made = known(f"{step.out} arm")
-                swapped = Compute(step.out, step.factor, (value, (number, -1)), step.size)
+                swapped = steps.Compute(step.out, step.factor, (value, (number, -1)), step.size)
                 yield Change("V5", link, {step.out: (made, swapped)}, {number: length})
 
 
@@ -171,7 +158,7 @@ def _arms(scene: Scene, link: str, turning: Turning) -> set[float]:
 # Coriolis ------------------------------------------------------------------------------------
 
 
-def _turned(scene: Scene) -> Iterator[tuple[Relative, Compute]]:
+def _turned(scene: Scene) -> Iterator[tuple[Relative, steps.Compute]]:
     values = scene.segments(A).values
     for relative in scene.kin.relatives.values():
         start, end = relative.a_start, relative.a_turned
@@ -194,7 +181,7 @@ def _unlaid(
 ) -> Iterator[Change]:
     """Yield a component that is computed and then laid off otherwise, or not at all."""
     laid = None if end is None else scene.made.get(end)
-    length = scene.compute(laid.length) if isinstance(laid, LayOff) else None
+    length = scene.compute(laid.length) if isinstance(laid, steps.LayOff) else None
     if length is not None:
         yield Change(code, where, {length.out: times(length, factor)})
 
@@ -246,9 +233,9 @@ def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:
         if relative.speed not in scene.made:  # nothing that is asked needs it
             continue
         for line in scene.steps:
-            if not (
-                isinstance(line, Parallel) and line.through == start and _meets(scene, line, head)
-            ):
+            if not isinstance(line, steps.Parallel) or line.through != start:
+                continue
+            if not _meets(scene, line, head):
                 continue
             for rate, link in scene.rates.items():
                 if (
@@ -259,25 +246,25 @@ def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:
                 across = LineName(f"{line.out} across")
                 value, length = NumberName(f"{line.out} ak"), NumberName(f"{line.out} |k|")
                 end = fresh(line.out, "k")
-                steps: tuple[Step, ...] = (
-                    Perpendicular(across, start, line.to),
-                    Compute(value, 2.0, ((rate, 1), (relative.speed, 1))),
-                    Compute(length, 1.0, ((value, 1), (scale, -1))),
-                    LayOff(end, start, across, length),
-                    Parallel(line.out, end, line.to),
+                changed: tuple[Step, ...] = (
+                    steps.Perpendicular(across, start, line.to),
+                    steps.Compute(value, 2.0, ((rate, 1), (relative.speed, 1))),
+                    steps.Compute(length, 1.0, ((value, 1), (scale, -1))),
+                    steps.LayOff(end, start, across, length),
+                    steps.Parallel(line.out, end, line.to),
                 )
-                yield Change("A6", relative.name, {line.out: steps})
+                yield Change("A6", relative.name, {line.out: changed})
 
 
-def _meets(scene: Scene, line: Parallel, head: PointName | None) -> bool:
+def _meets(scene: Scene, line: steps.Parallel, head: PointName | None) -> bool:
     step = None if head is None else scene.made.get(head)
-    return isinstance(step, MeetLines) and line.out in (step.first, step.second)
+    return isinstance(step, steps.MeetLines) and line.out in (step.first, step.second)
 
 
 # Normal and tangential components ------------------------------------------------------------
 
 
-def _normals(scene: Scene) -> Iterator[tuple[str, Compute, PointName]]:
+def _normals(scene: Scene) -> Iterator[tuple[str, steps.Compute, PointName]]:
     """Yield the normal components ω²·l: letters, step, where each ends."""
     for (_, end), name in scene.segments(A).values.items():
         step = scene.compute(name)
@@ -313,7 +300,7 @@ def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
             ((other, 2), *length) for other in scene.rates if other != rate and other in scene.made
         ]
         for powers in wrong:
-            made = Compute(step.out, step.factor, powers, size=True)
+            made = steps.Compute(step.out, step.factor, powers, size=True)
             if abs(scene.value(made)) > LITTLE * abs(scene.exact(step.out)):
                 yield Change("N3", where, {step.out: (made,)})
 
@@ -331,9 +318,9 @@ def epsilon_of_whole(scene: Scene) -> Iterator[Change]:
             value = NumberName(f"{step.out} a")
             turn = -1.0 if scene.exact(step.powers[0][0]) < 0 else 1.0
             whole = (
-                Measure(read, tail, turning.head),
-                Compute(value, turn, ((read, 1), (scene.segments(A).scale, 1))),
-                Compute(step.out, step.factor, ((value, 1), *step.powers[1:]), step.size),
+                steps.Measure(read, tail, turning.head),
+                steps.Compute(value, turn, ((read, 1), (scene.segments(A).scale, 1))),
+                steps.Compute(step.out, step.factor, ((value, 1), *step.powers[1:]), step.size),
             )
             yield Change("E2", link, {step.out: whole})
 

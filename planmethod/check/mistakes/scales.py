@@ -6,26 +6,16 @@ import math
 from collections.abc import Iterator
 
 from planmethod.check.mistakes.model import Change, Scene
-from planmethod.construct.steps import (
-    Compute,
-    Measure,
-    MeasureAlong,
-    MeetCircles,
-    MeetLineCircle,
-    Name,
-    NumberName,
-    Side,
-    Step,
-    Way,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import Name, NumberName, Side, Step
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.record import replace
 
-READ = (Measure, MeasureAlong)
+READ = (steps.Measure, steps.MeasureAlong)
 
 
-def _readings(scene: Scene, plan: PlanKind) -> Iterator[Compute]:
+def _readings(scene: Scene, plan: PlanKind) -> Iterator[steps.Compute]:
     """Yield the steps that turn a length found on a plan into what it stands for."""
     for name in dict.fromkeys(scene.segments(plan).values.values()):
         step = scene.compute(name)
@@ -34,21 +24,21 @@ def _readings(scene: Scene, plan: PlanKind) -> Iterator[Compute]:
 
 
 def _swapped(
-    step: Compute, scale: NumberName, other: tuple[tuple[NumberName, int], ...]
-) -> Compute:
+    step: steps.Compute, scale: NumberName, other: tuple[tuple[NumberName, int], ...]
+) -> steps.Compute:
     powers = tuple(p for pair in step.powers for p in (other if pair == (scale, 1) else (pair,)))
-    return Compute(step.out, step.factor, powers, step.size)
+    return steps.Compute(step.out, step.factor, powers, step.size)
 
 
 def scale_inverted(scene: Scene) -> Iterator[Change]:
     """S1: mm divided by μ where they are multiplied."""
     for plan in MOTION[1:]:
         scale = NumberName(FACTS[plan].scale)
-        steps: dict[Name, tuple[Step, ...]] = {
+        changed: dict[Name, tuple[Step, ...]] = {
             step.out: (_swapped(step, scale, ((scale, -1),)),) for step in _readings(scene, plan)
         }
-        if steps:
-            yield Change("S1", FACTS[plan].scale, steps, of_scale=True)
+        if changed:
+            yield Change("S1", FACTS[plan].scale, changed, of_scale=True)
 
 
 def scale_of_another_plan(scene: Scene) -> Iterator[Change]:
@@ -60,18 +50,18 @@ def scale_of_another_plan(scene: Scene) -> Iterator[Change]:
             name = NumberName(FACTS[other].scale)
             if other is plan or name not in scene.made or not readings:
                 continue
-            steps: dict[Name, tuple[Step, ...]] = {
+            changed: dict[Name, tuple[Step, ...]] = {
                 step.out: (_swapped(step, scale, ((name, 1),)),) for step in readings
             }
-            yield Change("S3", FACTS[plan].scale, steps, of_scale=True)
+            yield Change("S3", FACTS[plan].scale, changed, of_scale=True)
 
 
 def scale_by(scene: Scene, plan: PlanKind, factor: float) -> Change:
     """Return the mistake of a plan whose μ is another one by a factor."""
-    steps: dict[Name, tuple[Step, ...]] = {
+    changed: dict[Name, tuple[Step, ...]] = {
         step.out: (replace(step, factor=step.factor * factor),) for step in _readings(scene, plan)
     }
-    return Change("scale", FACTS[plan].scale, steps, prior=0.02, of_scale=True)
+    return Change("scale", FACTS[plan].scale, changed, prior=0.02, of_scale=True)
 
 
 def units_of_speed(scene: Scene) -> Iterator[Change]:
@@ -91,32 +81,34 @@ def units_of_length(scene: Scene) -> Iterator[Change]:
         for name, dimension in scene.draft.dimensions.items()
         if dimension.kind is DimensionKind.LENGTH
     }
-    steps: dict[Name, tuple[Step, ...]] = {}
+    changed: dict[Name, tuple[Step, ...]] = {}
     for step in scene.steps:
-        if not isinstance(step, Compute) or step.out in scene.draft.dimensions:
+        if not isinstance(step, steps.Compute) or step.out in scene.draft.dimensions:
             continue
         power = sum(power for name, power in step.powers if name in lengths)
         if power:
-            steps[step.out] = (replace(step, factor=step.factor * 1000.0**power),)
-    if steps:
-        yield Change("S2", "l", steps)
+            changed[step.out] = (replace(step, factor=step.factor * 1000.0**power),)
+    if changed:
+        yield Change("S2", "l", changed)
 
 
 def true_for_drawn(scene: Scene) -> Iterator[Change]:
     """Length of a link read on the drawing and taken for its true one."""
     scale = NumberName(FACTS[PlanKind.POSITION].scale)
-    steps: dict[Name, tuple[Step, ...]] = {}
+    changed: dict[Name, tuple[Step, ...]] = {}
     for step in scene.steps:
-        if not isinstance(step, Compute):
+        if not isinstance(step, steps.Compute):
             continue
         powers = dict(step.powers)
         read = any(isinstance(scene.made[name], READ) for name in powers)
         if scale in powers and read:
             power = powers.pop(scale)
-            made = Compute(step.out, step.factor * 0.001**power, tuple(powers.items()), step.size)
-            steps[step.out] = (made,)
-    if steps:
-        yield Change("true_mm", "l", steps)
+            made = steps.Compute(
+                step.out, step.factor * 0.001**power, tuple(powers.items()), step.size
+            )
+            changed[step.out] = (made,)
+    if changed:
+        yield Change("true_mm", "l", changed)
 
 
 def other_assembly(scene: Scene) -> Iterator[Change]:
@@ -124,11 +116,11 @@ def other_assembly(scene: Scene) -> Iterator[Change]:
     for step in scene.steps:
         swapped: Step
         match step:
-            case MeetCircles():
+            case steps.MeetCircles():
                 other = Side.LEFT if step.side is Side.RIGHT else Side.RIGHT
                 swapped = replace(step, side=other)
-            case MeetLineCircle():
-                way = Way.BACKWARD if step.way is Way.FORWARD else Way.FORWARD
+            case steps.MeetLineCircle():
+                way = steps.Way.BACKWARD if step.way is steps.Way.FORWARD else steps.Way.FORWARD
                 swapped = replace(step, way=way)
             case _:
                 continue

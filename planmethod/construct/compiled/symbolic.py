@@ -7,20 +7,12 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Any
 
+from planmethod.construct import steps
 from planmethod.construct.arithmetic import Exact, Number, unit_vectors
 from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import apply, limit_of
 from planmethod.construct.program import Program
-from planmethod.construct.steps import (
-    Carry,
-    LayOff,
-    MeasureAlong,
-    MeetCircles,
-    MeetLineCircle,
-    Name,
-    Step,
-    operands,
-)
+from planmethod.construct.steps import Name, Step, operands
 from planmethod.record import dataclass
 
 
@@ -321,16 +313,18 @@ def _watched(guard: Guard, tape: Tape) -> Guard | None:
 def _note_lengths(step: Step, env: Mapping[Name, Any], ar: Symbolic) -> None:
     """Note how far a new point is from the points that it was found from."""
     match step:
-        case MeetCircles(out, c1, r1, c2, r2, _):
+        case steps.MeetCircles(out, c1, r1, c2, r2, _):
             pairs: tuple[tuple[Name, Name], ...] = ((c1, r1), (c2, r2))
-        case MeetLineCircle(out, _, c, r, _):
+        case steps.MeetLineCircle(out, _, c, r, _):
             pairs = ((c, r),)
-        case LayOff(out, o, _, length):
+        case steps.LayOff(out, o, _, length):
             pairs = ((o, length),)
-        case MeasureAlong(out, tail, head, _):  # a segment of the line along which it is measured
+        case steps.MeasureAlong(
+            out, tail, head, _
+        ):  # a segment of the line along which it is measured
             ar.note(env[head] - env[tail], env[out])
             return
-        case Carry(out, o, _, _, length, times, _) if length is not None:
+        case steps.Carry(out, o, _, _, length, times, _) if length is not None:
             scaled = env[length] if times is None else env[length] * env[times]
             ar.note(env[out] - env[o], abs(scaled))
             return

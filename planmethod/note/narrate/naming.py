@@ -4,21 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from planmethod.construct.steps import (
-    AtAngle,
-    Compute,
-    Join,
-    LineName,
-    Measure,
-    MeasureAlong,
-    Name,
-    NumberName,
-    Parallel,
-    Perpendicular,
-    PointName,
-    Step,
-    Touch,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
@@ -115,7 +102,7 @@ class Names:
         foot_of = self.construction.draft.feet.get(name)
         if foot_of is not None:
             return self._own(name, foot_of + "′")
-        if isinstance(self.step.get(name), Touch):
+        if isinstance(self.step.get(name), steps.Touch):
             return self._own(name, "T")
         return self.guides.get(name) or self._lowered(name)
 
@@ -172,9 +159,9 @@ class Names:
         """Return what a line is turned from and by how much."""
         step = self.step[line]
         match step:
-            case Join(_, tail, head):
+            case steps.Join(_, tail, head):
                 return LineDirection(self.point(tail) + self.point(head), 0.0, tail, head)
-            case Parallel(_, through, to):
+            case steps.Parallel(_, through, to):
                 found = self.direction(to)
                 if through == found.start:  # the same line drawn again
                     return found
@@ -182,10 +169,10 @@ class Names:
                     back = found.base if found.start is None else self.segment(through, found.start)
                     return LineDirection(back, 180.0, through, found.start)
                 return LineDirection(found.base, found.angle)
-            case Perpendicular(_, _, to):
+            case steps.Perpendicular(_, _, to):
                 found = self.direction(to)
                 return LineDirection(found.base, _reduced(found.angle + 90.0))
-            case AtAngle(_, _, None, angle):
+            case steps.AtAngle(_, _, None, angle):
                 guide = self.guide(line)
                 if guide is not None:
                     return LineDirection(guide, 0.0)
@@ -194,7 +181,7 @@ class Names:
                     if drive.axis is not None:
                         return LineDirection("".join(drive.axis), 0.0)
                 return LineDirection(self.words.x_axis, self.value_of(angle))
-            case AtAngle(_, _, to, angle):
+            case steps.AtAngle(_, _, to, angle):
                 assert to is not None
                 found = self.direction(to)
                 return LineDirection(found.base, _reduced(found.angle + self.value_of(angle)))
@@ -204,7 +191,7 @@ class Names:
     def guide(self, line: LineName) -> str | None:
         """Return the name of the frame's guide that a line is, or None."""
         step = self.step[line]
-        if not isinstance(step, AtAngle) or step.to is not None:
+        if not isinstance(step, steps.AtAngle) or step.to is not None:
             return None
         told = self.construction.draft.dimensions.get(step.angle)
         return None if told is None else told.of[0]
@@ -229,9 +216,9 @@ class Names:
         guide = self.guide(line)
         if guide is not None:
             return words.line_guide.format(guide=guide)
-        if isinstance(step, Join):
+        if isinstance(step, steps.Join):
             return words.line_join.format(base=self.direction(line).base)
-        assert isinstance(step, Parallel | Perpendicular | AtAngle)
+        assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
         return words.line_through.format(of=self.of(step.through), direction=self.relation(line))
 
     # Numbers ---------------------------------------------------------------------------------
@@ -273,11 +260,11 @@ class Names:
             return SCALE_SYMBOL[SCALE_KIND[number]]
         step = self.step[number]
         match step:
-            case Measure(_, tail, head) if tail not in self.letters:
+            case steps.Measure(_, tail, head) if tail not in self.letters:
                 return self.segment(tail, head)
-            case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
+            case steps.Measure(_, tail, head) | steps.MeasureAlong(_, tail, head, _):
                 return f"({self.segment(tail, head)})"
-            case Compute():
+            case steps.Compute():
                 return self._lowered(number.strip("|"))
             case _:
                 told = self.construction.draft.dimensions.get(number)
@@ -323,7 +310,7 @@ class Names:
     def ray(self, line: LineName) -> Vector | None:
         """Return the unknown component that a line of a plan carries."""
         step = self.step[line]
-        if not isinstance(step, Parallel | Perpendicular | AtAngle):
+        if not isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle):
             return None
         plan = self.plan_of(step.through)
         if plan is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from planmethod.note.plaintext import NO_BREAK, heading, plain_text, wrap
@@ -22,7 +21,7 @@ class Steps:
     def __init__(self, words: Wording) -> None:
         self.lines: list[str] = []
         units = "|".join(name for unit in words.units.values() for name in _WORD.findall(unit))
-        self._unit = re.compile(rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))")
+        self._unit = pattern(rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))")
         self._step = self._chapter = self._part = 0
 
     def chapter(self, title: str) -> None:

@@ -2,18 +2,8 @@
 
 from __future__ import annotations
 
-from planmethod.construct.steps import (
-    AtAngle,
-    Compute,
-    LayOff,
-    LineName,
-    MeetCircles,
-    MeetLineCircle,
-    Name,
-    NumberName,
-    PointName,
-    Touch,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import LineName, Name, NumberName, PointName
 from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import NO_BREAK, given
@@ -31,7 +21,7 @@ class PositionNarrator:
         draft = names.construction.draft
         self._dimensions, self._feet = draft.dimensions, draft.feet
 
-    def guide(self, step: AtAngle, guide: str) -> str:
+    def guide(self, step: steps.AtAngle, guide: str) -> str:
         """Tell a guide of the frame."""
         angle = given(self.names.value_of(step.angle), self.words)
         if step.through not in self.names.guides:
@@ -41,7 +31,7 @@ class PositionNarrator:
         x, y = (given(value, self.words, 5) for value in (place.real, place.imag))
         return self.words.draw_guide_at.format(x=x, y=y, angle=angle, guide=guide)
 
-    def lay_off(self, step: LayOff) -> list[str]:
+    def lay_off(self, step: steps.LayOff) -> list[str]:
         """Tell a length laid off on the drawing."""
         out, origin, along, length = step.out, step.origin, step.along, step.length
         names, words = self.names, self.words
@@ -50,7 +40,12 @@ class PositionNarrator:
             symbol = names.symbol(length)
             return [words.zero_length.format(symbol=symbol, point=point, of=names.of(origin))]
         line = names.step[along]
-        if isinstance(line, AtAngle) and line.angle == "phi" and line.to is None and value > 0:
+        if (
+            isinstance(line, steps.AtAngle)
+            and line.angle == "phi"
+            and line.to is None
+            and value > 0
+        ):
             return [
                 words.lay_off_at.format(
                     of=names.of(origin),
@@ -83,7 +78,7 @@ class PositionNarrator:
         symbol = "" if self._is_coordinate(name) else names.symbol(name)
         if ends is not None:
             symbol = "" if ends[0] in names.guides else names.segment(*ends)
-        if name in self._told or not isinstance(step, Compute):
+        if name in self._told or not isinstance(step, steps.Compute):
             return f"{symbol}{equals}{value}" if symbol else value
         self._told.add(name)
         metres = None
@@ -114,13 +109,13 @@ class PositionNarrator:
         side = (words.to_left if angle > 0 else words.to_right).format(base=base)
         return words.at_angle.format(angle=given(abs(angle), words), base=base), side
 
-    def _sign(self, step: MeetCircles | MeetLineCircle) -> float:
+    def _sign(self, step: steps.MeetCircles | steps.MeetLineCircle) -> float:
         return 1.0 if step.branch is None else self.say.number(step.branch)
 
     def _side(self, side: float) -> str:
         return self.words.left if side > 0 else self.words.right
 
-    def two_arcs(self, step: MeetCircles) -> list[str]:
+    def two_arcs(self, step: steps.MeetCircles) -> list[str]:
         """Tell the meeting of two arcs."""
         text = self.words.two_arcs.format(
             one=self.names.point(step.centre1),
@@ -132,7 +127,7 @@ class PositionNarrator:
         )
         return [text]
 
-    def arc_and_line(self, step: MeetLineCircle) -> list[str]:
+    def arc_and_line(self, step: steps.MeetLineCircle) -> list[str]:
         """Tell the meeting of an arc and a line."""
         course = self.say.course(step.line) * step.way.value * self._sign(step)
         words = self.words
@@ -149,7 +144,7 @@ class PositionNarrator:
         )
         return [text]
 
-    def touch(self, step: Touch) -> list[str]:
+    def touch(self, step: steps.Touch) -> list[str]:
         """Tell a tangent."""
         text = self.words.touch.format(
             centre=self.names.point(step.centre),

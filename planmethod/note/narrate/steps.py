@@ -6,31 +6,8 @@ from collections.abc import Iterable
 from itertools import pairwise
 from typing import assert_never
 
-from planmethod.construct.steps import (
-    AtAngle,
-    Carry,
-    Compute,
-    Given,
-    Join,
-    Known,
-    LayOff,
-    LineName,
-    Measure,
-    MeasureAlong,
-    MeasureArm,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
-    NumberName,
-    Parallel,
-    Perpendicular,
-    PointName,
-    Similar,
-    Step,
-    Total,
-    Touch,
-    operands,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import LineName, NumberName, PointName, Step, operands
 from planmethod.note.narrate.equations import direction_note
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.motion import MotionNarrator
@@ -58,48 +35,48 @@ class Narrator:
             for line in _carriers(step):
                 self._drawers.setdefault(line, set()).add(type(step))
 
-        steps = names.construction.program.steps
+        told = names.construction.program.steps
         self._told_later = {
             step.out
-            for step, after in pairwise(steps)
-            if isinstance(step, Measure)
+            for step, after in pairwise(told)
+            if isinstance(step, steps.Measure)
             and step.tail in names.letters
             and step.out in (name for name, _ in operands(after))
         }
 
     def is_reading(self, step: Step) -> bool:
         """Tell whether a step is the value of a segment that is read for it alone."""
-        if not (isinstance(step, Compute) and self.motion.is_value(step)):
+        if not (isinstance(step, steps.Compute) and self.motion.is_value(step)):
             return False
-        return not isinstance(self.names.step[step.powers[1][0]], MeasureAlong)
+        return not isinstance(self.names.step[step.powers[1][0]], steps.MeasureAlong)
 
     def tell(self, step: Step) -> list[str]:
         """Return the lines that tell a step; none when another step tells it."""
         if not self.say.readable(step.out) and not self.is_reading(step):
             return self._unreadable(step)
         match step:
-            case Given() | Known():
+            case steps.Given() | steps.Known():
                 return []
-            case Join() | Parallel() | Perpendicular() | AtAngle():
+            case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
                 return self._line(step)
-            case LayOff():
+            case steps.LayOff():
                 on_plan = step.out in self.names.letters
                 return self.motion.lay_off(step) if on_plan else self.drawing.lay_off(step)
-            case MeetLines(out, first, second):
+            case steps.MeetLines(out, first, second):
                 return [self._meet(out, first, second)]
-            case MeetLineCircle():
+            case steps.MeetLineCircle():
                 return self.drawing.arc_and_line(step)
-            case MeetCircles():
+            case steps.MeetCircles():
                 return self.drawing.two_arcs(step)
-            case Touch():
+            case steps.Touch():
                 return self.drawing.touch(step)
-            case Similar():
+            case steps.Similar():
                 return self.motion.similar(step)
-            case Measure(out, tail, head) | MeasureAlong(out, tail, head, _):
+            case steps.Measure(out, tail, head) | steps.MeasureAlong(out, tail, head, _):
                 return [] if out in self._told_later else [self._measure(out, tail, head)]
-            case Compute():
+            case steps.Compute():
                 return self.motion.compute(step)
-            case Carry() | MeasureArm() | Total():
+            case steps.Carry() | steps.MeasureArm() | steps.Total():
                 return []  # of force plans: ForcePlanNarrator tells them with their forces
             case _:
                 assert_never(step)
@@ -109,11 +86,11 @@ class Narrator:
         if not self.say.readable(step.out) and not self.is_reading(step):
             return self._unreadable(step)
         match step:
-            case LayOff():
+            case steps.LayOff():
                 return self.motion.laid(step)
-            case Compute():
+            case steps.Compute():
                 return self.motion.found(step)
-            case Similar():
+            case steps.Similar():
                 parts, corners = self.motion.parts(step), self.motion.triangles(step)
                 return parts if len(parts) == 1 else [" ∼ ".join(f"△{c}" for c in corners), *parts]
             case _:
@@ -123,12 +100,12 @@ class Narrator:
         """Tell a step that divides by what the ruler reads as 0; none of those that follow."""
         if not self._can(step):
             return []
-        if isinstance(step, Compute):
+        if isinstance(step, steps.Compute):
             below = [name for name, power in step.powers if power < 0]
             zero = ", ".join(self.names.symbol(n) for n in below if self.say.number(n) == 0)
             said = {"symbol": self.names.symbol(step.out), "divisor": zero}
         else:
-            assert isinstance(step, Similar), step  # no other step divides by what is read
+            assert isinstance(step, steps.Similar), step  # no other step divides by what is read
             divisor = self.names.segment(step.link_b, step.link_c)
             said = {"symbol": self.names.point(step.out), "divisor": divisor}
         return [self.words.unreadable.format(**said)]
@@ -137,23 +114,25 @@ class Narrator:
         """Tell whether the hand has all that a step uses."""
         return all(self.say.readable(name) for name, _ in operands(step))
 
-    def undrawn(self, steps: Iterable[Step]) -> list[str]:
+    def undrawn(self, told: Iterable[Step]) -> list[str]:
         """Return which points of a plan cannot be drawn, for what they hang on is not readable."""
         points = [
             self.names.point(PointName(step.out))
-            for step in steps
+            for step in told
             if step.out in self.names.letters and not self._can(step)
         ]
         return [self.words.unreadable_points.format(points=", ".join(points))] if points else []
 
-    def _line(self, step: Join | Parallel | Perpendicular | AtAngle) -> list[str]:
+    def _line(
+        self, step: steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle
+    ) -> list[str]:
         words, names = self.words, self.names
         guide = names.guide(step.out)
-        if guide is not None and isinstance(step, AtAngle):
+        if guide is not None and isinstance(step, steps.AtAngle):
             return [self.drawing.guide(step, guide)]
-        if not self._drawers.get(step.out, set()) & {MeetLines, MeetLineCircle}:
+        if not self._drawers.get(step.out, set()) & {steps.MeetLines, steps.MeetLineCircle}:
             return []
-        if isinstance(step, Join):
+        if isinstance(step, steps.Join):
             return [words.draw_join.format(base=names.direction(step.out).base) + "."]
         ray = names.ray(step.out)
         base, angle = self.motion.direction(step.out, ray)
@@ -171,9 +150,9 @@ class Narrator:
     def _relation(self, line: LineName) -> str:
         """Return a drawn line in the genitive, its direction as in the equation."""
         step, ray = self.names.step[line], self.names.ray(line)
-        if ray is None or isinstance(step, Join):
+        if ray is None or isinstance(step, steps.Join):
             return self.names.line(line)
-        assert isinstance(step, Parallel | Perpendicular | AtAngle)
+        assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
         note = direction_note(self.names, ray.direction)
         return self.words.line_through.format(of=self.names.of(step.through), direction=note)
 
@@ -197,10 +176,10 @@ class Narrator:
 
 def _carriers(step: Step) -> tuple[LineName, ...]:
     """Return the lines on which a step puts its point."""
-    if isinstance(step, LayOff):
+    if isinstance(step, steps.LayOff):
         return (step.along,)
-    if isinstance(step, MeetLines):
+    if isinstance(step, steps.MeetLines):
         return (step.first, step.second)
-    if isinstance(step, MeetLineCircle):
+    if isinstance(step, steps.MeetLineCircle):
         return (step.line,)
     return ()

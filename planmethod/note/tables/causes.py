@@ -4,28 +4,8 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from planmethod.construct.steps import (
-    AtAngle,
-    Carry,
-    Compute,
-    Given,
-    Join,
-    Known,
-    LayOff,
-    Measure,
-    MeasureAlong,
-    MeasureArm,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
-    Parallel,
-    Perpendicular,
-    PointName,
-    Similar,
-    Step,
-    Total,
-    Touch,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import PointName, Step
 from planmethod.note.narrate.given import MOTION_KINDS, told
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
@@ -98,27 +78,27 @@ class Causes:
     def _stroke(self, step: Step) -> str:
         names, words = self.names, self.words
         match step:
-            case AtAngle(_, _, None, angle) if names.guide(step.out) is None:
+            case steps.AtAngle(_, _, None, angle) if names.guide(step.out) is None:
                 return words.cause_angle.format(symbol=names.symbol(angle))
-            case Join() | Parallel() | Perpendicular() | AtAngle():
+            case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
                 return words.cause_line.format(line=names.line(step.out))
-            case Given(out):
+            case steps.Given(out):
                 return words.cause_given.format(point=names.point(out))
-            case LayOff(out, origin) | Carry(out, origin):
+            case steps.LayOff(out, origin) | steps.Carry(out, origin):
                 return words.cause_lay_off.format(of=names.of(origin), point=names.point(out))
-            case MeetLines(out):
+            case steps.MeetLines(out):
                 return words.cause_meet.format(point=names.point(out))
-            case MeetCircles(out) | MeetLineCircle(out):
+            case steps.MeetCircles(out) | steps.MeetLineCircle(out):
                 return words.cause_arc.format(point=names.point(out))
-            case Touch(out):
+            case steps.Touch(out):
                 return words.cause_touch.format(point=names.point(out))
-            case Similar(out):
+            case steps.Similar(out):
                 return words.cause_similar.format(point=names.point(out))
-            case Measure(_, tail, head) | MeasureAlong(_, tail, head, _):
+            case steps.Measure(_, tail, head) | steps.MeasureAlong(_, tail, head, _):
                 return words.cause_read.format(segment=names.segment(tail, head))
-            case MeasureArm(_, about, at):
+            case steps.MeasureArm(_, about, at):
                 return words.cause_read.format(segment=names.segment(about, at))
-            case Known() | Compute() | Total():
+            case steps.Known() | steps.Compute() | steps.Total():
                 raise TypeError(f"{step.out} is no stroke")
             case _:
                 assert_never(step)

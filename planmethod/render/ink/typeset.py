@@ -20,6 +20,7 @@ from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
 from planmethod.languages import say
+from planmethod.pattern import pattern
 from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
@@ -34,6 +35,7 @@ PART_OF = "part-of:"
 Anchor: TypeAlias = Literal["left", "centre", "right"]
 
 _SPECIAL = "_^{}\\"
+_PLAIN = pattern(r"[^_^{}\\]+")
 _SUB_DROP = 0.3  # of h: how far an index below sinks under the base line
 _SUP_RISE = 0.5  # of h: how far the base line of an index above rises
 _STACK_GAP = 0.16  # of h: white between two stacked indices
@@ -299,9 +301,9 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[_Node, ...]
             nodes.append(_merged(nodes, sign, body))
         elif sign in _SPECIAL:
             raise _fault(markup, i, say("'{}' does not pair or starts no known command", sign))
-        else:
-            letters += sign
-            i += 1
+        elif plain := _PLAIN.match(markup, i):
+            letters += plain[0]
+            i = plain.end()
     if closing:
         raise _fault(markup, start, "the brace opened here is not closed")
     flush()

@@ -12,17 +12,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from math import pi
 from typing import TypeAlias
 
-from planmethod.construct.steps import (
-    LineName,
-    MeetCircles,
-    MeetLineCircle,
-    MeetLines,
-    Parallel,
-    Perpendicular,
-    PointName,
-    Similar,
-    Step,
-)
+from planmethod.construct import steps
+from planmethod.construct.steps import LineName, PointName, Step
 from planmethod.note.narrate.letters import direction_text, shown_letters
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import Plan, PlanKind, Relation, Vector
@@ -82,9 +73,9 @@ def plan_traces(
         own = [plain_text(letter) for letter in letters.get(PointName(str(step.out)), ())]
         if not own or not _is_shown(shown, own):
             continue
-        if isinstance(step, Similar):
+        if isinstance(step, steps.Similar):
             items += _corner_of_triangle(step, at)
-        elif isinstance(step, MeetLines):
+        elif isinstance(step, steps.MeetLines):
             for line in (step.first, step.second):
                 ray = _Ray.of(solution, plan, index, line, step.out)
                 if ray is not None and {ray.start, ray.head} <= set(at):
@@ -106,9 +97,9 @@ def _steps(solution: Solution, kind: PlanKind) -> Iterator[Step]:
 def _needles(step: Step) -> tuple[PointName, ...]:
     """Return where the needle of the compass stood for a point of the scheme."""
     match step:
-        case MeetCircles(centre1=one, centre2=two):
+        case steps.MeetCircles(centre1=one, centre2=two):
             return one, two
-        case MeetLineCircle(centre=centre):
+        case steps.MeetLineCircle(centre=centre):
             return (centre,)
         case _:
             return ()
@@ -120,7 +111,7 @@ def _notch(centre: complex, at: complex, half: float) -> Arc:
     return Arc(centre, radius, turn - by, turn + by, Pen.THIN, TRACE)
 
 
-def _corner_of_triangle(step: Similar, at: Mapping[PointName, complex]) -> list[Item]:
+def _corner_of_triangle(step: steps.Similar, at: Mapping[PointName, complex]) -> list[Item]:
     """Return the notches by which the corner of a triangle was found from its two others."""
     b, c, corner = (at.get(point) for point in (step.plan_b, step.plan_c, step.out))
     if b is None or c is None or corner is None:
@@ -151,7 +142,7 @@ class _Ray:
     ) -> _Ray | None:
         """Return the ray of a line that meets another, or None of a line that was there."""
         step = solution.construction.step(line)
-        if not isinstance(step, Parallel | Perpendicular):
+        if not isinstance(step, steps.Parallel | steps.Perpendicular):
             return None
         along = unit(complex(solution.paper.course(line)[index]))
         ends = {(vector.tail, vector.head): vector for vector in plan.vectors}

@@ -77,7 +77,8 @@ class _Task:
         asked = self.problem.scales
         solution = self.solved(views, asked)
         pages = self.pages(solution, paper, per_sheet)
-        if pages is not None and self.extras.traces and any(page.tried[0] for page in pages):
+        traced = self.extras.traces and len(self.positions) == 1
+        if pages is not None and traced and any(page.tried[0] for page in pages):
             # The traces of the construction are not to push out what explains it.
             without = replace(self, extras=replace(self.extras, traces=False))
             bare = without.pages(solution, paper, per_sheet)

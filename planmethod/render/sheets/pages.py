@@ -18,6 +18,7 @@ from planmethod.render.layout.pack import EDGE, pack
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
+from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
 Tried: TypeAlias = tuple[bool, int, int]
@@ -28,7 +29,10 @@ MOST_EXTRA = 4
 """Sheets that one sheet of a composition may take on a format that was asked for."""
 
 GOES_ON = ("calculation",)
-"""Kinds of blocks that go to a sheet of their own where one has no room for them."""
+"""Kinds of blocks that go to a sheet of their own where one has no room for them.
+
+Of many positions they are in the protocol alone then: these sheets are full of plans.
+"""
 
 CONTINUED = "A4"
 """Format of that sheet where none is asked for."""
@@ -149,7 +153,8 @@ def _sheet(
         if parts:
             title, tried = composition.titles.get(number, ""), (dropped, level, apart)
             pages = [_page(part, corners, title, tried) for part, corners in parts]
-            left_out = [entry for entry in entries if dropped and entry.kind in GOES_ON]
+            going = dropped and len(solution.positions) <= FEW
+            left_out = [entry for entry in entries if going and entry.kind in GOES_ON]
             return pages + _going_on(left_out, composition, stock, paper, extras, title)
     return None
 

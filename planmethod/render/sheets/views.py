@@ -209,13 +209,19 @@ def _with_knots(solution: Solution, kind: PlanKind, picture: Block, manner: Mann
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
-    """Return the position that stands for all: the asked one, else the clearest one."""
+    """Return the position that stands for all: the asked one, else the clearest one.
+
+    It is rather one whose plans are drawn at the common scales, of which the calculation speaks.
+    """
     asked = manner.entry.position
     if asked is not None and asked in indices:
         return asked
     if len(indices) == 1:
         return indices[0]
-    return bold_position(solution, indices)
+    own = {
+        i: sum(solution.own_scale(k, i) != s for k, s in solution.scales.items()) for i in indices
+    }
+    return bold_position(solution, [i for i in indices if own[i] == min(own.values())])
 
 
 def _with_scale(
@@ -231,10 +237,12 @@ def _with_scale(
     chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
     title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
     convention = solution.problem.scales.convention
-    said = [scale_inscription(solution.scales[kind], convention, words.say)]
-    plans = kind is not PlanKind.POSITION and len(solution.positions) > 1
-    own = [i for i in ellipses if plans and solution.own_scale(kind, i) != solution.scales[kind]]
-    if own:
+    common = solution.scales[kind]
+    said = [scale_inscription(common, convention, words.say)]
+    own = [i for i in ellipses if solution.own_scale(kind, i) != common]
+    if not solution.has_common(kind, ellipses):
+        said = []
+    elif own:
         said[0] += words.sheets.but_for.format(numbers=", ".join(map(str, own)))
     if kind is PlanKind.POSITION and len(solution.positions) > 1:
         said += _extremes(solution, indices, manner)
@@ -275,13 +283,14 @@ def plan_grid(
     """Return the plans of many positions in rows and columns, each with its number."""
     coordinate = solution.problem.drive.coordinate
     cells: list[Block] = []
+    common = solution.has_common(kind, indices)
     convention = solution.problem.scales.convention
     for i in indices:
         value = with_unit(position_text(solution, i, say), say.units[coordinate.unit])
         said = f"{i}: {coordinate.symbol} = {value}"
         own = solution.own_scale(kind, i)
         caption: Block = Line(typeset(said, CAPTION))
-        if own != solution.scales[kind]:
+        if own != solution.scales[kind] or not common:
             scale = Line(typeset(scale_inscription(own, convention, say), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
         picture = plan_picture(

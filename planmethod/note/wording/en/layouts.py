@@ -64,7 +64,7 @@ LAYOUTS = MappingProxyType(
         "few_about": "two to five positions: scheme, equations, plans of each, calculation of one",
         "many_head": "Many positions: up to twelve on a sheet. So planmethod sheet draws several "
         "positions.\n# What each key means: docs/layout.md.",
-        "many_about": "many positions: scheme, equations, plans in rows, table by positions",
+        "many_about": "many positions: scheme, equations, rows of plans, calculation of one, table",
         "many_sizes": "Without [sizes] the letters are as high as in the layout one-position.",
         "many_scheme": "all positions thin, one of them in full",
         "one_head": "One position: everything on one sheet. So planmethod sheet draws when no "

@@ -112,7 +112,7 @@ class OutlineLettering:
         return int(self._data["units_per_em"])
 
     @cached_property
-    def _runs(self) -> dict[str, tuple[int, int, int, int]]:
+    def _runs(self) -> dict[str, tuple[int, int, int, int, int]]:
         return {}
 
     @cached_property
@@ -180,10 +180,7 @@ class OutlineLettering:
 
     def width(self, text: str, height: float) -> float:
         """Return the advance of a run of letters, mm."""
-        if not text:
-            return 0.0
-        last, pen = self.places(text)[-1]
-        return (pen + self.glyph(last).advance) * height / self.cap_height
+        return self._measured(text)[0] * height / self.cap_height
 
     def ink(self, text: str, height: float) -> tuple[float, float, float, float]:
         """Return the bounds of the ink of a run that starts at the origin.
@@ -194,26 +191,24 @@ class OutlineLettering:
             xmin, ymin, xmax, ymax, mm; all zero when the run has no ink.
         """
         unit = height / self.cap_height
-        left, low, right, high = self._units(text)
+        _, left, low, right, high = self._measured(text)
         return (left * unit, low * unit, right * unit, high * unit)
 
-    def _units(self, text: str) -> tuple[int, int, int, int]:
-        """Return the ink bounds in font units; runs recur, so they are kept."""
+    def _measured(self, text: str) -> tuple[int, int, int, int, int]:
+        """Return advance and ink bounds in font units; runs recur, so they are kept."""
         found = self._runs.get(text)
         if found is not None:
             return found
-        boxes = []
-        for char, pen in self.places(text):
-            glyph = self.glyph(char)
-            if glyph.strokes:
-                boxes.append((pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax))
-        if boxes:
-            left, low, right, high = zip(*boxes, strict=True)
-            bounds = (min(left), min(low), max(right), max(high))
-        else:
-            bounds = (0, 0, 0, 0)
-        self._runs[text] = bounds
-        return bounds
+        glyphs = [(self.glyph(char), pen) for char, pen in self.places(text)]
+        boxes = [
+            (pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax)
+            for glyph, pen in glyphs
+            if glyph.strokes
+        ]
+        end = glyphs[-1][1] + glyphs[-1][0].advance if glyphs else 0
+        left, low, right, high = zip(*boxes or [(0, 0, 0, 0)], strict=True)
+        self._runs[text] = (end, min(left), min(low), max(right), max(high))
+        return self._runs[text]
 
     def strokes(self, char: str) -> tuple[tuple[complex, ...], ...]:
         """Return what the middle of the pen does for a letter, in parts of h."""

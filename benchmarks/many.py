@@ -1,0 +1,236 @@
+"""Many positions and variants: how cost grows, what processes are worth, what a kill costs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.bounds import Bound, bounds_table
+from benchmarks.processes import PEAK, ROOT, run_python
+from planmethod.bench.report import Table, load, span, table
+
+POSITIONS = (100, 1000, 10_000, 100_000, 1_000_000)
+VARIANTS = (10, 30, 100, 300, 1000)
+AT_ONCE = 250
+"""Variants of a file."""
+
+LINEAR = 1.1
+"""Exponent up to which cost is called linear."""
+
+SENT = 100
+"""Variants of the batch that loses a worker."""
+
+KILLED = """
+import os, signal, sys, threading, time
+from pathlib import Path
+
+def kill(cluster, out):
+    while not list(out.glob("*.pdf")):
+        time.sleep(0.01)
+    pids = [nanny.pid for nanny in cluster.workers.values()]
+    os.kill(pids[0], signal.SIGKILL)
+    print("killed", flush=True)
+
+if __name__ == "__main__":
+    from distributed import LocalCluster
+    from planmethod.cli import cli
+    args = sys.argv[1:]
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        threading.Thread(target=kill, args=(cluster, Path("out")), daemon=True).start()
+        cli([*args, "--scheduler", cluster.scheduler_address], standalone_mode=False)
+"""
+"""A batch whose cluster loses a worker as soon as the first sheet is in the folder ``out``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grown:
+    """What so many positions or variants cost: seconds, and megabytes more than few of them."""
+
+    count: int
+    seconds: float
+    peak_mb: float
+
+
+def by_positions(counts: Sequence[int]) -> list[Grown]:
+    """Measure sweeps of a slotted link, results and all, each in a process of its own."""
+    found = []
+    for count in counts:
+        said = run_python(
+            "import time\n"
+            "from benchmarks.scenes import slotted\n"
+            "from planmethod.bench.speed import turn\n"
+            "from planmethod.solved.many.sweep import Sweep\n"
+            f"sweep, at, times = Sweep(slotted()), turn({count}), []\n"
+            "for _ in range(5):\n"
+            "    start = time.perf_counter()\n"
+            "    sweep.run(at)\n"
+            "    times.append(time.perf_counter() - start)\n"
+            f"{PEAK}\n"
+            "print(min(times), peak)\n"
+        )
+        found.append(Grown(count, *map(float, said.split())))
+    return found
+
+
+def by_variants(counts: Sequence[int], folder: Path) -> list[Grown]:
+    """Measure ``solve --json --all-variants``, whole processes."""
+    found = []
+    for count in counts:
+        words = ["solve", *variants(count, folder), "--all-variants", "--json"]
+        seconds, peak = _run(words, folder)
+        found.append(Grown(count, seconds, peak))
+    return found
+
+
+def variants(count: int, folder: Path) -> list[str]:
+    """Write files with so many variants of an example together, and return their names."""
+    text = (ROOT / "problems" / "linkages" / "ex3.toml").read_text("utf-8")
+    names = []
+    for first in range(0, count, AT_ONCE):
+        own = range(first, min(first + AT_ONCE, count))
+        more = "".join(f"[variants.v{n}]\ndriver.phi = {20 + 60 * n / count!r}\n" for n in own)
+        names.append(f"group{first}.toml")
+        (folder / names[-1]).write_text(f"{text}\n{more}", "utf-8")
+    return names
+
+
+def _run(words: Sequence[str], folder: Path) -> tuple[float, float]:
+    """Run a command in a folder and return its seconds and its peak, MB."""
+    start = (
+        "import sys\n"
+        "from planmethod.cli import main\n"
+        "code = 0\n"
+        "try:\n"
+        "    main()\n"
+        "except SystemExit as end:\n"
+        "    code = end.code\n"
+        f"{PEAK}\n"
+        "Path('peak').write_text(str(peak))\n"
+        "sys.exit(code)"
+    )
+    began = time.perf_counter()
+    with (folder / "said").open("wb") as said:
+        subprocess.run(
+            [sys.executable, "-c", start, *words],
+            cwd=folder,
+            env=_environment(),
+            stdout=said,
+            check=True,
+        )
+    return time.perf_counter() - began, float((folder / "peak").read_text())
+
+
+def _environment() -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"}
+
+
+def exponent(grown: Sequence[Grown], cost: str) -> float:
+    """Return the exponent of growth beyond what the first costs anyway; 0 where little does."""
+    first, *more = grown
+    always = getattr(first, cost)
+    costs = {one.count - first.count: getattr(one, cost) - always for one in more}
+    told = {count: own for count, own in costs.items() if own > 0.1 * always}
+    if len(told) < 2:
+        return 0.0
+    return float(np.polyfit(np.log([*told]), np.log([*told.values()]), 1)[0])
+
+
+def in_processes(count: int, folder: Path) -> tuple[float, float, bool]:
+    """Return seconds of PDF sheets of variants by one and two processes; whether they are alike."""
+    words = ["sheet", *variants(count, folder), "--all-variants", "--format", "pdf"]
+    one, _ = _run([*words, "-o", "own"], folder)
+    two, _ = _run([*words, "-o", "two", "--jobs", "2"], folder)
+    return one, two, alike(folder / "own", folder / "two")
+
+
+def alike(one: Path, other: Path) -> bool:
+    """Tell whether every sheet of a folder is in another one, byte for byte."""
+    names = [path.name for path in one.glob("*.pdf")]
+    return all((other / name).read_bytes() == (one / name).read_bytes() for name in names)
+
+
+def killed(words: Sequence[str], folder: Path) -> str:
+    """Make a batch in ``out`` by a cluster that loses a worker, and return what it says."""
+    program = folder / "program.py"
+    program.write_text(KILLED)
+    done = subprocess.run(
+        [sys.executable, program.name, "batch", *words],
+        cwd=folder,
+        env=_environment(),
+        capture_output=True,
+        encoding="utf-8",
+        timeout=900,
+        check=True,
+    )
+    return done.stdout
+
+
+def many_section(*, quick: bool) -> Table:
+    """Measure all and return the section."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        sizes = VARIANTS[:3] if quick else VARIANTS
+        grown = [
+            ("positions", by_positions(POSITIONS[:4] if quick else POSITIONS)),
+            ("variants", by_variants(sizes, folder)),
+        ]
+        count = sizes[-1]
+        one, two, same = in_processes(count, folder)
+        held = [Bound(f"speed of --jobs 2, {count} variants to PDF", one / two, 1.8, True)]
+        for what, rows in grown:
+            held += [
+                Bound(f"{what}: exponent of {cost.partition('_')[0]}", exponent(rows, cost), LINEAR)
+                for cost in ("seconds", "peak_mb")
+            ]
+        held.append(Bound("files of --jobs 2 that differ", 1.0 - same, 0.0))
+        lost = _lost(count, folder)
+    return [
+        "## Many positions, many variants",
+        "",
+        "Sweeps of a slotted link in arrays of their own, and `solve --json --all-variants`, whole "
+        "processes, with the peak of each; the exponent is that of the cost beyond the first row. "
+        f"Then sheets of {count} variants as PDF by one process ({span(one)}), two ({span(two)})"
+        f"{lost[0]}; {load()}.",
+        "",
+        *table(
+            ("what", "number", "time", "for one", "peak"),
+            [
+                (
+                    what,
+                    str(g.count),
+                    span(g.seconds),
+                    span(g.seconds / g.count),
+                    f"{g.peak_mb:.0f} MB",
+                )
+                for what, rows in grown
+                for g in rows
+            ],
+        ),
+        *bounds_table([*held, *lost[1]]),
+    ]
+
+
+def _lost(count: int, folder: Path) -> tuple[str, list[Bound]]:
+    """Return what is said of a batch that loses a worker, and its bound."""
+    try:
+        import distributed  # noqa: F401
+    except ImportError:
+        return "; no batch, dask is missing: pip install 'planmethod[batch]'", []
+    sent = min(count, SENT)
+    said = killed([*variants(sent, folder), "--format", "pdf"], folder)
+    _run(
+        ["sheet", *variants(sent, folder), "--all-variants", "--format", "pdf", "-o", "few"], folder
+    )
+    differ = 1.0 - ("killed" in said and alike(folder / "few", folder / "out"))
+    return (
+        f", and {sent} of them by a batch of two workers, one of them killed at the first sheet",
+        [Bound("files of the batch that differ", differ, 0.0)],
+    )
