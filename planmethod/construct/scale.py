@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
+from functools import cache
 
 from planmethod.record import dataclass
 
@@ -40,12 +42,16 @@ def series_near(value: float, *, up: bool, series: Sequence[float] = SERIES) -> 
     up : bool
         The smallest member not below ``value`` when true, else the largest not above it.
     """
-    power = math.floor(math.log10(value))
-    members = [float(f"{m}e{p}") for p in (power - 1, power, power + 1) for m in series]
-    slack = 1e-9 * value
+    members, slack = _members(math.floor(math.log10(value)), tuple(series)), 1e-9 * value
     if up:
-        return min(m for m in members if m >= value - slack)
-    return max(m for m in members if m <= value + slack)
+        return members[bisect_left(members, value - slack)]
+    return members[bisect_right(members, value + slack) - 1]
+
+
+@cache
+def _members(power: int, series: tuple[float, ...]) -> list[float]:
+    """Return a series times a power of ten, the one below and the one above."""
+    return [float(f"{m}e{p}") for p in (power - 1, power, power + 1) for m in series]
 
 
 def choose_scale(

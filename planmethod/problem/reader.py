@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.languages import say
+from planmethod.languages import say, spoken
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem import keys
 from planmethod.problem.answers import Scene, read_answers
@@ -26,6 +27,9 @@ from planmethod.problem.source import parse, read_source
 from planmethod.problem.table import with_table
 from planmethod.problem.variants import apply_variant, read_variants
 from planmethod.record import replace
+
+Variants: TypeAlias = Mapping[str, Mapping[tuple[str, ...], Any]]
+"""Overrides of every variant, by path."""
 
 TrainReader: TypeAlias = Callable[[Faults, Mapping[str, Any], object], Geared | None]
 """What reads ``[gears]`` for the driver's ``train``: faults, that table, the label."""
@@ -65,8 +69,7 @@ def load_each(
         As of `load`.
     """
     path = Path(path)
-    table, faults = _from_file(path)
-    known = read_variants(faults, table)
+    table, known, faults = _from_file(path)
     for variant in variants:
         varied = _laid_over(faults, table, known, str(path), variant)
         yield _read_varied(
@@ -74,10 +77,26 @@ def load_each(
         )
 
 
-def _from_file(path: Path) -> tuple[Mapping[str, Any], Faults]:
-    """Return the table of a file, with the variants that may lie in a table beside it."""
+def _from_file(path: Path) -> tuple[Mapping[str, Any], Variants, Faults]:
+    """Return the table of a file, its variants, which may lie in a table beside it, and faults.
+
+    A file that is asked for variant by variant is looked through once.
+    """
+    text = read_source(path)
+    beside = isinstance(parse(text, name=str(path)).get("variants"), str)
+    look = _looked_through.__wrapped__ if beside else _looked_through  # that may change alone
+    table, variants, faults = look(text, path, spoken())
+    return table, variants, faults.copy()
+
+
+@lru_cache(maxsize=2)
+def _looked_through(
+    text: str, path: Path, _lang: str
+) -> tuple[Mapping[str, Any], Variants, Faults]:
+    """Return what `_from_file` does; faults are said in a language."""
     faults = Faults()
-    return with_table(faults, parse(read_source(path), name=str(path)), path.parent), faults
+    table = with_table(faults, parse(text, name=str(path)), path.parent)
+    return table, read_variants(faults, table), faults
 
 
 def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
@@ -88,8 +107,8 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
     ProblemError
         The file cannot be read, or has no such variant.
     """
-    table, faults = _from_file(path)
-    return laid_over(faults, table, str(path), variant)[0], faults
+    table, known, faults = _from_file(path)
+    return _laid_over(faults, table, known, str(path), variant), faults
 
 
 def laid_over(
@@ -109,7 +128,7 @@ def laid_over(
 def _laid_over(
     faults: Faults,
     table: Mapping[str, Any],
-    variants: Mapping[str, Mapping[tuple[str, ...], Any]],
+    variants: Variants,
     source: str,
     variant: str | None,
 ) -> Mapping[str, Any]:
@@ -137,11 +156,10 @@ def variant_names(path: str | Path) -> tuple[str, ...]:
         The file cannot be read, or its variants are faulty.
     """
     path = Path(path)
-    table, faults = _from_file(path)
-    names = tuple(read_variants(faults, table))
+    _, variants, faults = _from_file(path)
     if faults:
         raise ProblemError(str(path), faults.found)
-    return names
+    return tuple(variants)
 
 
 def read_parsed(

@@ -7,6 +7,7 @@ import re
 import stat
 import tomllib
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -82,8 +83,9 @@ def table_text(data: bytes) -> str:
         return data.decode("cp1251", "replace")
 
 
-def parse(text: str, *, name: str) -> dict[str, Any]:
-    """Parse TOML within bounds.
+@lru_cache(maxsize=2)
+def parse(text: str, *, name: str) -> Mapping[str, Any]:
+    """Parse TOML within bounds; the same text gives the same table, which nobody changes.
 
     Raises
     ------
@@ -146,7 +148,8 @@ def _too_large(name: str) -> ProblemError:
 def _nearby(path: Path) -> str:
     """Hint for a missing file: the nearest name in its folder."""
     try:
-        names = [p.name for _, p in zip(range(1000), path.parent.glob("*.toml"), strict=False)]
+        found = zip(range(1000), path.parent.glob("*.toml"), strict=False)
+        names = [p.name for _, p in found if p.name != path.name]  # a link that leads nowhere
     except (OSError, ValueError):
         names = []
     guess = near(path.name, names)

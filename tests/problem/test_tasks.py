@@ -53,7 +53,7 @@ def test_a_variant_is_written_into_the_text(task: Task) -> None:
     for variant in thinned(task.variants, 3):
         text = text_for(task, variant)
         due = apply_variant(table, overrides[variant])
-        made = parse(text, name=task.file)
+        made = {**parse(text, name=task.file)}
         for written in (due, made):
             written.pop("variants", None)
             written.pop("published", None)
