@@ -327,6 +327,8 @@ def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: Li
         hint = say(
             'For example: {} = {{ on = "{}", at = 0.1 }}', key, "".join(link.points[:2]) or "BC"
         )
+        if isinstance(value, str) and value.startswith(("left of", "right of")):
+            hint = say('Write {}.side = "{}".', key, value)
         faults.expected(path, "a table that places the point", value, hint)
     else:
         known = (*keys.LINK, *_pair_names(link.points))
