@@ -10,14 +10,8 @@ from typing import Any
 
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.languages import say
-from planmethod.problem.fields import (
-    Faults,
-    is_number,
-    read_keys,
-    read_number,
-    read_text,
-    read_word,
-)
+from planmethod.problem import fields
+from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse, read_source
 from planmethod.record import dataclass
 
@@ -134,14 +128,14 @@ def load_settings(path: Path) -> Settings:
         raise SettingsError(name, error.faults) from None
     faults = Faults()
     told: dict[str, Any] = {}
-    for key, value in read_keys(faults, "", table, KEYS).items():
+    for key, value in fields.read_keys(faults, "", table, KEYS).items():
         if key in _NUMBERS:
             what, low, high, hint = _NUMBERS[key]
-            told[key] = read_number(faults, key, value, what, low=low, high=high, hint=hint)
+            told[key] = fields.read_number(faults, key, value, what, low=low, high=high, hint=hint)
         elif key == "policy":
-            told[key] = read_word(faults, key, value, POLICIES)
+            told[key] = fields.read_word(faults, key, value, POLICIES)
         elif key == "profile":
-            told[key] = read_word(faults, key, value, PROFILES)
+            told[key] = fields.read_word(faults, key, value, PROFILES)
         else:
             told[key] = _read_marks(faults, value)
     if not faults and told.get("floor_share", DEFAULT.floor_share) > told.get("cap", DEFAULT.cap):
@@ -163,10 +157,10 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
         if not isinstance(entry, list) or len(entry) != 2:
             faults.expected(path, "[share, mark]", entry, example)
             continue
-        share = read_number(
+        share = fields.read_number(
             faults, f"{path}[0]", entry[0], "a share", low=0.0, high=1.0, hint=_SHARE
         )
-        mark = read_text(faults, f"{path}[1]", _unquoted(entry[1]), limit=MARK_LIMIT)
+        mark = fields.read_text(faults, f"{path}[1]", _unquoted(entry[1]), limit=MARK_LIMIT)
         if mark is not None and not mark.strip():
             faults.add(f"{path}[1]", "the mark is empty", example)
         elif share is not None and mark is not None:
@@ -188,4 +182,4 @@ def _read_marks(faults: Faults, value: object) -> tuple[tuple[float, str], ...]:
 
 def _unquoted(value: object) -> object:
     """Take a whole number for a mark: 5 is "5"."""
-    return str(value) if is_number(value) and isinstance(value, int) else value
+    return str(value) if fields.is_number(value) and isinstance(value, int) else value

@@ -102,9 +102,8 @@ def check(
 
     variants = Variants(problem, settings, variant)
     checked, works = _checked(variants, paths, jobs)
-    from planmethod.check.model import Unread
     from planmethod.check.pages.overrides import overridden, read_overrides
-    from planmethod.check.pages.speech import Speech
+    from planmethod.check.pages.unread import unread_lines
     from planmethod.note.wording import language
 
     by_hand = overrides or (None if as_json else out / "overrides.csv")
@@ -117,21 +116,11 @@ def check(
         _print_json(checked, paths)
     else:
         _write_results(variants, paths, checked, out, salt if anonymize else None, lang)
-    unreadable = [a for work in checked for a in work.answers if a.verdict.value == "unreadable"]
-    lost = [remark for work in checked for remark in work.work.remarks]
-    speech = Speech(language(spoken()))
-    for judged in unreadable:
-        reason = say("no quantity {!r} that the problem has", judged.id)
-        if judged.written is not None and judged.written.unreadable:
-            reason = speech.unread(judged.written)
-        click.echo(say("Unreadable: {}: {}", judged.where or judged.id, reason), err=True)
-    for remark in lost:
-        aside = remark.why in (Unread.COLUMN, Unread.KEY)
-        told = "Not read: {}: {}" if aside else "Unreadable: {}: {}"
-        click.echo(say(told, remark.where, speech.unread(remark)), err=True)
-    # A column or key that nobody knows is told of, but no answer is lost by it.
-    lost = [remark for remark in lost if remark.why not in (Unread.COLUMN, Unread.KEY)]
-    finish(ExitCode.FINDINGS if unreadable or lost else ExitCode.DONE)
+    lost = False
+    for line, is_lost in unread_lines(checked, language(spoken())):
+        click.echo(line, err=True)
+        lost |= is_lost
+    finish(ExitCode.FINDINGS if lost else ExitCode.DONE)
 
 
 def _settings(file: Path | None, policy: str | None, profile: str | None) -> Settings:

@@ -8,6 +8,7 @@ import click
 
 from planmethod.check.group import Variants, check_works
 from planmethod.check.pages.compared import compared_text
+from planmethod.check.pages.unread import unread_lines
 from planmethod.check.works import read_works
 from planmethod.errors import Fault, ProblemError
 from planmethod.note.wording import language
@@ -28,3 +29,5 @@ def compare(problem: Path, work: Path, variant: str | None, lang: str) -> None:
         raise ProblemError(str(problem), [fault])
     checked = list(check_works(Variants(problem, default=variant), read_works(work)))
     click.echo(compared_text(checked, language(lang)), nl=False)
+    for line, _ in unread_lines(checked, language(lang)):
+        click.echo(line, err=True)

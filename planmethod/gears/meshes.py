@@ -9,20 +9,8 @@ from typing import Any
 
 from planmethod.gears.model import FLEXIBLE, HALF_MODULES, Mesh, MeshKind, Wheel
 from planmethod.languages import say
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    is_number,
-    read_keys,
-    read_length,
-    read_member,
-    read_number,
-    read_table,
-    read_whole,
-    read_word,
-    report_unknown,
-    show,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
 from planmethod.record import dataclass
 
@@ -82,7 +70,7 @@ def read_label(
         faults.expected(path, "the label of a wheel", value, _NAME)
         return None
     if known is not None and text not in known:
-        report_unknown(faults, path, text, known, said="unknown wheel '{}'")
+        fields.report_unknown(faults, path, text, known, said="unknown wheel '{}'")
         return None
     return text
 
@@ -98,7 +86,7 @@ def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[s
 
 def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Draft) -> None:
     """Read ``wheels``: teeth by label, or a table."""
-    table = read_table(faults, "gears.wheels", value, "wheels = { 1 = 20, 2 = 36 }") or {}
+    table = fields.read_table(faults, "gears.wheels", value, "wheels = { 1 = 20, 2 = 36 }") or {}
     if len(table) > WHEEL_LIMIT:
         faults.add("gears.wheels", say("{} wheels, the limit is {}", len(table), WHEEL_LIMIT))
         return
@@ -124,22 +112,22 @@ def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Dr
 
 
 def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Draft) -> Wheel:
-    if is_number(entry):
-        teeth = read_whole(faults, path, entry, 1, TEETH_LIMIT)
+    if fields.is_number(entry):
+        teeth = fields.read_whole(faults, path, entry, 1, TEETH_LIMIT)
         return Wheel(label, Fraction(teeth or 1))
-    table = read_table(faults, path, entry, "{ r = 0.07 }") or {}
-    given = read_keys(faults, path, table, keys.WHEEL)
+    table = fields.read_table(faults, path, entry, "{ r = 0.07 }") or {}
+    given = fields.read_keys(faults, path, table, keys.WHEEL)
     size: Fraction | None = None
     if "z" in given and "r" in given:
         faults.add(path, "z and r are both given", "Keep one of them.")
     elif "z" in given:
-        size = Fraction(read_whole(faults, f"{path}.z", given["z"], 1, TEETH_LIMIT) or 1)
+        size = Fraction(fields.read_whole(faults, f"{path}.z", given["z"], 1, TEETH_LIMIT) or 1)
     elif "r" in given:
-        radius = read_length(faults, f"{path}.r", given["r"])
+        radius = fields.read_length(faults, f"{path}.r", given["r"])
         size = Fraction(1) if radius is None else fraction(radius)
         if draft.toothed:
             size *= HALF_MODULES if draft.module is None else 2 / draft.module
-    shift = read_number(faults, f"{path}.x", given.get("x", 0), "a shift", low=-5, high=5)
+    shift = fields.read_number(faults, f"{path}.x", given.get("x", 0), "a shift", low=-5, high=5)
     axis = _read_axis(faults, path, given.get("axis"))
     return Wheel(label, size, fraction(shift or 0.0), axis, "r" in given and draft.toothed)
 
@@ -148,7 +136,7 @@ def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, 
     if value is None:
         return None
     numbers = value if isinstance(value, list) else []
-    if len(numbers) != 3 or not all(is_number(n) and abs(n) <= 1e6 for n in numbers):
+    if len(numbers) != 3 or not all(fields.is_number(n) and abs(n) <= 1e6 for n in numbers):
         faults.expected(f"{path}.axis", "[x, y, z]", value)
         return None
     x, y, z = map(float, numbers)
@@ -162,13 +150,13 @@ def read_meshes(faults: Faults, value: object, draft: Draft) -> tuple[Mesh, ...]
     """Read ``meshes``: pairs of wheels with what kind they are and who carries their axes."""
     example = '{ of = [1, 2], kind = "external" }'
     if not isinstance(value, list) or not 1 <= len(value) <= WHEEL_LIMIT:
-        told = say("expected 1 to {} meshes, got {}", WHEEL_LIMIT, show(value))
+        told = say("expected 1 to {} meshes, got {}", WHEEL_LIMIT, fields.show(value))
         faults.add("gears.meshes", told, say("For example: [{}]", example))
         return ()
     found: list[Mesh] = []
     for index, entry in enumerate(value):
         path = f"gears.meshes[{index}]"
-        table = read_table(faults, path, entry, example)
+        table = fields.read_table(faults, path, entry, example)
         mesh = None if table is None else _read_mesh(faults, path, table, draft)
         if mesh is not None:
             if {mesh.first, mesh.second} in [{m.first, m.second} for m in found]:
@@ -199,12 +187,12 @@ def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: Draft) -> None:
 
 
 def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | None:
-    given = read_keys(faults, path, table, keys.MESH)
+    given = fields.read_keys(faults, path, table, keys.MESH)
     of = given.get("of")
     if not isinstance(of, list) or len(of) != 2:
         faults.expected(f"{path}.of", "two wheels", of, "For example: [1, 2]")
         return None
-    kind = read_member(faults, f"{path}.kind", given.get("kind", "external"), MeshKind)
+    kind = fields.read_member(faults, f"{path}.kind", given.get("kind", "external"), MeshKind)
     rack = kind is MeshKind.RACK
     wheels = tuple(draft.wheels)
     first = read_label(faults, f"{path}.of[0]", of[0], wheels)
@@ -214,10 +202,10 @@ def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | No
         carrier = read_label(faults, f"{path}.carrier", given["carrier"])
     eta = None
     if "eta" in given:
-        eta = read_number(
+        eta = fields.read_number(
             faults, f"{path}.eta", given["eta"], "an efficiency", low=0.01, high=1, hint="0.98"
         )
-    hand = read_word(faults, f"{path}.hand", given.get("hand", "right"), ("right", "left"))
+    hand = fields.read_word(faults, f"{path}.hand", given.get("hand", "right"), ("right", "left"))
     if None in (kind, first, second, hand) or first is None or second is None or kind is None:
         return None
     if first.rstrip("'") == second.rstrip("'"):

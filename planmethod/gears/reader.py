@@ -19,18 +19,10 @@ from planmethod.gears.meshes import (
 )
 from planmethod.gears.model import GearProblem, PictureSettings, Train
 from planmethod.languages import say
-from planmethod.problem import keys
+from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.extras import read_published
-from planmethod.problem.fields import (
-    Faults,
-    read_keys,
-    read_number,
-    read_table,
-    read_text,
-    read_whole,
-    report_unknown,
-)
+from planmethod.problem.fields import Faults
 from planmethod.problem.head import Published
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
@@ -55,9 +47,9 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     """
     path = Path(path)
     table, faults = varied(path, variant)
-    given = read_keys(faults, "", table, TOP)
+    given = fields.read_keys(faults, "", table, TOP)
     head = read_head(faults, given)
-    body = read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
+    body = fields.read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
     train = None if body is None else read_train(faults, body)
     published = _read_published(faults, given.get("published", {}), train)
     answers = read_answers(faults, given, _scene(train))
@@ -72,10 +64,10 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
 def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     """Read the table ``[gears]``; None where it has faults."""
     before = len(faults)
-    given = read_keys(faults, "gears", table, keys.GEARS)
+    given = fields.read_keys(faults, "gears", table, keys.GEARS)
     module = None
     if "module" in given:
-        told = read_number(
+        told = fields.read_number(
             faults, "gears.module", given["module"], "a module in mm", low=0.01, high=1000
         )
         module = None if told is None else fraction(told) / 1000
@@ -137,7 +129,9 @@ def _known(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> 
     found = read_labels(faults, path, value, GROUP_LIMIT)
     for index, label in enumerate(found):
         if label not in known:
-            report_unknown(faults, f"{path}[{index}]", label, known, said="unknown wheel '{}'")
+            fields.report_unknown(
+                faults, f"{path}[{index}]", label, known, said="unknown wheel '{}'"
+            )
     return tuple(label for label in found if label in known)
 
 
@@ -167,11 +161,13 @@ def _read_inputs(
         faults.add("gears.omega", "n and omega are both given", "Keep one of them.")
     unit = "omega" if "omega" in given else "n"
     found: dict[str, Fraction] = {}
-    table = read_table(faults, f"gears.{unit}", given.get(unit, {}), "n = { 1 = 2400 }") or {}
+    table = (
+        fields.read_table(faults, f"gears.{unit}", given.get(unit, {}), "n = { 1 = 2400 }") or {}
+    )
     for key, value in table.items():
         path = joined("gears", unit, segment(key))
         label = read_label(faults, path, key, known)
-        speed = read_number(faults, path, value, "a speed", low=-1e6, high=1e6)
+        speed = fields.read_number(faults, path, value, "a speed", low=-1e6, high=1e6)
         if label is not None and speed is not None:
             found[label] = fraction(speed)
     return unit, found
@@ -181,25 +177,25 @@ def _read_satellites(faults: Faults, value: object, draft: Draft) -> dict[str, i
     """Read the number of satellites: of every carrier alike, or by carrier."""
     carriers = tuple(draft.carriers)
     if not isinstance(value, Mapping):
-        count = read_whole(faults, "gears.satellites", value, 1, 100)
+        count = fields.read_whole(faults, "gears.satellites", value, 1, 100)
         return {} if count is None else dict.fromkeys(carriers, count)
     found: dict[str, int] = {}
     for key, number in value.items():
         path = joined("gears.satellites", segment(key))
         label = read_label(faults, path, key, carriers)
-        count = read_whole(faults, path, number, 1, 100)
+        count = fields.read_whole(faults, path, number, 1, 100)
         if label is not None and count is not None:
             found[label] = count
     return found
 
 
 def _read_picture(faults: Faults, value: object) -> PictureSettings:
-    table = read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
+    table = fields.read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
     told: dict[str, Fraction] = {}
-    for key, number in read_keys(faults, "gears.picture", table, keys.PICTURE).items():
+    for key, number in fields.read_keys(faults, "gears.picture", table, keys.PICTURE).items():
         what = "a scale in m/mm" if key == "mu_l" else "a length in mm"
         low, high = (1e-9, 1e6) if key == "mu_l" else (1.0, 1e4)
-        found = read_number(faults, f"gears.picture.{key}", number, what, low=low, high=high)
+        found = fields.read_number(faults, f"gears.picture.{key}", number, what, low=low, high=high)
         if found is not None:
             told[key] = fraction(found)
     return PictureSettings(**told)
@@ -211,7 +207,7 @@ def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[st
         return ()
     found: list[str] = []
     for index, name in enumerate(value):
-        text = read_text(faults, f"gears.ask[{index}]", name, limit=80)
+        text = fields.read_text(faults, f"gears.ask[{index}]", name, limit=80)
         if text is not None and _can_be_asked(faults, f"gears.ask[{index}]", text, known):
             found.append(text)
     return tuple(found)

@@ -15,20 +15,11 @@ from planmethod.moving.bounded import ROUNDOFF
 from planmethod.moving.formula import Formula, read_formula
 from planmethod.moving.model import FORMULAS, Law, PointProblem, Wheel
 from planmethod.moving.series import evaluate
-from planmethod.problem import keys
+from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.drive import read_scales, spread, too_many
 from planmethod.problem.extras import read_published
-from planmethod.problem.fields import (
-    Faults,
-    is_number,
-    read_angle,
-    read_keys,
-    read_length,
-    read_number,
-    read_table,
-    unmask,
-)
+from planmethod.problem.fields import Faults
 from planmethod.problem.formula import is_exact
 from planmethod.problem.head import Published
 from planmethod.problem.names import listed, near_hint, segment, short
@@ -88,12 +79,12 @@ def loads(
 
 
 def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem | None:
-    given = read_keys(faults, "", table, TOP)
+    given = fields.read_keys(faults, "", table, TOP)
     if "point" not in given:
         faults.add("point", "missing", say("For example: {}", _EXAMPLE))
-    told = read_table(faults, "point", given.get("point", {}), _EXAMPLE)
+    told = fields.read_table(faults, "point", given.get("point", {}), _EXAMPLE)
     before = len(faults)
-    point = read_keys(faults, "point", told or {}, keys.MOVING)
+    point = fields.read_keys(faults, "point", told or {}, keys.MOVING)
     is_whole = len(faults) == before and told is not None and "point" in given
     law = _read_law(faults, point, is_whole=is_whole)
     formulas = {
@@ -105,7 +96,7 @@ def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem |
     if "radius" in point:
         if law not in (Law.NATURAL, None):
             faults.add("point.radius", "goes with s(t) only", "Leave it out.")
-        radius = read_length(faults, "point.radius", point["radius"])
+        radius = fields.read_length(faults, "point.radius", point["radius"])
     wheel = _read_wheel(faults, point["wheel"]) if "wheel" in point else None
     if law is Law.ROLLING and wheel is not None and bool(wheel.arm) != ("theta" in point):
         said = "theta goes with wheel.arm: the carrier's turn and its length"
@@ -163,14 +154,14 @@ def _read_law(faults: Faults, point: Mapping[str, Any], *, is_whole: bool) -> La
 def _read_wheel(faults: Faults, value: object) -> Wheel | None:
     """Read a rolling wheel; None after noting a fault."""
     path, before = "point.wheel", len(faults)
-    told = read_table(faults, path, value, "wheel = { radius = 0.5, r = 0.3, angle = -90 }")
-    given = read_keys(faults, path, told or {}, keys.ROLLING)
+    told = fields.read_table(faults, path, value, "wheel = { radius = 0.5, r = 0.3, angle = -90 }")
+    given = fields.read_keys(faults, path, told or {}, keys.ROLLING)
     lengths = {
-        key: read_length(faults, f"{path}.{key}", given[key])
+        key: fields.read_length(faults, f"{path}.{key}", given[key])
         for key in ("radius", "r", "on", "within", "arm")
         if key in given
     }
-    angle = read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
+    angle = fields.read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
     if told is not None and "radius" not in given and len(faults) == before:
         faults.add(f"{path}.radius", "missing", "The radius of the wheel, m: radius = 0.5")
     tracks = [key for key in ("on", "within", "arm") if key in given]
@@ -210,7 +201,7 @@ def _read_show(faults: Faults, value: object) -> tuple[float, float] | None:
 def _has_formula(value: object) -> bool:
     parts = value.values() if isinstance(value, Mapping) else value
     return isinstance(value, str) or (
-        not is_number(value) and any(isinstance(part, str) for part in parts or ())  # type: ignore[attr-defined]
+        not fields.is_number(value) and any(isinstance(part, str) for part in parts or ())  # type: ignore[attr-defined]
     )
 
 
@@ -233,7 +224,7 @@ def _read_times(faults: Faults, value: object) -> tuple[float, ...]:
     if not isinstance(value, Mapping):
         one = _read_time(faults, path, value)
         return () if one is None else (one,)
-    given = read_keys(faults, path, value, keys.SPAN)
+    given = fields.read_keys(faults, path, value, keys.SPAN)
     if len(faults) != before:
         return ()
     if set(given) not in ({"from", "to", "count"}, {"from", "to", "step"}):
@@ -261,7 +252,7 @@ def _read_time(faults: Faults, path: str, value: object) -> float | None:
             faults.add(path, say("'{}' has no value", short(value)))
             return None
     what = "a moment in seconds"
-    return read_number(faults, path, number, what, low=-1e6, high=1e6, hint="Seconds.")
+    return fields.read_number(faults, path, number, what, low=-1e6, high=1e6, hint="Seconds.")
 
 
 def _number_of(formula: Formula) -> float:
@@ -293,7 +284,7 @@ def _scene(moments: int) -> Plain:
 
 
 def _column(faults: Faults, path: str, what: str) -> str:
-    name = unmask(faults, path, what)
+    name = fields.unmask(faults, path, what)
     if name not in WHAT:
         hint = near_hint(name, WHAT, say("Known here: {}.", listed(WHAT, limit=20)))
         faults.add(path, say("a moving point has no '{}'", short(name)), hint)

@@ -8,19 +8,9 @@ from typing import TYPE_CHECKING
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.pattern import pattern
-from planmethod.problem import keys
+from planmethod.problem import fields, keys
 from planmethod.problem.extras import check_what, read_position
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    read_flag,
-    read_keys,
-    read_member,
-    read_number,
-    read_text,
-    read_whole,
-    unmask,
-)
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
@@ -157,7 +147,7 @@ def read_answers(
 ) -> tuple[AskedAnswer, ...]:
     """Read ``[[answers]]`` of a file, in its order, and check its ``compare``."""
     if "compare" in given:
-        read_flag(faults, "compare", given["compare"])
+        fields.read_flag(faults, "compare", given["compare"])
     value = given.get("answers", [])
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("answers", "tables [[answers]]", value)
@@ -195,15 +185,15 @@ def _read_answer(
     faults: Faults, path: str, body: Table, scene: Scene | Plain
 ) -> AskedAnswer | None:
     before = len(faults)
-    given = read_keys(faults, path, body, keys.ANSWER)
+    given = fields.read_keys(faults, path, body, keys.ANSWER)
     if "what" not in given:
         if len(faults) == before:
             faults.add(f"{path}.what", "missing", 'Say which quantity: what = "v B".')
         return None
-    name = read_text(faults, f"{path}.what", given["what"], limit=WHAT_LIMIT)
+    name = fields.read_text(faults, f"{path}.what", given["what"], limit=WHAT_LIMIT)
     if name is None:
         return None
-    name = " ".join(unmask(faults, f"{path}.what", name).split())
+    name = " ".join(fields.unmask(faults, f"{path}.what", name).split())
     own_sense, selector, words, kind = None, None, name, ""
     if isinstance(scene, Plain):
         if said := scene.fault(name):
@@ -221,7 +211,7 @@ def _read_answer(
     own = name.replace(" / ", "/").replace(" ", "_")
     if position is not None:
         own += f"@{position}"
-    points = read_number(
+    points = fields.read_number(
         faults,
         f"{path}.points",
         given.get("points", 1.0),
@@ -230,7 +220,7 @@ def _read_answer(
         high=POINTS_LIMIT,
         hint="Points are those of a right answer.",
     )
-    form = read_member(faults, f"{path}.form", given.get("form", usual.value), AnswerForm)
+    form = fields.read_member(faults, f"{path}.form", given.get("form", usual.value), AnswerForm)
     if form is AnswerForm.MM and selector is not None and _has_no_segment(selector):
         faults.add(
             f"{path}.form",
@@ -241,7 +231,8 @@ def _read_answer(
         id=_read_id(faults, f"{path}.id", given["id"]) if "id" in given else own,
         what=words,
         letters=_read_letters(faults, f"{path}.letters", given.get("letters", [])),
-        unit=read_text(faults, f"{path}.unit", given.get("unit", ""), limit=UNIT_LIMIT) or "",
+        unit=fields.read_text(faults, f"{path}.unit", given.get("unit", ""), limit=UNIT_LIMIT)
+        or "",
         points=points or 0.0,
         form=form or AnswerForm.BOTH,
         sense=_read_sense(faults, f"{path}.sense", given.get("sense", False), kind, own_sense),
@@ -292,10 +283,10 @@ def _has_no_segment(selector: Selector) -> bool:
 
 
 def _read_id(faults: Faults, path: str, value: object) -> str:
-    text = read_text(faults, path, value, limit=ID_LIMIT)
+    text = fields.read_text(faults, path, value, limit=ID_LIMIT)
     if text is None:
         return ""
-    text = unmask(faults, path, text)
+    text = fields.unmask(faults, path, text)
     if text in _TAKEN:
         faults.add(
             path, say("'{}' is a row of its own in tables of answers", text), "Take another id."
@@ -314,7 +305,7 @@ def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
     found: list[str] = []
     for index, entry in enumerate(entries):
         where = path if isinstance(value, str) else f"{path}[{index}]"
-        text = read_text(faults, where, entry, limit=LETTERS_LIMIT)
+        text = fields.read_text(faults, where, entry, limit=LETTERS_LIMIT)
         if text is not None and not text.strip():
             faults.add(where, "the text is empty", "Leave it out.")
         elif text is not None:
@@ -337,7 +328,7 @@ def _read_sense(
             words = ", ".join(f"'{kind.value}'" for kind in AskedSense)
             faults.expected(path, say("true, false or one of {}", words), value)
             return None
-        asked = read_member(faults, path, value, AskedSense)
+        asked = fields.read_member(faults, path, value, AskedSense)
         if asked is None:
             return None
     if not what:
@@ -363,12 +354,12 @@ def _own_sense(selector: Selector, drive: Drive | None) -> AskedSense | None:
 
 
 def _read_digits(faults: Faults, path: str, value: object) -> int | None:
-    return None if value is None else read_whole(faults, path, value, 1, DIGIT_LIMIT)
+    return None if value is None else fields.read_whole(faults, path, value, 1, DIGIT_LIMIT)
 
 
 def _read_segment(faults: Faults, path: str, value: object) -> str:
     """Read the letters of a segment, together or apart: ``pb3``, ``p b3``, ``p-b3``."""
-    text = read_text(faults, path, value, limit=SEGMENT_LIMIT)
+    text = fields.read_text(faults, path, value, limit=SEGMENT_LIMIT)
     if not text:
         return ""
     ends = tuple(text.replace("-", " ").split())
@@ -383,5 +374,5 @@ def _read_tolerance(faults: Faults, path: str, value: object) -> float | None:
     if value is None:
         return None
     what, hint = "a tolerance in percent", "5 is 5 % of the value."
-    percent = read_number(faults, path, value, what, low=0.1, high=100.0, hint=hint)
+    percent = fields.read_number(faults, path, value, what, low=0.1, high=100.0, hint=hint)
     return None if percent is None else percent / 100.0

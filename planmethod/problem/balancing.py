@@ -6,15 +6,8 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from planmethod.languages import say
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    read_keys,
-    read_member,
-    read_number,
-    read_table,
-    require_turning,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults
 from planmethod.problem.load_records import CounterweightTask, Dynamics, Weighing
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near_hint, segment
@@ -40,20 +33,20 @@ def read_balancing(
         None where the file has none of them, or they could not be read.
     """
     before = len(faults)
-    table = read_table(faults, "balancing", given["balancing"], _EXAMPLE)
+    table = fields.read_table(faults, "balancing", given["balancing"], _EXAMPLE)
     if table is None:
         return None
-    body = read_keys(faults, "balancing", table, keys.BALANCING)
+    body = fields.read_keys(faults, "balancing", table, keys.BALANCING)
     hint = "Counterweights stand on the links of a crank mechanism: give it phi and n."
-    require_turning(faults, "balancing", drive, hint, "Give its speed: [driver] n or omega.")
+    fields.require_turning(faults, "balancing", drive, hint, "Give its speed: [driver] n or omega.")
     if dynamics is None or not any(one.mass for one in dynamics.masses.values()):
         hint = 'Give them: [dynamics.links.2] mass = 3, centre = "S2".'
         faults.add("balancing", "no link has a mass", hint)
     method, share = Weighing.FULL, None
     if "method" in body:
-        method = read_member(faults, "balancing.method", body["method"], Weighing) or method
+        method = fields.read_member(faults, "balancing.method", body["method"], Weighing) or method
     if "share" in body:
-        share = read_number(
+        share = fields.read_number(
             faults, "balancing.share", body["share"], "a share from 0 to 1", low=0.0, high=1.0,
             hint="1/2 takes half of the force along the slide, and puts as much across it.",
         )  # fmt: skip
@@ -62,13 +55,15 @@ def read_balancing(
             faults.add("balancing.share", "everything is balanced in full", hint)
     radii: dict[str, float] = {}
     path = "balancing.radii"
-    for link, value in (read_table(faults, path, body.get("radii", {}), _EXAMPLE) or {}).items():
+    for link, value in (
+        fields.read_table(faults, path, body.get("radii", {}), _EXAMPLE) or {}
+    ).items():
         where = f"{path}.{segment(link)}"
         if link not in links:
             hint = near_hint(link, links, say("There are {}.", listed(list(links))))
             faults.add(where, say("there is no link '{}'", link), hint)
             continue
-        found = read_number(faults, where, value, "a distance in metres", low=1e-6, high=1e4)
+        found = fields.read_number(faults, where, value, "a distance in metres", low=1e-6, high=1e4)
         if found is not None:
             radii[link] = found
     return None if len(faults) != before else CounterweightTask(method, share, radii)

@@ -6,19 +6,8 @@ from collections.abc import Mapping
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    is_number,
-    read_angle,
-    read_keys,
-    read_number,
-    read_table,
-    read_whole,
-    read_word,
-    report_unknown,
-    unmask,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults
 from planmethod.problem.model import Body, CycleTask, Differentiation, Drive, Slide, Zero
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
@@ -42,10 +31,10 @@ def read_cycle(
         None where it has a fault of its own.
     """
     before = len(faults)
-    entries = read_table(faults, "cycle", table, _EXAMPLE)
+    entries = fields.read_table(faults, "cycle", table, _EXAMPLE)
     if entries is None:
         return None
-    given = read_keys(faults, "cycle", entries, keys.CYCLE)
+    given = fields.read_keys(faults, "cycle", entries, keys.CYCLE)
     if drive is not None and not drive.is_crank:
         faults.add(
             "cycle",
@@ -56,24 +45,26 @@ def read_cycle(
     if "output" in given:
         output = _read_output(faults, given["output"], bodies, slides, drive)
     zero: Zero | float | None = Zero.EXTREME
-    if is_number(given.get("zero")):
-        zero = read_angle(faults, "cycle.zero", given["zero"])
+    if fields.is_number(given.get("zero")):
+        zero = fields.read_angle(faults, "cycle.zero", given["zero"])
     elif "zero" in given and isinstance(given["zero"], str):
-        word = read_word(faults, "cycle.zero", given["zero"], _NAMED)
+        word = fields.read_word(faults, "cycle.zero", given["zero"], _NAMED)
         zero = None if word is None else _NAMED[word]
     elif "zero" in given:
         wanted = say(" or ").join(f'"{word}"' for word in _NAMED)
         faults.expected("cycle.zero", say("{} or an angle in degrees", wanted), given["zero"])
-    count = read_whole(faults, "cycle.count", given.get("count", 12), 3, keys.CYCLE_LIMIT)
+    count = fields.read_whole(faults, "cycle.count", given.get("count", 12), 3, keys.CYCLE_LIMIT)
     length = _read_mm(faults, "cycle.length", given.get("length", 288), 20.0, 2000.0)
-    poles = read_table(faults, "cycle.pole", given.get("pole", {}), "pole = { v = 36, a = 36 }")
-    poles = read_keys(faults, "cycle.pole", poles or {}, keys.POLE)
+    poles = fields.read_table(
+        faults, "cycle.pole", given.get("pole", {}), "pole = { v = 36, a = 36 }"
+    )
+    poles = fields.read_keys(faults, "cycle.pole", poles or {}, keys.POLE)
     pole = [_read_mm(faults, f"cycle.pole.{key}", poles.get(key, 36), 1.0, 500.0)
             for key in keys.POLE]  # fmt: skip
     way = Differentiation.CHORDS
     if "differentiation" in given:
         ways = [one.value for one in Differentiation]
-        word = read_word(faults, "cycle.differentiation", given["differentiation"], ways)
+        word = fields.read_word(faults, "cycle.differentiation", given["differentiation"], ways)
         way = Differentiation(word) if word else way
     if len(faults) > before or zero is None or count is None or length is None:
         return None
@@ -84,7 +75,7 @@ def read_cycle(
 
 def _read_mm(faults: Faults, path: str, value: object, low: float, high: float) -> float | None:
     hint = "Millimetres of the diagrams."
-    return read_number(
+    return fields.read_number(
         faults, path, value, "a length in millimetres", low=low, high=high, positive=True, hint=hint
     )
 
@@ -103,7 +94,7 @@ def _read_output(
         faults.expected(path, "a point or a link", value, hint)
         return None
     moving = [link for link in bodies if link != FRAME]
-    name = value if value in moving else unmask(faults, path, value)
+    name = value if value in moving else fields.unmask(faults, path, value)
     if name in moving:
         if drive is not None and name == drive.link:
             faults.add(path, say("link {} drives", name), "The output is a link that is driven.")
@@ -111,7 +102,9 @@ def _read_output(
         return name
     points = [point for link in moving for point in bodies[link].points]
     if name not in points:
-        report_unknown(faults, path, name, [*points, *moving], said="unknown point or link '{}'")
+        fields.report_unknown(
+            faults, path, name, [*points, *moving], said="unknown point or link '{}'"
+        )
         return None
     if guiding(name, bodies, slides) is None:
         links = [link for link in moving if name in bodies[link].points]

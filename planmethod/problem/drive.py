@@ -7,22 +7,8 @@ from collections.abc import Collection, Mapping
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    is_number,
-    read_angle,
-    read_coordinate,
-    read_keys,
-    read_known_point,
-    read_line_name,
-    read_number,
-    read_place,
-    read_table,
-    report_unknown,
-    unmask,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
@@ -42,11 +28,11 @@ def read_drive(
 ) -> Drive | None:
     """Read ``[driver]``; ``hosts`` maps each slider to its host, ``geared`` is its train."""
     before = len(faults)
-    given = read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
+    given = fields.read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
     if given is None:
         return None
     posing = [key for key in given if is_posed(key)]
-    given = read_keys(faults, "driver", given, (*keys.DRIVER, *posing))
+    given = fields.read_keys(faults, "driver", given, (*keys.DRIVER, *posing))
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = _read_link(faults, given, links)
@@ -112,9 +98,9 @@ def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> L
         hint = say('Write link = "{}".', value) if isinstance(value, int) else ""
         faults.expected("driver.link", "the name of a link", value, hint)
         return None
-    name = value if value in links else unmask(faults, "driver.link", value)
+    name = value if value in links else fields.unmask(faults, "driver.link", value)
     if name not in links:
-        report_unknown(faults, "driver.link", name, links, said="unknown link '{}'")
+        fields.report_unknown(faults, "driver.link", name, links, said="unknown link '{}'")
         return None
     return links[name]
 
@@ -162,11 +148,15 @@ def _read_positions(faults: Faults, given: Table, key: str) -> Span | None:
 
 
 def _read_position(faults: Faults, path: str, value: object, key: str) -> float | None:
-    if not is_number(value) and not isinstance(value, str) and "[" not in path:
+    if not fields.is_number(value) and not isinstance(value, str) and "[" not in path:
         want = "a number, a list, or { from, to, step } or { from, count }"
         faults.expected(path, want, value)
         return None
-    return read_angle(faults, path, value) if key == "phi" else read_coordinate(faults, path, value)
+    return (
+        fields.read_angle(faults, path, value)
+        if key == "phi"
+        else fields.read_coordinate(faults, path, value)
+    )
 
 
 def too_many(faults: Faults, path: str, count: int) -> bool:
@@ -181,7 +171,7 @@ def too_many(faults: Faults, path: str, count: int) -> bool:
 def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None:
     """Read a row of positions: ``{ from, count }`` is a full turn."""
     before = len(faults)
-    given = read_keys(faults, path, table, keys.SPAN)
+    given = fields.read_keys(faults, path, table, keys.SPAN)
     if len(faults) != before:
         return None
     names = set(given)
@@ -218,7 +208,7 @@ def spread(
         if full_turn:
             return tuple(start + 360.0 * k / count for k in range(count))
         return tuple(start + (end - start) * k / (count - 1) for k in range(count))
-    step = read_number(faults, f"{path}.step", given["step"], "a step", low=-1e6, high=1e6)
+    step = fields.read_number(faults, f"{path}.step", given["step"], "a step", low=-1e6, high=1e6)
     if start is None or end is None or step is None:
         return None
     if step == 0 or (end - start) / step < 0:
@@ -235,7 +225,7 @@ def spread(
 
 def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | None:
     """Read a rate; zero when it is not given."""
-    return read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
+    return fields.read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
 
 
 def _read_turning(faults: Faults, given: Table, geared: Geared | None) -> float | None:
@@ -288,19 +278,19 @@ def read_assembly(
     moving, fixed : collection of str
         Points of the moving links and of the frame.
     """
-    entries = read_table(faults, "assembly", table, 'E = "right of D"')
+    entries = fields.read_table(faults, "assembly", table, 'E = "right of D"')
     if entries is None:
         return ()
     rules: list[Rule] = []
     known = list(dict.fromkeys([*moving, *fixed]))
     for key, value in entries.items():
         path = f"assembly.{segment(key)}"
-        name = unmask(faults, path, key)
+        name = fields.unmask(faults, path, key)
         if name in fixed:
             faults.add(path, say("point {} is fixed", name), "Rules are for points that move.")
             continue
         if name not in moving:
-            report_unknown(faults, path, name, moving, said="unknown point '{}'")
+            fields.report_unknown(faults, path, name, moving, said="unknown point '{}'")
             continue
         rule = _read_rule(faults, path, name, value, known)
         if rule is not None:
@@ -317,7 +307,7 @@ def _read_rule(
     if not isinstance(value, str) or len(value) > 80:
         faults.expected(path, want, value)
         return None
-    words = [unmask(faults, path, word) for word in value.split()]
+    words = [fields.unmask(faults, path, word) for word in value.split()]
     if len(words) == 3 and words[1] == ("from" if words[0] == "away" else "of"):
         del words[1]
     if len(words) != 2 or words[0] not in _POINT_WORDS:
@@ -330,7 +320,7 @@ def _read_rule(
         return None
     side, name = words
     if is_point_name(name):
-        ref = read_known_point(faults, path, name, known, of="the mechanism")
+        ref = fields.read_known_point(faults, path, name, known, of="the mechanism")
         if ref == point:
             faults.add(path, say("{} cannot be compared with itself", point))
             return None
@@ -338,7 +328,7 @@ def _read_rule(
     if split_pair(name) is None:
         faults.expected(path, want, value)
         return None
-    line = read_line_name(faults, path, name, known, of="the mechanism")
+    line = fields.read_line_name(faults, path, name, known, of="the mechanism")
     if line is None:
         return None
     if side not in _LINE_WORDS:
@@ -354,7 +344,7 @@ def _read_rule(
 def _read_rule_table(
     faults: Faults, path: str, point: str, value: Mapping[str, object], known: list[str]
 ) -> Rule | None:
-    given = read_keys(faults, path, value, keys.RULE)
+    given = fields.read_keys(faults, path, value, keys.RULE)
     keep = given.get("keep")
     if "keep" in given and keep not in keys.KEEP:
         wanted = say(" or ").join(f'"{word}"' for word in keys.KEEP)
@@ -377,17 +367,17 @@ def _read_rule_table(
             return None
         found = _read_rule(faults, f"{path}.rule", point, phrase, known)
     else:
-        at = read_place(faults, f"{path}.near", given["near"])
+        at = fields.read_place(faults, f"{path}.near", given["near"])
         found = None if at is None else Rule(point, Where.NEAR, at=at)
     return None if found is None else replace(found, continuous=keep is not None)
 
 
 def read_scales(faults: Faults, table: object) -> Scales:
     """Read ``[scales]``; the result is unit per millimetre whichever convention the file has."""
-    entries = read_table(faults, "scales", table, "mu_l = 0.002")
+    entries = fields.read_table(faults, "scales", table, "mu_l = 0.002")
     if entries is None:
         return Scales()
-    given = read_keys(faults, "scales", entries, keys.SCALES)
+    given = fields.read_keys(faults, "scales", entries, keys.SCALES)
     convention = Convention.UNIT_PER_MM
     if "convention" in given:
         value = given["convention"]
@@ -401,7 +391,7 @@ def read_scales(faults: Faults, table: object) -> Scales:
     for key in ("mu_l", "mu_v", "mu_a", "mu_F"):
         scale = None
         if key in given:
-            scale = read_number(
+            scale = fields.read_number(
                 faults, f"scales.{key}", given[key], "a scale", low=1e-12, high=1e12, positive=True
             )
         if scale is not None and convention is Convention.MM_PER_UNIT:

@@ -6,16 +6,8 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from planmethod.languages import say
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    is_number,
-    read_flag,
-    read_keys,
-    read_number,
-    read_table,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.forces import Scene, read_loads
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import GRAVITY, Dynamics, Machine, Mass
@@ -57,11 +49,11 @@ def read_dynamics(
     scene = Scene(links, fixed, drive, TURN if machine is None else machine.cycle_deg)
     gravity, masses, resultant = 0.0, {}, False
     if "dynamics" in given:
-        table = read_table(faults, "dynamics", given["dynamics"], _EXAMPLE)
-        known = read_keys(faults, "dynamics", table or {}, keys.DYNAMICS)
+        table = fields.read_table(faults, "dynamics", given["dynamics"], _EXAMPLE)
+        known = fields.read_keys(faults, "dynamics", table or {}, keys.DYNAMICS)
         gravity = _read_gravity(faults, known.get("gravity", GRAVITY))
         masses = _read_masses(faults, known.get("links", {}), scene)
-        asked = read_flag(faults, "dynamics.resultant", known.get("resultant", False))
+        asked = fields.read_flag(faults, "dynamics.resultant", known.get("resultant", False))
         resultant = bool(asked)
     return Dynamics(gravity, masses, read_loads(faults, given.get("loads", []), scene), resultant)
 
@@ -78,16 +70,16 @@ def _read_gravity(faults: Faults, value: object) -> float:
         )
         return 0.0
     what = "an acceleration of free fall in m/s²"
-    return read_number(faults, path, value, what, low=0.0, high=1e4) or 0.0
+    return fields.read_number(faults, path, value, what, low=0.0, high=1e4) or 0.0
 
 
 def _read_masses(faults: Faults, table: object, scene: Scene) -> dict[str, Mass]:
     path = "dynamics.links"
     masses: dict[str, Mass] = {}
-    for key, value in (read_table(faults, path, table, _EXAMPLE) or {}).items():
+    for key, value in (fields.read_table(faults, path, table, _EXAMPLE) or {}).items():
         where = f"{path}.{segment(key)}"
         link = scene.find_link(faults, where, key, "have mass")
-        body = read_table(faults, where, value, 'mass = 40, centre = "S2", inertia = 2')
+        body = fields.read_table(faults, where, value, 'mass = 40, centre = "S2", inertia = 2')
         if link is None or body is None:
             continue
         if link.name in masses:
@@ -103,7 +95,7 @@ def _read_masses(faults: Faults, table: object, scene: Scene) -> dict[str, Mass]
 
 def _read_mass(faults: Faults, path: str, body: Table, link: LinkText, scene: Scene) -> Mass | None:
     before = len(faults)
-    given = read_keys(faults, path, body, keys.MASS)
+    given = fields.read_keys(faults, path, body, keys.MASS)
     whole = len(faults) == before
     mass = _read_amount(faults, f"{path}.mass", given.get("mass", 0.0), "a mass in kg")
     inertia = _read_amount(
@@ -131,7 +123,7 @@ def _read_mass(faults: Faults, path: str, body: Table, link: LinkText, scene: Sc
 
 
 def _read_amount(faults: Faults, path: str, value: object, what: str) -> float | None:
-    if is_number(value) and value < 0:
+    if fields.is_number(value) and value < 0:
         faults.add(path, say("expected {}, 0 or greater, got {:g}", what, value))
         return None
-    return read_number(faults, path, value, what, low=0.0, high=1e12)
+    return fields.read_number(faults, path, value, what, low=0.0, high=1e12)

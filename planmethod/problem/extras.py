@@ -7,14 +7,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from planmethod.languages import say
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    read_keys,
-    read_number,
-    read_table,
-    read_text,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults
 from planmethod.problem.head import Published
 from planmethod.problem.names import listed, near_hint, segment, short
 from planmethod.problem.selector import (
@@ -53,7 +47,7 @@ def read_published(
     example, known
         An entry, and the keys that one may have.
     """
-    entries = read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
+    entries = fields.read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
     if len(entries) > keys.PUBLISHED_LIMIT:
         faults.add(
             "published", say("{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT)
@@ -62,12 +56,12 @@ def read_published(
     found: list[Published] = []
     for name, entry in entries.items():
         path = f"published.{segment(name)}"
-        body = read_table(faults, path, entry, example)
-        if read_text(faults, path, name, limit=80) is None or body is None:
+        body = fields.read_table(faults, path, entry, example)
+        if fields.read_text(faults, path, name, limit=80) is None or body is None:
             continue
         before = len(faults)
-        given = read_keys(faults, path, body, known)
-        number = partial(read_number, faults, high=1e12)
+        given = fields.read_keys(faults, path, body, known)
+        number = partial(fields.read_number, faults, high=1e12)
         value = per_mm = None
         if "value" in given:
             value = number(f"{path}.value", given["value"], "a number", low=-1e12)
@@ -77,7 +71,7 @@ def read_published(
             scale = "a scale, unit per millimetre,"
             per_mm = number(f"{path}.per_mm", given["per_mm"], scale, low=1e-12, positive=True)
         unit, what, note = (
-            read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
+            fields.read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
             for key in ("unit", "what", "note")
         )
         position = read_position(faults, f"{path}.position", given.get("position"), positions)
@@ -149,7 +143,7 @@ def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:
     for key in TABLE_KEYS:
         if key not in table:
             continue
-        value = read_table(faults, key, table[key])
+        value = fields.read_table(faults, key, table[key])
         if value is not None:
             found[key] = value
     return found

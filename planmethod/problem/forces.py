@@ -7,18 +7,8 @@ from collections.abc import Collection, Iterable, Mapping
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.pattern import pattern
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    read_angle,
-    read_keys,
-    read_point_name,
-    read_text,
-    read_word,
-    report_unknown,
-    unmask,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
@@ -57,20 +47,20 @@ class Scene:
             hint = say('Write link = "{}".', value) if type(value) is int else ""
             faults.expected(path, "the name of a link", value, hint)
             return None
-        name = value if value in self.links else unmask(faults, path, value)
+        name = value if value in self.links else fields.unmask(faults, path, value)
         if name == FRAME:
             hint = say("Moving links {}: {}.", verb, listed(self.links))
             faults.add(path, "0 is the frame (стойка), which stands still", hint)
             return None
         if name not in self.links:
             if self.links:
-                report_unknown(faults, path, name, self.links, said="unknown link '{}'")
+                fields.report_unknown(faults, path, name, self.links, said="unknown link '{}'")
             return None
         return self.links[name]
 
     def find_point(self, faults: Faults, path: str, value: object, link: LinkText) -> str | None:
         """Return a point of a link by its name."""
-        name = read_point_name(faults, path, value)
+        name = fields.read_point_name(faults, path, value)
         if name is None or name in link.points or not link.whole:
             return name
         others = [other.name for other in self.links.values() if name in other.points]
@@ -111,7 +101,7 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
     for index, body in enumerate(bodies):
         path, name = f"loads[{index}].name", None
         if "name" in body:
-            name = read_text(faults, path, body["name"], limit=NAME_LIMIT)
+            name = fields.read_text(faults, path, body["name"], limit=NAME_LIMIT)
         if name is not None and not _NAME_RE.match(name):
             faults.expected(
                 path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
@@ -145,7 +135,7 @@ def _read_load(
     scene: Scene,
 ) -> Load | Couple | None:
     before = len(faults)
-    given = read_keys(faults, path, body, keys.LOAD)
+    given = fields.read_keys(faults, path, body, keys.LOAD)
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = None
@@ -194,7 +184,7 @@ def _read_force(
         message = "angle and against are both given"
         faults.add(f"{path}.against", message, "A force has one direction: keep one of them.")
     elif "angle" in given:
-        angle = read_angle(faults, f"{path}.angle", given["angle"])
+        angle = fields.read_angle(faults, f"{path}.angle", given["angle"])
         sense = None if angle is None else Fixed(angle)
     elif "against" in given:
         sense = _read_against(faults, f"{path}.against", given["against"], "velocity")
@@ -236,7 +226,7 @@ def _read_couple(
 
 
 def _read_against(faults: Faults, path: str, value: object, wanted: str) -> Against | None:
-    word = read_word(faults, path, value, ("velocity", "rotation"))
+    word = fields.read_word(faults, path, value, ("velocity", "rotation"))
     if word is None:
         return None
     if word != wanted:

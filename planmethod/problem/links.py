@@ -9,23 +9,8 @@ from typing import Any
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    is_number,
-    read_angle,
-    read_coordinate,
-    read_keys,
-    read_known_point,
-    read_length,
-    read_line_name,
-    read_point_name,
-    read_table,
-    read_text,
-    report_unknown,
-    unmask,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.model import PointForm
 from planmethod.problem.names import (
     NAME_LIMIT,
@@ -122,7 +107,7 @@ def read_label(faults: Faults, path: str, name: str, noun: str) -> bool:
 def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
     """Read ``[links.*]``, in file order."""
     found: dict[str, LinkText] = {}
-    entries = read_table(faults, "links", table, '[links.1] points = ["A", "B"]')
+    entries = fields.read_table(faults, "links", table, '[links.1] points = ["A", "B"]')
     if entries is None:
         return found
     if not entries:
@@ -132,7 +117,7 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         return found
     for key, value in entries.items():
         path = f"links.{segment(key)}"
-        name = unmask(faults, path, key) if looks_latin(key) else key
+        name = fields.unmask(faults, path, key) if looks_latin(key) else key
         if name == FRAME:
             faults.add(path, "the name 0 is the frame's (стойка)", "Number the links from 1.")
             continue
@@ -141,7 +126,7 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         if name in found:
             faults.add(path, say("link '{}' is given twice", name))
             continue
-        body = read_table(faults, path, value, 'points = ["A", "B"]')
+        body = fields.read_table(faults, path, value, 'points = ["A", "B"]')
         before = len(faults)
         link = LinkText(name) if body is None else _read_link(faults, path, name, body)
         link.sound = link.sound and body is not None and len(faults) == before
@@ -170,7 +155,7 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
         if key == "points":
             continue
         if key == "slides":
-            link.slides = read_table(faults, where, value, 'slides = { on = "x-x" }')
+            link.slides = fields.read_table(faults, where, value, 'slides = { on = "x-x" }')
             if link.slides is None:
                 link.slides = {}  # the link stays a slider: fewer follow-up faults
                 link.whole = False
@@ -178,8 +163,8 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
         if key == "angle":
             _read_angles(faults, where, value, link)
             continue
-        plain = unmask(faults, where, key)
-        if is_number(value) or (isinstance(value, str) and split_pair(plain) is not None):
+        plain = fields.unmask(faults, where, key)
+        if fields.is_number(value) or (isinstance(value, str) and split_pair(plain) is not None):
             _read_length_key(faults, where, plain, value, link)
         elif isinstance(value, dict) and is_point_name(plain):
             before = len(faults)
@@ -196,7 +181,7 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
 def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
     """Read a slide along a circle: its stone moves as a link of that radius about its centre."""
     before = len(faults)
-    given = read_keys(faults, path, link.slides or {}, keys.SLIDES)
+    given = fields.read_keys(faults, path, link.slides or {}, keys.SLIDES)
     link.slides = None
     for key in given:
         if key not in keys.ARC:
@@ -207,10 +192,12 @@ def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
             faults.add(f"{path}.{key}", "missing", hint)
     centre = host = None
     if "centre" in given:
-        centre = read_point_name(faults, f"{path}.centre", given["centre"])
+        centre = fields.read_point_name(faults, f"{path}.centre", given["centre"])
     if "on" in given:
-        host = read_text(faults, f"{path}.on", given["on"], limit=NAME_LIMIT)
-    radius = read_length(faults, f"{path}.radius", given["radius"]) if "radius" in given else None
+        host = fields.read_text(faults, f"{path}.on", given["on"], limit=NAME_LIMIT)
+    radius = (
+        fields.read_length(faults, f"{path}.radius", given["radius"]) if "radius" in given else None
+    )
     if centre in link.points:
         faults.add(f"{path}.centre", say("{} is a point of the stone itself", centre))
     if centre and host and radius and link.points and centre not in link.points:
@@ -229,7 +216,9 @@ def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[
             continue
         path = f"{link.path}.slides"
         if known is None:
-            report_unknown(faults, f"{path}.on", host, [FRAME, *links], said="unknown link '{}'")
+            fields.report_unknown(
+                faults, f"{path}.on", host, [FRAME, *links], said="unknown link '{}'"
+            )
         else:
             owner = "the frame" if host == FRAME else f"link {host}"
             hint = say("Its points are {}.", listed(known))
@@ -257,7 +246,7 @@ def _read_points(faults: Faults, path: str, value: object) -> tuple[tuple[str, .
     points: list[str] = []
     whole = True
     for index, item in enumerate(value):
-        name = read_point_name(faults, f"{path}[{index}]", item)
+        name = fields.read_point_name(faults, f"{path}[{index}]", item)
         if name is None:
             whole = False
         elif name in points:
@@ -304,17 +293,17 @@ def _read_length_key(faults: Faults, path: str, key: str, value: object, link: L
     if twin is not None:
         faults.add(path, say("the same length as {}", twin.key), "Keep one of them.")
         return
-    length = read_length(faults, path, value)
+    length = fields.read_length(faults, path, value)
     if length is not None:
         link.lengths.append(Length(key, *pair, length))
 
 
 def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> None:
     """Read ``angle.AOD = 120``: angles between the lines of a link."""
-    entries = read_table(faults, path, value, "angle.AOD = 120, from OA to OD") or {}
+    entries = fields.read_table(faults, path, value, "angle.AOD = 120, from OA to OD") or {}
     for key, item in entries.items():
         where = f"{path}.{segment(key)}"
-        names = split_names(unmask(faults, where, key))
+        names = split_names(fields.unmask(faults, where, key))
         lines = {3: (names[1::-1], names[1:]), 4: (names[:2], names[2:])}.get(len(names))
         if lines is None or any(len(set(line)) < 2 for line in lines):
             hint = "AOD is the angle from OA to OD, ABCD that from AB to CD."
@@ -324,7 +313,7 @@ def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> No
         if strangers and link.whole:
             hint = say("Its points are {}.", listed(link.points))
             faults.add(where, say("link {} has no point '{}'", link.name, strangers[0]), hint)
-        angle = read_angle(faults, where, item)
+        angle = fields.read_angle(faults, where, item)
         if angle is not None and not strangers:
             one, two = ((line[0], line[1]) for line in lines)
             link.angles.append(Angle(key, one, two, angle))
@@ -332,12 +321,14 @@ def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> No
 
 def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:
     if split_pair(key) is not None:
-        read_length(faults, path, value)
+        fields.read_length(faults, path, value)
     elif is_point_name(key):
         link.faulty.add(key)
         hint = say(
             'For example: {} = {{ on = "{}", at = 0.1 }}', key, "".join(link.points[:2]) or "BC"
         )
+        if isinstance(value, str) and value.startswith(("left of", "right of")):
+            hint = say('Write {}.side = "{}".', key, value)
         faults.expected(path, "a table that places the point", value, hint)
     else:
         known = (*keys.LINK, *_pair_names(link.points))
@@ -364,7 +355,7 @@ def _read_form(faults: Faults, path: str, point: str, value: Table, link: LinkTe
             say('Add "{}" to {}.points or correct the name.', point, link.path),
         )
         return
-    table = read_keys(faults, path, value, keys.POINT)
+    table = fields.read_keys(faults, path, value, keys.POINT)
     kinds = [kind for kind in keys.POINT_FORMS if kind in table]
     if len(kinds) != 1:
         got = say("got {}", say(" and ").join(kinds)) if kinds else "got none of them"
@@ -399,11 +390,11 @@ def _read_side(
     value = table["side"]
     where = f"{path}.side"
     words = value.split() if isinstance(value, str) else []
-    words = [unmask(faults, where, word) for word in words]
+    words = [fields.unmask(faults, where, word) for word in words]
     if len(words) != 3 or words[0] not in ("left", "right") or words[1] != "of":
         faults.expected(where, '"left of BC" or "right of BC"', value)
         return None
-    line = read_line_name(faults, where, words[2], link.points, of=_owner(link))
+    line = fields.read_line_name(faults, where, words[2], link.points, of=_owner(link))
     if line is None:
         return None
     if point in line:
@@ -415,15 +406,15 @@ def _read_side(
 def _read_along(faults: Faults, path: str, table: Table) -> tuple[float, float] | None:
     if not _need(faults, path, table, "at"):
         return None
-    at = read_coordinate(faults, f"{path}.at", table["at"])
-    across = read_coordinate(faults, f"{path}.across", table.get("across", 0.0))
+    at = fields.read_coordinate(faults, f"{path}.at", table["at"])
+    across = fields.read_coordinate(faults, f"{path}.across", table.get("across", 0.0))
     return None if at is None or across is None else (at, across)
 
 
 def _read_on(
     faults: Faults, path: str, point: str, table: Table, link: LinkText
 ) -> PointForm | None:
-    line = read_line_name(faults, f"{path}.on", table["on"], link.points, of=_owner(link))
+    line = fields.read_line_name(faults, f"{path}.on", table["on"], link.points, of=_owner(link))
     along = _read_along(faults, path, table)
     if line is None or along is None:
         return None
@@ -436,7 +427,9 @@ def _read_on(
 def _read_from(
     faults: Faults, path: str, point: str, table: Table, link: LinkText
 ) -> PointForm | None:
-    start = read_known_point(faults, f"{path}.from", table["from"], link.points, of=_owner(link))
+    start = fields.read_known_point(
+        faults, f"{path}.from", table["from"], link.points, of=_owner(link)
+    )
     along = _read_along(faults, path, table)
     if start is None or along is None:
         return None
@@ -449,16 +442,16 @@ def _read_from(
 def _read_vertex(
     faults: Faults, path: str, point: str, table: Table, link: LinkText
 ) -> PointForm | None:
-    vertex = read_known_point(
+    vertex = fields.read_known_point(
         faults, f"{path}.vertex", table["vertex"], link.points, of=_owner(link)
     )
     if not _need(faults, path, table, "ray", "angle"):
         return None
-    ray = read_line_name(faults, f"{path}.ray", table["ray"], link.points, of=_owner(link))
-    angle = read_angle(faults, f"{path}.angle", table["angle"])
+    ray = fields.read_line_name(faults, f"{path}.ray", table["ray"], link.points, of=_owner(link))
+    angle = fields.read_angle(faults, f"{path}.angle", table["angle"])
     distance: Any = table.get("distance")
     if distance is not None:
-        distance = read_length(faults, f"{path}.distance", distance)
+        distance = fields.read_length(faults, f"{path}.distance", distance)
         if distance is None:
             return None
     if vertex is None or ray is None or angle is None:

@@ -8,20 +8,8 @@ from enum import Enum
 from typing import Any, TypeVar
 
 from planmethod.languages import say
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    is_number,
-    read_angle,
-    read_keys,
-    read_member,
-    read_number,
-    read_table,
-    read_whole,
-    require_turning,
-    show,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.load_records import (
     Machine,
     Mean,
@@ -58,32 +46,36 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
         None after noting a fault.
     """
     before = len(faults)
-    table = read_table(faults, "machine", given["machine"], _EXAMPLE)
+    table = fields.read_table(faults, "machine", given["machine"], _EXAMPLE)
     if table is None:
         return None
-    body = read_keys(faults, "machine", table, keys.MACHINE)
+    body = fields.read_keys(faults, "machine", table, keys.MACHINE)
     hint = "The cycle of a machine is that of a driving crank: give it phi and n."
-    require_turning(faults, "machine", drive, hint, "Give its mean speed: [driver] n or omega.")
+    fields.require_turning(
+        faults, "machine", drive, hint, "Give its mean speed: [driver] n or omega."
+    )
     if not given.get("loads"):
         faults.add("machine", "there are no [[loads]]", "A flywheel evens out their work.")
     delta = _read_delta(faults, body, whole=len(faults) == before)
     cycle = body.get("cycle_deg", 360)
-    if not is_number(cycle) or cycle not in (360, 720):
+    if not fields.is_number(cycle) or cycle not in (360, 720):
         hint = "720 is for a four-stroke engine."
         faults.expected("machine.cycle_deg", "360 or 720", cycle, hint)
         cycle = 360
-    count = read_whole(faults, "machine.count", body.get("count", round(cycle / 30)), 4, _MOST)
-    start = read_angle(faults, "machine.phi_0", body["phi_0"]) if "phi_0" in body else None
+    count = fields.read_whole(
+        faults, "machine.count", body.get("count", round(cycle / 30)), 4, _MOST
+    )
+    start = fields.read_angle(faults, "machine.phi_0", body["phi_0"]) if "phi_0" in body else None
 
     def number(key: str, default: float, what: str, low: float, high: float) -> float:
         value = body.get(key, default)
-        found = read_number(faults, f"machine.{key}", value, what, low=low, high=high)
+        found = fields.read_number(faults, f"machine.{key}", value, what, low=low, high=high)
         return default if found is None else found
 
     def word(key: str, default: M) -> M:
         if key not in body:
             return default
-        return read_member(faults, f"machine.{key}", body[key], type(default)) or default
+        return fields.read_member(faults, f"machine.{key}", body[key], type(default)) or default
 
     def scale(key: str, unit: str) -> float | None:
         return number(key, 1.0, say("a scale in {}", unit), 1e-12, 1e12) if key in body else None
@@ -132,8 +124,10 @@ def _read_delta(faults: Faults, body: Table, *, whole: bool) -> float | None:
             value = float(top) / float(bottom) if slash else float(top)
         except (ValueError, ZeroDivisionError):
             value = math.nan
-    if not is_number(value) or not math.isfinite(value):
-        message = say('expected a number or a fraction such as "1/18", got {}', show(body["delta"]))
+    if not fields.is_number(value) or not math.isfinite(value):
+        message = say(
+            'expected a number or a fraction such as "1/18", got {}', fields.show(body["delta"])
+        )
         faults.add(path, message, "A decimal fraction has a point: 0.05.")
         return None
     if not 0.0 < value < 1.0:
@@ -145,18 +139,22 @@ def _read_delta(faults: Faults, body: Table, *, whole: bool) -> float | None:
 
 def _read_wheel(faults: Faults, value: object) -> Wheel:
     path = "machine.flywheel"
-    table = read_table(faults, path, value, 'flywheel = { shape = "rim", speed = 30 }')
-    body = read_keys(faults, path, table or {}, keys.FLYWHEEL)
+    table = fields.read_table(faults, path, value, 'flywheel = { shape = "rim", speed = 30 }')
+    body = fields.read_keys(faults, path, table or {}, keys.FLYWHEEL)
     found: dict[str, Any] = {}
     if "shape" in body:
-        found["shape"] = read_member(faults, f"{path}.shape", body["shape"], Shape) or Shape.DISC
+        found["shape"] = (
+            fields.read_member(faults, f"{path}.shape", body["shape"], Shape) or Shape.DISC
+        )
     for key, what, low, high in (
         ("density", "a density in kg/m³", 100.0, 3e4),
         ("speed", "a speed in m/s", 0.1, 1e3),
         ("ratio", "a ratio of speeds", 1e-3, 1e3),
     ):
         if key in body:
-            found[key] = read_number(faults, f"{path}.{key}", body[key], what, low=low, high=high)
+            found[key] = fields.read_number(
+                faults, f"{path}.{key}", body[key], what, low=low, high=high
+            )
     return Wheel(**{key: item for key, item in found.items() if item is not None})
 
 
@@ -166,19 +164,23 @@ _MOTOR = "kloss = { M_max = 60, s_k = 0.15, n_sync = 150 }"
 def _read_motor(faults: Faults, value: object) -> Motor | None:
     """Read a motor's characteristic, and reduce it to the crank."""
     before, path = len(faults), "machine.motor"
-    body = read_keys(faults, path, read_table(faults, path, value, _MOTOR) or {}, keys.MOTOR)
+    body = fields.read_keys(
+        faults, path, fields.read_table(faults, path, value, _MOTOR) or {}, keys.MOTOR
+    )
     given = [form for form in keys.MOTOR_FORMS if form in body]
     if len(faults) == before and len(given) != 1:
         faults.add(path, "expected kloss or line, one of them", say("For example: {}", _MOTOR))
-    ratio = read_number(
+    ratio = fields.read_number(
         faults, f"{path}.ratio", body.get("ratio", 1.0), "a ratio of speeds", low=1e-3, high=1e3
     )
     if len(faults) != before:
         return None
     (form,) = given
     where = f"{path}.{form}"
-    table = read_table(faults, where, body[form], _MOTOR)
-    known = read_keys(faults, where, table or {}, keys.KLOSS if form == "kloss" else keys.LINE)
+    table = fields.read_table(faults, where, body[form], _MOTOR)
+    known = fields.read_keys(
+        faults, where, table or {}, keys.KLOSS if form == "kloss" else keys.LINE
+    )
     ways = keys.MOTOR_FORMS[form]
     way = next((names for names in ways if set(names) == set(known)), None)
     if len(faults) == before and way is None:
@@ -189,7 +191,7 @@ def _read_motor(faults: Faults, value: object) -> Motor | None:
             "Give all.",
         )
     found = {
-        key: read_number(faults, f"{where}.{key}", item, "a number", low=1e-9, high=1e9)
+        key: fields.read_number(faults, f"{where}.{key}", item, "a number", low=1e-9, high=1e9)
         for key, item in known.items()
     }
     if len(faults) != before or ratio is None:

@@ -7,27 +7,18 @@ from functools import partial
 
 from planmethod.languages import say
 from planmethod.pattern import pattern
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    read_angle,
-    read_coordinate,
-    read_length,
-    read_line_name,
-    read_number,
-    report_unknown,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Posed, PosedBy
 from planmethod.problem.names import split_pair
 
 _READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
-    "x": read_coordinate,
-    "y": read_coordinate,
-    "phi": read_angle,
-    "stroke": partial(read_number, what="a share of the stroke", low=0.0, high=1.0, hint=""),
+    "x": fields.read_coordinate,
+    "y": fields.read_coordinate,
+    "phi": fields.read_angle,
+    "stroke": partial(fields.read_number, what="a share of the stroke", low=0.0, high=1.0, hint=""),
 }
 _SIDE = "|".join(keys.EXTREMES)
 _AT = pattern(rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z")
@@ -112,7 +103,7 @@ def _read(
     known: Collection[str] = links if kind == "phi" else dict.fromkeys(moving)
     said = "unknown link '{}'" if kind == "phi" else "unknown moving point '{}'"
     if name and name not in known:
-        report_unknown(faults, path, name, known, said=said)
+        fields.report_unknown(faults, path, name, known, said=said)
         return None
     if kind in ("stroke", "at") and not crank:
         faults.add(path, "a driving slider has no turn", "Give x_B, y_B or phi_1 of a link.")
@@ -153,14 +144,14 @@ def _read_actuator(
     """Read an actuator (гидроцилиндр): the distance of two points, and its rate."""
     before = len(faults)
     known = dict.fromkeys([*fixed, *(p for one in links.values() for p in one.points)])
-    ends = read_line_name(faults, f"driver.{pair}", pair, known, of="the mechanism")
+    ends = fields.read_line_name(faults, f"driver.{pair}", pair, known, of="the mechanism")
     if isinstance(given[pair], list):
         hint = "Its rate makes another speed in each: write the others as variants."
         faults.add(f"driver.{pair}", "an actuator has one position", hint)
         return None
-    length = read_length(faults, f"driver.{pair}", given[pair])
+    length = fields.read_length(faults, f"driver.{pair}", given[pair])
     rates = [
-        read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
+        fields.read_number(faults, f"driver.{key}", given.get(key, 0.0), what)
         for key, what in (
             (f"v_{pair}", "a velocity in m/s"),
             (f"a_{pair}", "an acceleration in m/s²"),
@@ -190,7 +181,7 @@ def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float]
                 path, say("expected degrees after the extreme, got {!r}: {}", match[3], error)
             )
             return None
-    degrees = read_angle(faults, path, after)
+    degrees = fields.read_angle(faults, path, after)
     return None if degrees is None else (match[1] or match[2] or "", degrees)
 
 
@@ -205,7 +196,7 @@ def _read_root(
     if len(words) == 2 and words[0] == "going" and words[1] in ways:
         return words[1], None
     if len(words) == 2 and words[0] == "near":
-        read = read_angle if crank else read_coordinate
+        read = fields.read_angle if crank else fields.read_coordinate
         try:
             return "", read(faults, "driver.root", float(words[1]))
         except ValueError:

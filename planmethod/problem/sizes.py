@@ -6,20 +6,8 @@ from bisect import bisect_left, bisect_right
 from itertools import pairwise
 
 from planmethod.languages import say
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    is_number,
-    read_angle,
-    read_coordinate,
-    read_keys,
-    read_member,
-    read_number,
-    read_whole,
-    read_word,
-    show,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.load_records import Interpolation, Law, Moving, Over, Phase, Turning
 from planmethod.problem.load_records import Table as SizeTable
 from planmethod.problem.model import Drive
@@ -59,25 +47,25 @@ def read_size(
     if isinstance(value, dict):
         return _read_table(faults, path, value, drive, turn, couple=couple)
     what = "a couple in N·m" if couple else "a force in N"
-    if not is_number(value) and not isinstance(value, str):
+    if not fields.is_number(value) and not isinstance(value, str):
         faults.expected(path, say("{} or a table", what), value, say("A table: {}.", _TABLE))
         return None
     return _read_value(faults, path, value, what)
 
 
 def _read_value(faults: Faults, path: str, value: object, what: str) -> float | None:
-    return read_number(faults, path, value, what, low=-1e12, high=1e12)
+    return fields.read_number(faults, path, value, what, low=-1e12, high=1e12)
 
 
 def _read_table(
     faults: Faults, path: str, value: Table, drive: Drive | None, turn: float, *, couple: bool
 ) -> SizeTable | None:
     before = len(faults)
-    given = read_keys(faults, path, value, keys.TABLE)
+    given = fields.read_keys(faults, path, value, keys.TABLE)
     whole = len(faults) == before
     law = None
     if "law" in given:
-        law = read_member(faults, f"{path}.law", given["law"], Law)
+        law = fields.read_member(faults, f"{path}.law", given["law"], Law)
         if law is None:
             return None
     if law is Law.INDICATOR:
@@ -136,13 +124,13 @@ def _read_indicator(
         if key not in given and whole:
             faults.add(f"{path}.{key}", "missing", _INDICATOR)
     strokes, area = given.get("strokes", []), _read_area(faults, f"{path}.area", given.get("area"))
-    sides = read_whole(faults, f"{path}.sides", given.get("sides", 1), 1, 2)
+    sides = fields.read_whole(faults, f"{path}.sides", given.get("sides", 1), 1, 2)
     area_2 = _read_area(faults, f"{path}.area_2", given.get("area_2", given.get("area")))
     if "area_2" in given and sides == 1:
         faults.add(f"{path}.area_2", "is of the other side of the piston", "Give sides = 2.")
     if not isinstance(strokes, list) or len(strokes) not in (2, 4):
         if "strokes" in given:
-            shown = show(strokes)
+            shown = fields.show(strokes)
             faults.add(f"{path}.strokes", say("expected 2 or 4 strokes, got {}", shown), _INDICATOR)
         return None
     at: list[float] = []
@@ -192,7 +180,9 @@ def _limit(table: SizeTable, at: float, after: bool) -> float:
 def _read_area(faults: Faults, path: str, value: object) -> float | None:
     if value is None:
         return None
-    return read_number(faults, path, value, "an area in m²", low=1e-9, high=1e3, positive=True)
+    return fields.read_number(
+        faults, path, value, "an area in m²", low=1e-9, high=1e3, positive=True
+    )
 
 
 _INDICATOR = (
@@ -204,7 +194,7 @@ _INDICATOR = (
 def _read_over(
     faults: Faults, path: str, value: object, drive: Drive | None, *, couple: bool
 ) -> Over | None:
-    word = read_word(faults, path, value, _OVERS)
+    word = fields.read_word(faults, path, value, _OVERS)
     if word is None:
         return None
     over = Over(word)
@@ -240,7 +230,7 @@ def _read_interpolation(
         hint = "There is a value for each position."
         faults.add(where, 'does not go with over = "position"', hint)
         return None
-    return read_member(faults, where, given["interpolation"], Interpolation)
+    return fields.read_member(faults, where, given["interpolation"], Interpolation)
 
 
 Rows = tuple[tuple[float, ...], tuple[float, ...]]
@@ -273,7 +263,7 @@ def _read_rows(
         )
         return None
     before = len(faults)
-    read = {Over.PHI: read_angle, Over.PATH: _read_share}.get(over, read_coordinate)
+    read = {Over.PHI: fields.read_angle, Over.PATH: _read_share}.get(over, fields.read_coordinate)
     rows: list[tuple[float, float]] = []
     for index, row in enumerate(value):
         where = f"{path}[{index}]"
@@ -306,7 +296,9 @@ def _read_by_position(
 
 def _read_share(faults: Faults, path: str, value: object) -> float | None:
     hint = "0 is where the stroke begins, 1 where it ends: divide the path by the stroke."
-    return read_number(faults, path, value, "a share of the stroke", low=0.0, high=1.0, hint=hint)
+    return fields.read_number(
+        faults, path, value, "a share of the stroke", low=0.0, high=1.0, hint=hint
+    )
 
 
 def _check_order(
@@ -363,7 +355,7 @@ def read_phase(
         faults.expected(path, "a table", value, say("For example: {}.", _PHASES))
         return None
     before = len(faults)
-    given = read_keys(faults, path, value, keys.PHASES)
+    given = fields.read_keys(faults, path, value, keys.PHASES)
     if not given and len(faults) == before:
         hint = say("For example: {}.", _PHASES)
         faults.add(path, "expected phi, moving or turning, got an empty table", hint)
@@ -376,14 +368,14 @@ def read_phase(
             faults.add(f"{path}.phi", say("link {} slides, it has no phi", drive.link), hint)
     if "moving" in given:
         where = f"{path}.moving"
-        moving = read_member(faults, where, given["moving"], Moving)
+        moving = fields.read_member(faults, where, given["moving"], Moving)
         if couple:
             hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
             faults.add(where, "does not go with a couple", hint)
         elif still is not None:
             faults.add(where, say("point {} is fixed and does not move", still))
     if "turning" in given:
-        turning = read_member(faults, f"{path}.turning", given["turning"], Turning)
+        turning = fields.read_member(faults, f"{path}.turning", given["turning"], Turning)
     if len(faults) != before or spans is None:
         return None
     return Phase(spans, moving, turning)
@@ -409,8 +401,8 @@ def _read_span(faults: Faults, path: str, value: object) -> tuple[float, float] 
     if not isinstance(value, list) or len(value) != 2:
         faults.expected(path, "[from, to] in degrees", value)
         return None
-    start = read_angle(faults, f"{path}[0]", value[0])
-    end = read_angle(faults, f"{path}[1]", value[1])
+    start = fields.read_angle(faults, f"{path}[0]", value[0])
+    end = fields.read_angle(faults, f"{path}[1]", value[1])
     if start is None or end is None:
         return None
     if start == end or abs(end - start) > TURN:

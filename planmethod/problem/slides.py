@@ -6,23 +6,9 @@ from collections.abc import Mapping
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import keys
+from planmethod.problem import fields, keys
 from planmethod.problem.bodies import heading
-from planmethod.problem.fields import (
-    Faults,
-    Table,
-    read_angle,
-    read_coordinate,
-    read_keys,
-    read_known_point,
-    read_length,
-    read_line_name,
-    read_place,
-    read_point_name,
-    read_table,
-    report_unknown,
-    unmask,
-)
+from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText, read_label
 from planmethod.problem.model import Body, Slide
 from planmethod.problem.names import looks_latin, segment
@@ -45,7 +31,7 @@ def read_frame(faults: Faults, table: object) -> Frame:
     """Read ``[frame]``."""
     before = len(faults)
     points: dict[str, complex] = {}
-    entries = read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
+    entries = fields.read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
     if len(entries) > keys.POINT_LIMIT:
         faults.add("frame", say("{} points, the limit is {}", len(entries), keys.POINT_LIMIT))
         return Frame({}, {}, sound=False)
@@ -56,10 +42,10 @@ def read_frame(faults: Faults, table: object) -> Frame:
             continue
         path = f"frame.{segment(key)}"
         if isinstance(value, Mapping):
-            report_unknown(faults, path, key, keys.FRAME)
+            fields.report_unknown(faults, path, key, keys.FRAME)
             continue
-        name = read_point_name(faults, path, key)
-        place = read_place(faults, path, value)
+        name = fields.read_point_name(faults, path, key)
+        place = fields.read_place(faults, path, value)
         if name is not None and name in points:
             faults.add(path, say("point '{}' is given twice", name))
         elif name is not None:
@@ -71,7 +57,7 @@ def read_frame(faults: Faults, table: object) -> Frame:
 
 def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -> dict[str, Guide]:
     example = 'guides.x-x = { through = "A", angle = 0 }'
-    entries = read_table(faults, "frame.guides", table, example) or {}
+    entries = fields.read_table(faults, "frame.guides", table, example) or {}
     guides: dict[str, Guide] = {}
     if len(entries) > keys.POINT_LIMIT:
         faults.add(
@@ -80,26 +66,26 @@ def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -
         return guides
     for key, value in entries.items():
         path = f"frame.guides.{segment(key)}"
-        name = unmask(faults, path, key) if looks_latin(key) else key
+        name = fields.unmask(faults, path, key) if looks_latin(key) else key
         if not read_label(faults, path, name, "a guide"):
             continue
         guides[name] = (None, 0j, 0.0)
-        body = read_table(faults, path, value, example)
+        body = fields.read_table(faults, path, value, example)
         if body is None:
             continue
-        given = read_keys(faults, path, body, keys.GUIDE)
+        given = fields.read_keys(faults, path, body, keys.GUIDE)
         for missing in (key for key in keys.GUIDE if key not in given):
             faults.add(f"{path}.{missing}", "missing", say("For example: {}", example))
         through: str | None = None
         base: complex | None = 0j
         if isinstance(given.get("through"), str):
-            through = read_known_point(
+            through = fields.read_known_point(
                 faults, f"{path}.through", given["through"], points, of="the frame"
             )
             base = points.get(through, 0j) if through else None
         elif "through" in given:
-            base = read_place(faults, f"{path}.through", given["through"])
-        angle = read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
+            base = fields.read_place(faults, f"{path}.through", given["through"])
+        angle = fields.read_angle(faults, f"{path}.angle", given.get("angle", 0.0))
         if base is not None and angle is not None:
             guides[name] = (through, base, angle)
     return guides
@@ -113,7 +99,7 @@ def find_host(
     path = f"{link.path}.slides"
     known = (*frame.guides, *(name for name in links if name != link.name))
     before = len(faults)
-    link.slides = read_keys(faults, path, link.slides, keys.SLIDES)
+    link.slides = fields.read_keys(faults, path, link.slides, keys.SLIDES)
     if "on" not in link.slides:
         if link.sound and len(faults) == before:
             faults.add(f"{path}.on", "missing", "Name a guide of the frame or a link.")
@@ -123,7 +109,7 @@ def find_host(
         hint = say('Write on = "{}".', value) if isinstance(value, int) else ""
         faults.expected(f"{path}.on", "the name of a guide or link", value, hint)
         return None
-    name = value if value in known else unmask(faults, f"{path}.on", value)
+    name = value if value in known else fields.unmask(faults, f"{path}.on", value)
     if name in frame.guides:
         return FRAME, name
     if name == FRAME:
@@ -132,7 +118,7 @@ def find_host(
         faults.add(f"{path}.on", say("link {} cannot slide on itself", name))
         return None
     if name not in links:
-        report_unknown(faults, f"{path}.on", name, known, said="unknown guide or link '{}'")
+        fields.report_unknown(faults, f"{path}.on", name, known, said="unknown guide or link '{}'")
         return None
     return name, None
 
@@ -188,9 +174,9 @@ def read_slide(
     assert link.slides is not None
     path, given, length = f"{link.path}.slides", link.slides, None
     if "length" in given:
-        length = read_length(faults, f"{path}.length", given["length"])
+        length = fields.read_length(faults, f"{path}.length", given["length"])
     before = len(faults)  # a faulty length does not hide the line
-    offset = read_coordinate(faults, f"{path}.offset", given.get("offset", 0.0)) or 0.0
+    offset = fields.read_coordinate(faults, f"{path}.offset", given.get("offset", 0.0)) or 0.0
     if not link.points:
         return None
     pin = link.points[0]
@@ -209,7 +195,7 @@ def read_slide(
             if key in given:
                 hint = "The line is given by along, or by through and angle."
                 faults.add(f"{path}.{key}", "does not go with 'along'", hint)
-        line = read_line_name(faults, f"{path}.along", given["along"], body.points, of=owner)
+        line = fields.read_line_name(faults, f"{path}.along", given["along"], body.points, of=owner)
         if line is None or len(faults) != before:
             return None
         start, end = body.points[line[0]], body.points[line[1]]
@@ -242,7 +228,9 @@ def _read_through(faults: Faults, path: str, given: Table, body: Body, owner: st
             say("Add {}.", say(" or ").join(ways)) if ways else "",
         )
         return None
-    return read_known_point(faults, f"{path}.through", given["through"], body.points, of=owner)
+    return fields.read_known_point(
+        faults, f"{path}.through", given["through"], body.points, of=owner
+    )
 
 
 def _read_slide_angle(
@@ -262,7 +250,7 @@ def _read_slide_angle(
         axis = "+x" if turn is not None else say("the own axis of link {}", host)
         faults.add(f"{path}.angle", "missing", say("Give it in degrees from {}.", axis))
         return None
-    angle = read_angle(faults, f"{path}.angle", given["angle"])
+    angle = fields.read_angle(faults, f"{path}.angle", given["angle"])
     if angle is None:
         return None
     if bare and not marked and angle != 0:

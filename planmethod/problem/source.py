@@ -148,7 +148,8 @@ def _too_large(name: str) -> ProblemError:
 def _nearby(path: Path) -> str:
     """Hint for a missing file: the nearest name in its folder."""
     try:
-        names = [p.name for _, p in zip(range(1000), path.parent.glob("*.toml"), strict=False)]
+        found = zip(range(1000), path.parent.glob("*.toml"), strict=False)
+        names = [p.name for _, p in found if p.name != path.name]  # a link that leads nowhere
     except (OSError, ValueError):
         names = []
     guess = near(path.name, names)

@@ -117,6 +117,9 @@ BESIDE, UNDER = 24.0, 22.0
 SAID = 5.5
 """Room that a scale of its own takes under a plan, mm."""
 
+ALL = 10.0
+"""Room that several positions of a scheme take around one."""
+
 NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
 """Room that a view's letters take above and below it, with its name and its scale, mm."""
 
@@ -349,10 +352,16 @@ class _Drawn:
         return self.views.in_rows(self.kind)
 
     def alone(self) -> float:
-        """Return the finest scale of the series at which it has the room of its own."""
+        """Return the finest scale of the series at which it has the room of its own.
+
+        Where there is none, all plans having scales of their own, it is that of the largest alone.
+        """
         asked = self.construction.draft.problem.scales
-        per_mm = _fitting(asked, self.box, self.size)
+        per_mm = first = _fitting(asked, self.box, self.size)
+        drawn = np.maximum(*self.sizes) > 0.0
         while self.rows and not (self.stretches(per_mm, 1.0) and self.share(per_mm) <= 1.0):
+            if (self.each(per_mm) != per_mm)[drawn].all():
+                return first
             per_mm = _next(per_mm, asked, finer=False)
         return per_mm
 
@@ -388,7 +397,7 @@ class _Drawn:
             step = min(per_row(self.si.count), self.si.count)
             across = sum(float(wide[k::step].max()) + BETWEEN for k in range(step)) - BETWEEN
             return across, self.taken(per_mm) + BETWEEN + name - BESIDE
-        several = BESIDE if self.si.count > 1 and self.kind is PlanKind.POSITION else 0.0
+        several = ALL if self.si.count > 1 and self.kind is PlanKind.POSITION else 0.0
         return self.size[0] / per_mm + BESIDE + several, self.size[1] / per_mm + name + several
 
     def _on_paper(self, per_mm: float) -> tuple[Reals, Reals]:

@@ -17,6 +17,7 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
 from planmethod.record import dataclass
+from planmethod.render import symbols
 from planmethod.render.control.unused import largest_empty
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
@@ -39,15 +40,6 @@ from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import Viewed
-from planmethod.render.symbols import (
-    before_links,
-    fixed_pivot,
-    guide_line,
-    link,
-    revolute,
-    slider,
-    stone,
-)
 from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place
 from planmethod.synthesis.text import Teller, check_rows, given_facts, point_name, size_rows
@@ -180,7 +172,7 @@ def _kept(sentence: str) -> str:
 def _picture(drawn: Drawn) -> Picture:
     """Return the construction with the mechanism in its positions."""
     ink = _Ink(drawn)
-    items = before_links([*ink.construction(), *ink.mechanism()])
+    items = symbols.before_links([*ink.construction(), *ink.mechanism()])
     return lettered(list(items), ink.labels())
 
 
@@ -261,21 +253,21 @@ class _Ink:
                          key=lambda at: at.real)  # fmt: skip
         if sliders:
             low, high = sliders[0], sliders[-1]
-            yield from guide_line(low, before=14.0, after=abs(high - low) + 14.0)
+            yield from symbols.guide_line(low, before=14.0, after=abs(high - low) + 14.0)
         for at in sliders:
-            yield from slider(at)
+            yield from symbols.slider(at)
         for pose in made.poses:
             for pin, foot in pose.stones:
                 way = cmath.phase(self.at(pin) - self.at(foot))
-                yield from stone(self.at(pin), angle=way * 180.0 / cmath.pi, pin=False)
+                yield from symbols.stone(self.at(pin), angle=way * 180.0 / cmath.pi, pin=False)
         for pose in made.poses:
             for points in pose.links:
-                yield from link(*map(self.at, points))
+                yield from symbols.link(*map(self.at, points))
         for pivot in made.pivots:
-            yield from fixed_pivot(self.at(pivot), direction=self._down(pivot))
+            yield from symbols.fixed_pivot(self.at(pivot), direction=self._down(pivot))
         for pose in made.poses:
             for pin in (*pose.pins, *pose.sliders, *(pin for pin, _ in pose.stones)):
-                yield from revolute(self.at(pin))
+                yield from symbols.revolute(self.at(pin))
 
     def _down(self, pivot: str) -> complex:
         """Return where the support of a pivot stands: away from its links, up or down."""

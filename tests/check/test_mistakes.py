@@ -71,6 +71,16 @@ def test_the_driver_the_other_way_turns_velocities_and_leaves_accelerations() ->
                 assert wrong.values[key] == pytest.approx(-value)
 
 
+def test_the_omega_of_the_crank_brings_its_sense_into_the_coriolis_acceleration_or_not() -> None:
+    """A5 by its size alone and as the vector 2ω₁×v_r: two where ω₁ and ω₂ are of two senses."""
+    for name, key, ratio in (
+        ("linkages/ex3", "ak_B3_B", [50 / 15.476709]),
+        ("levers/six-link", "ak_H_H2", [20 / 8.122472, -20 / 8.122472]),
+    ):
+        right = exact(task_of(name))[key]
+        assert [e.values[key] / right for e in by_code(name, "A5")] == pytest.approx(ratio)
+
+
 def test_rev_per_min_for_radians_grows_velocities_once_and_accelerations_twice() -> None:
     wrong, right = by_code("linkages/ex3", "S2")[0], exact(task_of("linkages/ex3"))
     factor = 30 / np.pi

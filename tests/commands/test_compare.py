@@ -31,6 +31,7 @@ def test_own_numbers_stand_beside_the_exact_ones_without_a_verdict(work: Path) -
     assert rows["v_D"][1:6:2] == ["3.4", "3.405", "−0.0049"]
     assert rows["a_E"][-1] == "−8.1"  # (80 - 87.07) / 87.07
     assert rows["q_7"][1:] == ["—"] * 4
+    assert "no quantity 'q_7'" in result.output
     assert not {"wrong", "right", "near"} & set(result.output.split("\n\n")[0].split())
 
 

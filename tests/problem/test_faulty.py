@@ -55,6 +55,8 @@ def test_missing_file_names_the_nearest(tmp_path: Path) -> None:
         "1 fault in the problem file\n"
         f"  there is no such file. Did you mean '{tmp_path / 'press.toml'}'?"
     )
+    (tmp_path / "link.toml").symlink_to("nowhere.toml")
+    assert message_of(tmp_path / "link.toml").endswith("no such file. Check the path.")
 
 
 def test_missing_folder(tmp_path: Path) -> None:

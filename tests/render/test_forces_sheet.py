@@ -205,7 +205,7 @@ def test_the_scheme_has_every_load_in_its_direction(name: str) -> None:
 def test_cut_links_have_loads_and_reactions_in_their_directions(name: str) -> None:
     sheet, reading = sheet_of(name), reading_of(name)
     for view, plan in zip(views(sheet, "position")[1:], reading.plans, strict=True):
-        expected = {e.symbol: reading.force(e) for e in reading.shown(plan)}
+        expected = {e.symbol: reading.way(e) for e in reading.shown(plan)}
         drawn = dict(arrows(sheet, view))
         assert set(drawn) == set(expected)
         assert all(turned(vector, expected[letter]) < 0.01 for letter, vector in drawn.items())

@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 from cases import thinned
+from lettered import closing_lines, lever_lines, moment_lines
 from reading import Path, read_svg
 from worked import PROBLEMS, SIX, problem_of
 
@@ -15,7 +16,12 @@ from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.render.backends import render
+from planmethod.render.forces.arms import ARM
+from planmethod.render.forces.polygon import drawn_edges
+from planmethod.render.ink.drawing import Stroke, View
+from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
 
 LAID_OFF = re.compile(r"\(([^() ]+)\) = [^;]*?([\d.]+) мм")
@@ -27,6 +33,7 @@ OTHERS = [
     for path in sorted((PROBLEMS / folder).glob("*.toml"))
     if not path.stem.endswith("variants") and f"{folder}/{path.stem}" not in SIX
 ]
+LOADED = [name for name in OTHERS if problem_of(name).dynamics is not None]
 CASES = [(name, layout) for name in SIX for layout in ("one-position", "homework")]
 CASES += [(name, "one-position") for name in thinned(OTHERS, 12)]
 
@@ -63,3 +70,59 @@ def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout:
                     assert span.length == pytest.approx(length, abs=0.2501), said
                     compared += 1
     assert compared >= 5 or layout == "homework"
+
+
+FORCES = re.compile(r"([FФR]\S*) = ([\d.]+)[·/]")
+ARMS = re.compile(r"h_(\S+) = ([\d.]+)")
+
+
+@pytest.mark.parametrize("name", ["levers/six-link", "press/press", *thinned(LOADED, 9)])
+def test_a_ruler_finds_the_forces_and_their_arms_on_links_and_lever(name: str) -> None:
+    """On a sheet of forces, in the SVG: every number that a hand reads there."""
+    problem = problem_of(name)
+    at = problem.drive.positions[:1]
+    sheet = kinematics_sheets(problem, layout="forces", positions=at)[0]
+    assert sheet.width == 841
+    page = read_svg(render(sheet, "svg"))
+    inked = np.array([z for path in page.items if isinstance(path, Path) for z in path.corners])
+    views = composition("forces").views_for("A1", 1)
+    reading = ForceReading(Solution(problem, positions=at, views=views), 0)
+    plans = [view for view in sheet.views if view.kind == "forces"]
+    cuts = [view for view in sheet.views if view.kind == "position"][1:]
+    arms = [i for i in sheet.items if isinstance(i, Stroke) and i.tag.startswith(f"{ARM} ")]
+    compared, drawn = 0, iter(plans)
+
+    def compare(text: str, said: float, start: complex, end: complex) -> None:
+        nonlocal compared
+        assert max(np.abs(inked - place).min() for place in (start, end)) < 0.01
+        assert abs(end - start) == pytest.approx(said, abs=0.2501), text
+        compared += 1
+
+    def compare_arms(text: str, view: View) -> None:
+        left, low, right, high = view.box
+        here = [
+            arm.points
+            for arm in arms
+            if left <= arm.points[0].real <= right and low <= arm.points[0].imag <= high
+        ]
+        for _, value in ARMS.findall(plain_text(text).replace(",", ".")):
+            if float(value) > 3.5:
+                nearest = min(here, key=lambda p: abs(abs(p[1] - p[0]) - float(value)))
+                compare(text, float(value), *nearest)
+
+    for number, plan in enumerate(reading.plans):
+        for line in moment_lines(reading, plan):
+            compare_arms(line, cuts[number])
+        if not drawn_edges(reading, number):
+            continue
+        on_sheet = {span.name: span for span in next(drawn).spans}
+        for line in closing_lines(reading, number):
+            for letters, value in FORCES.findall(plain_text(line).replace(",", ".")):
+                if letters in on_sheet:
+                    span = on_sheet[letters]
+                    compare(line, float(value), span.start, span.end)
+    if reading.statics.lever_plan is not None:
+        (view,) = (view for view in sheet.views if view.kind == "velocity")
+        for line in lever_lines(reading):
+            compare_arms(line, view)
+    assert compared >= 5

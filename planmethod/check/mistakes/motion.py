@@ -211,13 +211,14 @@ def coriolis_of_absolute(scene: Scene) -> Iterator[Change]:
 
 
 def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
-    """A5: ω of the crank in place of that of the slotted link."""
+    """A5: ω of the crank in place of that of the slotted link, with its sense or without it."""
     drive = scene.problem.drive
     rate = scene.kin.omega.get(drive.link)
     for relative, step in _turned(scene):
         if rate is not None and rate in scene.made and step.powers[0][0] != rate:
             made = scene.signed(step, ((rate, 1), step.powers[1]), abs(step.factor))
-            yield Change("A5", relative.name, {step.out: (made,)})
+            for turn in dict.fromkeys((1.0, step.factor / made.factor)):
+                yield Change("A5", relative.name, {step.out: times(made, turn)})
 
 
 def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:

@@ -16,14 +16,8 @@ from planmethod.gears.involute.model import MeshingProblem, Rack
 from planmethod.gears.involute.profile import Tooth
 from planmethod.gears.involute.sizes import Pair
 from planmethod.languages import say
-from planmethod.problem import keys
-from planmethod.problem.fields import (
-    Faults,
-    read_keys,
-    read_number,
-    read_table,
-    read_whole,
-)
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
 
@@ -62,9 +56,9 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
     """
     path = Path(path)
     table, faults = varied(path, variant)
-    given = read_keys(faults, "", table, TOP)
+    given = fields.read_keys(faults, "", table, TOP)
     head = read_head(faults, given)
-    body = read_table(faults, "meshing", given.get("meshing", {}), _EXAMPLE)
+    body = fields.read_table(faults, "meshing", given.get("meshing", {}), _EXAMPLE)
     told = None if body is None else _read(faults, body)
     if faults or told is None:
         raise ProblemError(str(path), faults.found)
@@ -77,14 +71,14 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
 
 def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return the fields of a problem that stand in its table."""
-    given = read_keys(faults, "meshing", body, keys.MESHING)
+    given = fields.read_keys(faults, "meshing", body, keys.MESHING)
     number: dict[str, float | None] = {}
     for key, (what, low, high, usual) in _NUMBERS.items():
         number[key] = usual
         if key in given:
             path, value = f"meshing.{key}", given[key]
             hint = "Lengths of [meshing] are millimetres, as the standard has them."
-            read = read_number(faults, path, value, what, low=low, high=high, hint=hint)
+            read = fields.read_number(faults, path, value, what, low=low, high=high, hint=hint)
             number[key] = read
     for key in ("z", "m"):
         if key not in given:
@@ -136,7 +130,9 @@ def _read_teeth(faults: Faults, value: object) -> tuple[int, int] | None:
         hint = "Write z = [20, 60] and internal = true."
         faults.add("meshing.z", "teeth of an internal pair are positive here", hint)
         return None
-    found = [read_whole(faults, f"meshing.z[{i}]", one, 5, 1000) for i, one in enumerate(value)]
+    found = [
+        fields.read_whole(faults, f"meshing.z[{i}]", one, 5, 1000) for i, one in enumerate(value)
+    ]
     one, two = found
     return None if one is None or two is None else (one, two)
 
@@ -152,7 +148,7 @@ def _read_cutter(faults: Faults, given: Mapping[str, Any], z: tuple[int, int]) -
             faults.add("meshing.cutter", "goes with internal = true", "Leave it out.")
             return None
         return 0
-    told = read_whole(faults, "meshing.cutter", given.get("cutter", CUTTER), 8, 200)
+    told = fields.read_whole(faults, "meshing.cutter", given.get("cutter", CUTTER), 8, 200)
     if told is not None and z[1] - max(z[0], told) < 1:
         what = say("a ring of {} teeth, a wheel of {}, a cutter of {}", z[1], z[0], told)
         faults.add("meshing.z", what, "The second wheel is the ring, with the most teeth.")
@@ -172,7 +168,7 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
             faults.add(f"meshing.{key}", "both shifts are given in x", "Keep one of them.")
         what, low, high, _ = _NUMBERS["x1"]
         found = [
-            read_number(faults, f"meshing.x[{i}]", one, what, low=low, high=high)
+            fields.read_number(faults, f"meshing.x[{i}]", one, what, low=low, high=high)
             for i, one in enumerate(value)
         ]
         one, two = found

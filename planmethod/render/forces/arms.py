@@ -59,7 +59,7 @@ def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) 
         for edge in equation.edges:
             read = 0.0 if reading.is_none(edge) else reading.arm(edge, equation.about)
             if read:
-                force = Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.force(edge))
+                force = Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))
                 found.setdefault((edge.symbol, about), arm_of(force, about, read))
     return list(found.values())
 
@@ -99,7 +99,8 @@ def arm_items(
 
 
 def _is_same(one: Arm, other: Arm) -> bool:
-    return max(abs(one.about - other.about), abs(one.foot - other.foot)) < _SAME
+    apart = max(abs(one.about - other.about), abs(one.foot - other.foot))
+    return apart < _SAME and one.read == other.read
 
 
 def _action(arm: Arm, placed: Sequence[tuple[Acting, Segment]]) -> list[Item]:

@@ -249,7 +249,7 @@ def _cut(
     shown = sorted(edges, key=lambda edge: edge.share is Share.WHOLE)
     forces = [force for one in guided for force in one.forces]
     forces += [
-        Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.force(edge))
+        Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))
         for edge in shown
         if edge.symbol not in replaced
     ]

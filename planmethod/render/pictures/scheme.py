@@ -12,22 +12,12 @@ from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
 from planmethod.record import dataclass
+from planmethod.render import symbols
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.pictures.supports import Support, free_sides, stand
-from planmethod.render.symbols import (
-    SIZES,
-    angle_of,
-    guide_plates,
-    revolute,
-    revolute_on,
-    rigid_corner,
-    slider,
-    stiff_triangle,
-    stone,
-    unit,
-)
+from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.solution import Solution
 
@@ -120,14 +110,18 @@ class Scheme:
         if len(along) > 1 and inside and abs(z.imag) > 0.15 * (along[-1][0] - along[0][0]).real:
             corners = (along[0][1], along[-1][1], place)
             tag = f"link {link}"
-            self.lines += stiff_triangle(*corners, factor=self.factor, pen=self.pen, tag=tag)
+            self.lines += symbols.stiff_triangle(
+                *corners, factor=self.factor, pen=self.pen, tag=tag
+            )
             self.segments.setdefault(link, []).append((along[0][1], place))
             return
         nearest = min(along, key=lambda pair: abs(pair[0] - z))
         self.bar(link, nearest[1], place)
         for other in along:
             if other != nearest and self._is_marked(link, nearest[1]):
-                self.corners += rigid_corner(nearest[1], place, other[1], factor=self.factor)
+                self.corners += symbols.rigid_corner(
+                    nearest[1], place, other[1], factor=self.factor
+                )
                 break
 
     def _slot(self, link: str, slide: Slide, along: list[tuple[complex, complex]]) -> None:
@@ -154,7 +148,9 @@ class Scheme:
         self.bar(link, start + u * low, start + u * high)
         for _, place in along:
             if abs(place - start) > 1.0 and self._is_marked(link, start):
-                self.corners += rigid_corner(start, place, start + u * reach, factor=self.factor)
+                self.corners += symbols.rigid_corner(
+                    start, place, start + u * reach, factor=self.factor
+                )
                 break
 
     def _is_marked(self, link: str, place: complex) -> bool:
@@ -182,26 +178,26 @@ class Scheme:
     def draw_slider(self, slide: Slide) -> None:
         """Draw the rectangle of a prismatic pair and the guide that it runs on."""
         u = self.line_direction(slide)
-        pin, angle = self.at(slide.pin), angle_of(u)
+        pin, angle = self.at(slide.pin), symbols.angle_of(u)
         if self.solution.problem.is_block(slide):
             block = self.base(slide)
-            reach = block + unit(block - pin) * (7.0 + OVERHANG) * self.factor
+            reach = block + symbols.unit(block - pin) * (7.0 + OVERHANG) * self.factor
             far = max(
                 (self.at(p) for p in self.solution.problem.bodies[slide.slider].points),
-                key=lambda p: ((p - pin) * unit(block - pin).conjugate()).real,
+                key=lambda p: ((p - pin) * symbols.unit(block - pin).conjugate()).real,
             )
-            if ((far - reach) * unit(block - pin).conjugate()).real < 0:
+            if ((far - reach) * symbols.unit(block - pin).conjugate()).real < 0:
                 self.bar(slide.slider, far, reach)
-            self.bodies += slider(block, angle=angle, factor=self.factor, pen=self.pen)
+            self.bodies += symbols.slider(block, angle=angle, factor=self.factor, pen=self.pen)
             return
         if slide.host == FRAME:
             self._frame_guide(slide, u)
-            self.bodies += slider(pin, angle=angle, factor=self.factor, pen=self.pen)
+            self.bodies += symbols.slider(pin, angle=angle, factor=self.factor, pen=self.pen)
             return
         foot = self.foot(slide)
         slides = self.solution.problem.slides.values()
         inside = any(s.host == FRAME and s.pin == slide.pin for s in slides)
-        self.bodies += stone(
+        self.bodies += symbols.stone(
             foot, angle=angle, factor=self.factor, pen=self.pen, pin=False, inside=inside
         )
         if abs(foot - pin) > 0.2:
@@ -210,7 +206,7 @@ class Scheme:
     def _frame_guide(self, slide: Slide, u: complex) -> None:
         """Draw the axis of a fixed guide over the slider's way and the hatched plates at it."""
         foot, pin, start = self.foot(slide), self.at(slide.pin), self.base(slide)
-        angle = angle_of(u)
+        angle = symbols.angle_of(u)
         # The places of the pin in every position of the sheet, and of the slider's points.
         ends = [complex(p) for p in self.solution.paper.point(PointName(slide.pin))]
         ends += [self.at(p) for p in self.solution.problem.bodies[slide.slider].points]
@@ -224,7 +220,7 @@ class Scheme:
             self.guides += axis_line(pin + u * side, start + u * end + offset, tag="guide")
         length = SIZES.slider_length + 8.0
         sides = free_sides(pin, self.lines, angle=angle, length=length, factor=self.factor)
-        self.bodies += guide_plates(
+        self.bodies += symbols.guide_plates(
             pin, angle=angle, length=length, sides=sides, factor=self.factor, pen=self.pen
         )
         self.axis_ends.append((slide.label, start + u * low + offset, start + u * high + offset))
@@ -284,8 +280,10 @@ class Scheme:
             leave = sum((self._leaves(other, place) for other in others), 0j)
             side = 1 if (way.conjugate() * leave).imag > 1e-6 else -1
             tag = f"link {link}"
-            return revolute_on(place, way, side=side, factor=self.factor, pen=self.pen, tag=tag)
-        items = revolute(place, count=count, factor=self.factor, pen=self.pen)
+            return symbols.revolute_on(
+                place, way, side=side, factor=self.factor, pen=self.pen, tag=tag
+            )
+        items = symbols.revolute(place, count=count, factor=self.factor, pen=self.pen)
         radius = SIZES.joint / 2 * self.factor
         for link, way in passing.items():
             ends = (place - way * radius, place + way * radius)
@@ -296,7 +294,7 @@ class Scheme:
         """Return the direction of a bar that goes on through a joint between its ends, if any."""
         radius = SIZES.joint / 2 * self.factor
         for start, end in self.segments.get(link, []):
-            along = unit(end - start)
+            along = symbols.unit(end - start)
             part = ((place - start) * along.conjugate()).real
             off = abs(place - start - along * part)
             if off < 0.05 and radius < part < abs(end - start) - radius:
@@ -308,7 +306,7 @@ class Scheme:
         if link == FRAME:
             return self.free_direction(place)
         far = [p for part in self.segments.get(link, []) for p in part if abs(p - place) > 0.5]
-        return unit(far[0] - place) if far else 0j
+        return symbols.unit(far[0] - place) if far else 0j
 
     def directions(self, place: complex) -> list[complex]:
         """Return the directions in which lines leave a place."""
@@ -317,12 +315,12 @@ class Scheme:
             for start, end in parts:
                 for one, other in ((start, end), (end, start)):
                     if abs(one - place) < 0.5:
-                        out.append(unit(other - one))
+                        out.append(symbols.unit(other - one))
                 inside = ((place - start) * (end - start).conjugate()).real
                 off = abs(((place - start) * (end - start).conjugate()).imag)
                 span = abs(end - start)
                 if 0.5 * span < inside < span * (span - 0.5) and off < 0.5 * span:
-                    out += [unit(end - start), unit(start - end)]
+                    out += [symbols.unit(end - start), symbols.unit(start - end)]
         return out
 
     def free_direction(self, place: complex) -> complex:

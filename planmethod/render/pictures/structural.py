@@ -18,6 +18,7 @@ from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.record import dataclass
+from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
@@ -35,20 +36,7 @@ from planmethod.render.pictures.chains import (
     textbook_places,
 )
 from planmethod.render.pictures.embedding import embed, turned_outwards
-from planmethod.render.symbols import (
-    SIZES,
-    angle_of,
-    arrowhead,
-    before_links,
-    fixed_pivot,
-    guide_line,
-    revolute,
-    rigid_corner,
-    slider,
-    stiff_triangle,
-    turn_arrow,
-    unit,
-)
+from planmethod.render.symbols import SIZES
 
 MARGIN = 13.0
 """Room about the joints for symbols and letters, mm."""
@@ -207,7 +195,7 @@ class _Draft:
             ring = turned_outwards(shape.outline, at)
             corners = [at[node] for node in ring]
             # Hatched under the stones; the outline goes to the pins that stand on stones.
-            *hatching, outline = stiff_triangle(*corners, hatched=True)
+            *hatching, outline = symbols.stiff_triangle(*corners, hatched=True)
             self.arms += hatching
             own = any(
                 slide.stone == link and slide.node in shape.outline for slide in self.chain.slides
@@ -217,16 +205,16 @@ class _Draft:
             self.segments += [(link, a, b) for a, b in sides]
         for start_node, stone in shape.tips:
             start, through = at[start_node], at[stone]
-            tip = through + unit(through - start) * (SIZES.slider_length / 2 + 5.0)
+            tip = through + symbols.unit(through - start) * (SIZES.slider_length / 2 + 5.0)
             # Over the stone that slides on it, under a stone that it carries.
-            near = through - unit(through - start) * SIZES.slider_length / 2
+            near = through - symbols.unit(through - start) * SIZES.slider_length / 2
             self.arms.append(Stroke((start, near), tag=f"link {link}"))
             self.lines.append(Stroke((near, tip), tag=f"link {link}"))
             self.segments.append((link, start, tip))
             others = [at[node] for node in shape.outline if node != start_node]
             others += [at[other] for _, other in shape.tips if other != stone]
             if others:
-                self.lines += rigid_corner(start, through, others[0])
+                self.lines += symbols.rigid_corner(start, through, others[0])
 
     def directions(self, place: complex, link: str | None = None) -> list[complex]:
         """Return the directions in which lines (of one link) leave a place, or pass it."""
@@ -256,11 +244,11 @@ class _Draft:
         else:
             turn = self._cross_direction(place, slide)
         size = 0.85 if slide.bar else 1.0
-        self.stones += slider(place, angle=angle_of(turn), factor=size)
+        self.stones += symbols.slider(place, angle=symbols.angle_of(turn), factor=size)
         half = SIZES.slider_length / 2 * size
         if slide.far is Far.FRAME:
             reach = half + 6.0
-            self.grounds += guide_line(place, before=reach, after=reach)
+            self.grounds += symbols.guide_line(place, before=reach, after=reach)
             edge = place + reach - 1j * SIZES.slider_width / 2
             self._number(FRAME, edge, 1 + 0j, gap=1.2)
         elif slide.far is Far.OPEN:
@@ -309,7 +297,7 @@ class _Draft:
         ]
         if pin.far is Far.FRAME:
             down = _freest(busy, (-1j, -1 + 0j, 1 + 0j))
-            self.grounds += fixed_pivot(place, direction=down)
+            self.grounds += symbols.fixed_pivot(place, direction=down)
             along = down * 1j
             along = along if along.real > 0 or (along.real == 0 and along.imag > 0) else -along
             foot = place + down * SIZES.support_height + along * SIZES.base / 2
@@ -325,7 +313,7 @@ class _Draft:
             self.grounds.append(Stroke((place, end), Pen.HIDDEN, tag="open"))
             self.segments.append(("", place, end))
             self._number(f"({pin.to})", end, way, gap=0.8)
-        self.joints += revolute(place, count=pin.count)
+        self.joints += symbols.revolute(place, count=pin.count)
         lines = self.directions(place)
         away = -sum(lines, 0j)
         stone = any(slide.node == pin.node for slide in self.chain.slides)
@@ -343,7 +331,9 @@ class _Draft:
                 stone = any(slide.node == pin.node for slide in self.chain.slides)
                 middle = way * cmath.exp(1j * radians((-48 if stone else 48) * sense))
                 radius = 13.0 if stone else 10.0
-                self.grounds += turn_arrow(place, radius, sense, middle=angle_of(middle), sweep=76)
+                self.grounds += symbols.turn_arrow(
+                    place, radius, sense, middle=symbols.angle_of(middle), sweep=76
+                )
                 tail = place + radius * middle
                 self.labels.append(
                     Label(
@@ -363,7 +353,7 @@ class _Draft:
                 middle = middle if self.directions(place) else middle + 7.5
                 start, end = middle - 6.0 * sense, middle + 6.0 * sense
                 self.grounds.append(Stroke((start, end - 3.0 * sense), Pen.THIN))
-                self.grounds += arrowhead(end, end - start, length=3.5)
+                self.grounds += symbols.arrowhead(end, end - start, length=3.5)
                 mark = typeset(f"v_{{{driver}}}", self.letter_height)
                 self.labels.append(Label(mark, end, prefer=end - start, gap=1.0))
 
@@ -384,7 +374,9 @@ class _Draft:
                 longest[link] = (start, end)
         for link, (start, end) in longest.items():
             self.labels.append(segment_label(link, start, end, self.letter_height))
-        items = before_links([*self.grounds, *self.arms, *self.stones, *self.lines, *self.joints])
+        items = symbols.before_links(
+            [*self.grounds, *self.arms, *self.stones, *self.lines, *self.joints]
+        )
         left, low, right, high = ink_bounds(items)
         room = (left - MARGIN, low - MARGIN, right + MARGIN, high + MARGIN)
         for placed in place_labels(self.labels, items, room):

@@ -69,10 +69,10 @@ class ForcePlanViewed(Viewed):
             Span(
                 plain_text(self.say.symbol(edge.symbol)),
                 reading.index if many else None,
-                shift + reading.corner(self.number, edge.tail),
-                shift + reading.corner(self.number, edge.head),
+                shift + beside + reading.corner(self.number, edge.tail),
+                shift + beside + reading.corner(self.number, edge.head),
             )
-            for edge in edges
+            for edge, beside in zip(edges, apart(reading, self.number), strict=True)
             if edge.symbol not in known
         )
 

@@ -126,6 +126,8 @@ class LeverReading:
             force, place = complex(one.force[index]), self._hung(at, pole)
             if abs(force) > 1e-9 * reading.peak:
                 assert given.force is not None and one.point is not None
+                way = reading.way(given.force)
+                force = way * (abs(force) / abs(way))
                 size, arm = reading.read_load(given), reading.read_number(hung.arm) * self._share
                 self.forces.append(LeverForce(one.name, place, force, arm, size, one.point))
                 self._shift(given, place)

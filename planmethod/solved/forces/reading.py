@@ -92,6 +92,17 @@ class ForceReading(Remembering):
         """Return a force, N."""
         return self.of_force(Force(edge.at, edge.tail, edge.head))
 
+    def way(self, force: Edge | Force) -> complex:
+        """Return a force along the line that the hand has for it, mm; else along the exact one.
+
+        A shifted force of inertia is drawn across its exact shift.
+        """
+        drawn = self.by_hand(*force.ends)
+        shifted = any(shift.at == force.at for shift in self.statics.board.shifts.values())
+        if drawn and math.isfinite(abs(drawn)) and not shifted:
+            return drawn
+        return self.of_force(Force(force.at, *force.ends))
+
     def of_force(self, force: Force) -> complex:
         """Return a force of the board, N."""
         si = self.statics.si

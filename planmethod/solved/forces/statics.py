@@ -42,7 +42,10 @@ COMMON_BOX: Box = (100.0, 100.0)
 """What the largest of all force plans fills at the scale that they have in common, mm."""
 
 PLAN_BOX: Box = (200.0, 150.0)
-"""What each force plan fills at the scale of its own at which it is drawn, mm."""
+"""What each force plan of a group fills at the scale of its own at which it is drawn, mm."""
+
+LAST_BOX: Box = (140.0, 100.0)
+"""What that of the driving link fills, which closes with one force, mm."""
 
 FAINT = 1e-6
 """A plan that is so small a part of what it is in its largest position is nothing."""
@@ -265,7 +268,8 @@ class Statics(Remembering):
             size = np.maximum(*extents)
             for index in np.flatnonzero(size > FAINT * np.max(size, initial=0.0)):
                 box = float(extents[0][index]), float(extents[1][index])
-                own[index] = choose_scale(box, PLAN_BOX, mm_per_unit=inverse)
+                room = LAST_BOX if plan is self.board.plans[-1] else PLAN_BOX
+                own[index] = choose_scale(box, room, mm_per_unit=inverse)
         return found
 
     @cached_property

@@ -14,21 +14,14 @@ from math import radians
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language
 from planmethod.record import dataclass
+from planmethod.render import symbols
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.style import ARROW, PENS, S, stroke_lines
 from planmethod.render.layout.block import Align, fit, heading
 from planmethod.render.sheets.specimen.cells import Cell, Clause, drawn_grid
-from planmethod.render.symbols import (
-    SIZES,
-    fixed_pivot,
-    guide_plates,
-    link,
-    revolute,
-    slider,
-    vector_arrow,
-)
+from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import (
     SMALL_CIRCLE,
     axis_line,
@@ -213,7 +206,7 @@ def _dashed() -> Iterator[Cell]:
     for k, length in enumerate((2.5, 3.5, 5.0, 7.0)):
         tip = 15 - 6.5j * k
         pen = Pen.MAIN if length >= ARROW.length else Pen.THIN
-        heads += vector_arrow(tip - 30, tip, pen=pen, length=length)
+        heads += symbols.vector_arrow(tip - 30, tip, pen=pen, length=length)
     yield Cell("arrow", Clause("2.307"), tuple(heads))
 
 
@@ -224,8 +217,8 @@ def _meanings() -> Iterator[Cell]:
         "broken",
         RULE,
         (
-            *link(-18 - 3j, end),
-            *revolute(-18 - 3j),
+            *symbols.link(-18 - 3j, end),
+            *symbols.revolute(-18 - 3j),
             *wavy_line(end + 5j, end - 5j, wave=5.0),
         ),
     )
@@ -235,9 +228,9 @@ def _meanings() -> Iterator[Cell]:
         RULE,
         (
             *(Stroke((0j, way), Pen.PHANTOM) for way in ways[:2]),
-            *link(0j, ways[2]),
-            *fixed_pivot(0j),
-            *revolute(ways[2]),
+            *symbols.link(0j, ways[2]),
+            *symbols.fixed_pivot(0j),
+            *symbols.revolute(ways[2]),
         ),
     )
     edge = SIZES.slider_length / 2
@@ -245,10 +238,10 @@ def _meanings() -> Iterator[Cell]:
         "guide_axis",
         RULE,
         (
-            *guide_plates(0j, length=22.0),
+            *symbols.guide_plates(0j, length=22.0),
             *axis_line(-edge, -edge - 17),
             *axis_line(edge, edge + 17),
-            *slider(0j),
-            *revolute(0j),
+            *symbols.slider(0j),
+            *symbols.revolute(0j),
         ),
     )

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from math import radians
 
 from planmethod.note.wording import Language
+from planmethod.render import symbols
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Bounds, Drawing, Item
@@ -14,28 +15,7 @@ from planmethod.render.ink.style import ARROW
 from planmethod.render.layout.block import Column, heading, paragraph
 from planmethod.render.sheets.specimen.cells import Cell, Clause, drawn_grid, letter, scheme
 from planmethod.render.sheets.specimen.wheels import GEARS, wheel_cells
-from planmethod.render.symbols import (
-    SIZES,
-    bearing,
-    crank,
-    drive_arrow,
-    fixed_pivot,
-    fixed_pivots,
-    ground_line,
-    guide_line,
-    guide_plates,
-    link,
-    offset_slider,
-    revolute,
-    revolute_on,
-    rigid_corner,
-    rocker,
-    slider,
-    stiff_triangle,
-    stone,
-    turn_arrow,
-    unit,
-)
+from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
 
 PAPER = "A2"
@@ -106,21 +86,21 @@ def _joints() -> Iterator[Cell]:
     yield Cell(
         "link",
         Clause("2.770", "1"),
-        scheme(link(a, b), revolute(a), revolute(b)),
+        scheme(symbols.link(a, b), symbols.revolute(a), symbols.revolute(b)),
         (letter("A", a, 1j), letter("B", b, 1j), letter("2", 0j, 1j, gap=1.5)),
     )
-    yield Cell("frame", Clause("2.770", "2"), scheme(ground_line(-18, 18)))
+    yield Cell("frame", Clause("2.770", "2"), scheme(symbols.ground_line(-18, 18)))
     tip = way(55, 24)
     yield Cell(
         "support",
         None,
-        scheme(link(0j, tip, tag="link 1"), fixed_pivot(0j)),
+        scheme(symbols.link(0j, tip, tag="link 1"), symbols.fixed_pivot(0j)),
         (letter("O", 0j, -1), letter("1", tip / 2, -1 + 1j, gap=1.5)),
     )
     yield Cell(
         "support_turned",
         None,
-        scheme(link(0j, way(-60, 24), tag="link 1"), fixed_pivot(0j, direction=1j)),
+        scheme(symbols.link(0j, way(-60, 24), tag="link 1"), symbols.fixed_pivot(0j, direction=1j)),
         (letter("O", 0j, -1), letter("1", way(-60, 12), 1 + 1j, gap=1.5)),
     )
     pair = (0j, 8 + 0j)
@@ -128,16 +108,16 @@ def _joints() -> Iterator[Cell]:
         "supports",
         None,
         scheme(
-            link(pair[0], way(125, 22), tag="link 1"),
-            link(pair[1], 8 + way(50, 24), tag="link 3"),
-            fixed_pivots(pair),
+            symbols.link(pair[0], way(125, 22), tag="link 1"),
+            symbols.link(pair[1], 8 + way(50, 24), tag="link 3"),
+            symbols.fixed_pivots(pair),
         ),
         (letter("A", pair[0], -1), letter("D", pair[1], 1)),
     )
     yield Cell(
         "revolute",
         Clause("2.770", "6", "a"),
-        scheme(link(way(215, 24), 0j, way(-25, 22)), revolute(0j)),
+        scheme(symbols.link(way(215, 24), 0j, way(-25, 22)), symbols.revolute(0j)),
         (
             letter("B", 0j, 1j),
             letter("1", way(215, 12), -1 + 1j, gap=1.5),
@@ -148,7 +128,7 @@ def _joints() -> Iterator[Cell]:
     yield Cell(
         "double",
         Clause("2.770", "6", "b"),
-        scheme(*(link(0j, arm) for arm in arms), revolute(0j, count=2)),
+        scheme(*(symbols.link(0j, arm) for arm in arms), symbols.revolute(0j, count=2)),
         (
             letter("C", 0j, -1j, gap=4.2),
             letter("2", arms[0] / 2, -1 + 1j, gap=1.5),
@@ -160,7 +140,11 @@ def _joints() -> Iterator[Cell]:
     yield Cell(
         "on_link",
         None,
-        scheme(link(-24 * along, 24 * along), link(0j, way(-75, 20)), revolute_on(0j, along)),
+        scheme(
+            symbols.link(-24 * along, 24 * along),
+            symbols.link(0j, way(-75, 20)),
+            symbols.revolute_on(0j, along),
+        ),
         (
             letter("N", 0j, 1j, gap=2.0),
             letter("3", -14 * along, 1j, gap=1.5),
@@ -175,7 +159,12 @@ def _links() -> Iterator[Cell]:
     yield Cell(
         "rigid",
         Clause("2.770", "5", "a"),
-        scheme(link(a, 0j, b), rigid_corner(0j, a, b), revolute(a), revolute(b)),
+        scheme(
+            symbols.link(a, 0j, b),
+            symbols.rigid_corner(0j, a, b),
+            symbols.revolute(a),
+            symbols.revolute(b),
+        ),
         (letter("A", a, 1j), letter("B", b, 1)),
     )
     corners = (-17 + 0j, 17 + 0j, -3 + 26j)
@@ -184,17 +173,17 @@ def _links() -> Iterator[Cell]:
         letter("B", corners[1], -1j),
         letter("C", corners[2], 1j),
     )
-    joints = [item for corner in corners for item in revolute(corner)]
+    joints = [item for corner in corners for item in symbols.revolute(corner)]
     yield Cell(
         "ternary_corners",
         None,
-        scheme(stiff_triangle(*corners, marked=True), joints),
+        scheme(symbols.stiff_triangle(*corners, marked=True), joints),
         letters,
     )
     yield Cell(
         "ternary_hatched",
         None,
-        scheme(stiff_triangle(*corners, hatched=True), joints),
+        scheme(symbols.stiff_triangle(*corners, hatched=True), joints),
         letters,
     )
 
@@ -208,10 +197,10 @@ def _sliders() -> Iterator[Cell]:
         Clause("2.770", "6", "c"),
         scheme(
             *axis,
-            guide_line(0j, before=13, after=13),
-            slider(0j),
-            link(rod, 0j, tag="link 4"),
-            revolute(0j),
+            symbols.guide_line(0j, before=13, after=13),
+            symbols.slider(0j),
+            symbols.link(rod, 0j, tag="link 4"),
+            symbols.revolute(0j),
         ),
         (letter("E", 0j, 1j, gap=5), letter("4", rod * 0.7, 1j, gap=1.5)),
     )
@@ -220,10 +209,10 @@ def _sliders() -> Iterator[Cell]:
         Clause("2.770", "6", "c"),
         scheme(
             *axis,
-            guide_plates(0j, length=24),
-            slider(0j),
-            link(40 + 6j, 0j, tag="link 4"),
-            revolute(0j),
+            symbols.guide_plates(0j, length=24),
+            symbols.slider(0j),
+            symbols.link(40 + 6j, 0j, tag="link 4"),
+            symbols.revolute(0j),
         ),
         (letter("E", -5 + 0j, 1j, gap=7),),
     )
@@ -233,9 +222,9 @@ def _sliders() -> Iterator[Cell]:
         None,
         scheme(
             *axis,
-            guide_line(0j, before=13, after=13),
-            link(pin + way(20, 28), pin, tag="link 4"),
-            offset_slider(0j, pin),
+            symbols.guide_line(0j, before=13, after=13),
+            symbols.link(pin + way(20, 28), pin, tag="link 4"),
+            symbols.offset_slider(0j, pin),
         ),
         (letter("E", pin, 1j), letter("5", -5 + 4j, 1j, gap=1.5)),
     )
@@ -245,12 +234,12 @@ def _sliders() -> Iterator[Cell]:
         "stone",
         None,
         scheme(
-            fixed_pivot(bar[0]),
-            stone(8 * way(turn), angle=turn, pin=False),
-            link(*bar, tag="link 3"),
-            link(8 * way(turn) + way(-55, 20), 8 * way(turn), tag="link 1"),
-            revolute(8 * way(turn)),
-            revolute(bar[0]),
+            symbols.fixed_pivot(bar[0]),
+            symbols.stone(8 * way(turn), angle=turn, pin=False),
+            symbols.link(*bar, tag="link 3"),
+            symbols.link(8 * way(turn) + way(-55, 20), 8 * way(turn), tag="link 1"),
+            symbols.revolute(8 * way(turn)),
+            symbols.revolute(bar[0]),
         ),
         (
             letter("C", bar[0], -1),
@@ -263,10 +252,10 @@ def _sliders() -> Iterator[Cell]:
         "stone_swinging",
         None,
         scheme(
-            fixed_pivot(0j),
-            slider(0j, angle=20, factor=0.85),
-            link(way(200, 22), way(20, 30), tag="link 2"),
-            revolute(0j),
+            symbols.fixed_pivot(0j),
+            symbols.slider(0j, angle=20, factor=0.85),
+            symbols.link(way(200, 22), way(20, 30), tag="link 2"),
+            symbols.revolute(0j),
         ),
         (letter("C", -2j, -1, gap=5), letter("2", way(20, 22), 1j, gap=1.5)),
     )
@@ -278,15 +267,15 @@ def _drivers() -> Iterator[Cell]:
     yield Cell(
         "crank",
         None,
-        scheme(crank(0j, pin, path=True, tag="link 1")),
-        (letter("O", 0j, 1 - 0.6j), letter("A", pin, unit(pin))),
+        scheme(symbols.crank(0j, pin, path=True, tag="link 1")),
+        (letter("O", 0j, 1 - 0.6j), letter("A", pin, symbols.unit(pin))),
     )
     yield Cell(
         "driver_turning",
         None,
         scheme(
-            crank(0j, pin * 1.4, tag="link 1"),
-            turn_arrow(0j, 12, 1, middle=104, sweep=80),
+            symbols.crank(0j, pin * 1.4, tag="link 1"),
+            symbols.turn_arrow(0j, 12, 1, middle=104, sweep=80),
         ),
         (letter("ω_{1}", way(140, 12), -1, gap=1.5), letter("1", pin * 0.8, 1 - 1j, gap=1.5)),
     )
@@ -294,23 +283,23 @@ def _drivers() -> Iterator[Cell]:
         "driver_sliding",
         None,
         scheme(
-            guide_line(0j, before=13, after=13),
-            slider(0j),
-            link(0j, way(25, 28), tag="link 2"),
-            revolute(0j),
-            drive_arrow(-9 + 8j, 5 + 8j),
+            symbols.guide_line(0j, before=13, after=13),
+            symbols.slider(0j),
+            symbols.link(0j, way(25, 28), tag="link 2"),
+            symbols.revolute(0j),
+            symbols.drive_arrow(-9 + 8j, 5 + 8j),
         ),
         (letter("v_{1}", -9 + 8j, -1, gap=1.0),),
     )
     yield Cell(
         "rocker",
         None,
-        scheme(rocker(0j, way(85, 28), swing=(35.0, 28.0), tag="link 3")),
+        scheme(symbols.rocker(0j, way(85, 28), swing=(35.0, 28.0), tag="link 3")),
         (letter("D", 0j, 1), letter("C", way(85, 28), 1j)),
     )
     shaft = (-20 + 0j, 20 + 0j)
     yield Cell(
         "shaft",
         Clause("2.770", "7", "a"),
-        scheme(link(*shaft, tag="link 1"), bearing(-12), bearing(12)),
+        scheme(symbols.link(*shaft, tag="link 1"), symbols.bearing(-12), symbols.bearing(12)),
     )
