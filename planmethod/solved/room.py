@@ -63,14 +63,16 @@ class Texts:
         return [(50.0 * letter, 7.0 * letter), *equations, *calculations, table]
 
 
-def has_room(paper: Format, texts: Sequence[Box], views: Sequence[Box], positions: int) -> bool:
-    """Tell whether texts and views have room on a format, mm.
+def has_room(
+    paper: Format, texts: Sequence[Box], views: Sequence[Box], positions: int, over: float = 1.0
+) -> bool:
+    """Tell whether texts and views have room on a format, mm, ``over`` times as high as it is.
 
     ``views`` are the scheme, the velocity and the acceleration plans. They are grouped as in the
     shipped compositions for one, for a few and for many positions.
     """
     left, low, right, high = paper.inner
-    room = (right - left - 2 * EDGE, high - low - 2 * EDGE)
+    room = (right - left - 2 * EDGE, over * (high - low - 2 * EDGE))
     statement, one, two, reckoned, reckoned_too, (wide, tall) = texts
     scheme, velocity, acceleration = views
     scheme = (scheme[0], scheme[1] + CORNER)

@@ -129,6 +129,11 @@ TRIED = ("A3", "A2", "A1")
 SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 """How wide the scheme shall be on a format, mm."""
 
+CLOSE = 1.03
+"""So many times the height of the paper the estimate may be before a scale is made coarser: rows of
+many plans take less, as letters of the one stand in hollows of the other. For a finer scale the
+estimate itself must have room."""
+
 CROWDED = 1.5
 """So many times wider the scheme of many positions shall be, to be no tangle."""
 
@@ -284,7 +289,7 @@ class _Chosen:
         def share(kind: PlanKind) -> float:
             return self.drawn[kind].share(now[kind])
 
-        while free and not found.has_room():
+        while free and not found.has_room(CLOSE):
             bears = [k for k in free if _next(now[k], asked, finer=False) <= least[k]]
             if not bears:
                 return self  # the sheet goes on with texts, or takes a larger paper
@@ -299,12 +304,12 @@ class _Chosen:
                 free.remove(small)
         return found
 
-    def has_room(self) -> bool:
+    def has_room(self, over: float = 1.0) -> bool:
         """Tell whether the views have room on the paper, texts and all."""
         one = self.drawn[PlanKind.POSITION]
         texts = Texts.of(one.construction).blocks(paper_format(self.views.paper), one.si.count)
         boxes = [self.drawn[kind].on_paper(self.per_mm[kind]) for kind in MOTION]
-        return has_room(paper_format(self.views.paper), texts, boxes, one.si.count)
+        return has_room(paper_format(self.views.paper), texts, boxes, one.si.count, over)
 
     def is_large(self) -> bool:
         """Tell whether scheme and plans are as large as they shall be on the paper.
