@@ -277,10 +277,11 @@ def test_the_sheet_of_the_press_has_twelve_positions_on_one_scheme() -> None:
     assert lint(sheet.items) == []
 
 
-def test_a_scale_is_common_where_it_holds_for_half_of_the_plans() -> None:
+@pytest.mark.parametrize("name", ["levers/task-49", "linkages/2.1.2"])
+def test_a_scale_is_common_where_it_holds_for_half_of_the_plans(name: str) -> None:
     """Else each plan has its own under it, large enough to be measured."""
     positions = [30.0 * k for k in range(11)]
-    problem = problem_of("levers/task-49")
+    problem = problem_of(name)
     solution = Solution(problem, positions=positions)
     (sheet,) = kinematics_sheets(problem, positions=positions)
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
@@ -297,7 +298,7 @@ def test_a_scale_is_common_where_it_holds_for_half_of_the_plans() -> None:
             and low < item.at.imag < high
         ]
         common = 2 * len(others) <= len(own)
-        assert common is (kind is PlanKind.VELOCITY)
+        assert common is (name == "linkages/2.1.2")
         assert len(said) == (1 + len(others) if common else len(own))
         width, height = sizes(solution.construction, solution.si, kind)
         drawn = np.maximum(width, height) / [scale.per_mm for scale in own]
