@@ -31,7 +31,7 @@ from planmethod.render.backends.output import write
     "count",
     type=click.IntRange(min=0, max=1_000_000),
     default=None,
-    help="Random mechanisms before the referee; 10000, or 200 with --quick.",
+    help="Random mechanisms before the referee; 5000, or 200 with --quick.",
 )
 @click.option(
     "--only",
@@ -55,7 +55,7 @@ def main(
         raise click.UsageError(f"{lost} Install them with make bench, or look with --quick.")
     loaded = [load(path) for path in problems]
     if count is None:
-        count = 200 if quick else 10_000
+        count = 200 if quick else 5_000
 
     def say(what: str) -> None:
         click.echo(f"measuring: {what}", err=True)

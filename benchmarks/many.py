@@ -145,9 +145,11 @@ def exponent(grown: Sequence[Grown], cost: str) -> float:
 
 def in_processes(count: int, folder: Path) -> tuple[float, float, bool]:
     """Return seconds of PDF sheets of variants by one and two processes; whether they are alike."""
-    words = ["sheet", *variants(count, folder), "--all-variants", "--format", "pdf"]
-    one, _ = _run([*words, "-o", "own"], folder)
-    two, _ = _run([*words, "-o", "two", "--jobs", "2"], folder)
+    one = two = 0.0
+    for name in variants(count, folder):  # taking turns
+        words = ["sheet", name, "--all-variants", "--format", "pdf"]
+        one += _run([*words, "-o", "own"], folder)[0]
+        two += _run([*words, "-o", "two", "--jobs", "2"], folder)[0]
     return one, two, alike(folder / "own", folder / "two")
 
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.evaluate import Trace, go_on
-from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
+from planmethod.construct.steps import LineName, Name, PointName, Step
 from planmethod.record import dataclass
 
 Complexes = npt.NDArray[np.complex128]
@@ -71,11 +71,6 @@ class Reading:
     ) -> Reading:
         """Return a reading with further steps, read in the same arithmetic."""
         return Reading(go_on(self.trace, steps, data, arithmetic), self.count)
-
-    def product(self, powers: tuple[tuple[NumberName, int], ...]) -> Reals:
-        """Return a product of powers of numbers, ndarray of shape (n,)."""
-        factors = [self.number(name) ** float(power) for name, power in powers]
-        return np.asarray(np.prod(np.broadcast_arrays(*factors), axis=0), dtype=float)
 
 
 class Remembering:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from planted import exact, explanations, task_of
+from planted import checked, exact, explanations, task_of
 from worked import SIX
 
 from planmethod.check.explain import Explanation
@@ -79,6 +79,15 @@ def test_the_omega_of_the_crank_brings_its_sense_into_the_coriolis_acceleration_
     ):
         right = exact(task_of(name))[key]
         assert [e.values[key] / right for e in by_code(name, "A5")] == pytest.approx(ratio)
+
+
+def test_a_point_divided_from_the_wrong_end_on_both_plans_is_one_mistake() -> None:
+    both = next(
+        e for e in by_code("levers/six-link", "V3") if e.where == "H2" and len(e.change.steps) == 2
+    )
+    values = {name: abs(both.values[name]) for name in ("v_H2", "v_H", "a_H2")}
+    (found,) = checked("levers/six-link", **values).diagnosis
+    assert (found.codes, found.sure, found.where) == (("V3",), True, "H2")
 
 
 def test_rev_per_min_for_radians_grows_velocities_once_and_accelerations_twice() -> None:

@@ -59,43 +59,35 @@ def driver_reversed(scene: Scene) -> Iterator[Change]:
 
 
 def similarity_wrong(scene: Scene) -> Iterator[Change]:
-    """V3: the ratio from the other end; the triangle mirrored."""
-    for step in scene.steps:
-        if not isinstance(step, steps.Similar):
-            continue
-        where = scene.draft.letters.get(step.out, str(step.out)).upper()
-        turned = steps.Similar(
-            step.out,
-            step.plan_c,
-            step.plan_b,
-            step.link_s,
-            step.link_b,
-            step.link_c,
-            step.side,
-            step.span,
-            step.arm,
-        )
-        yield Change("V3", where, {step.out: (turned,)})
-        line, across = LineName(f"{step.out} base"), LineName(f"{step.out} across")
-        foot, image = fresh(step.out, "foot"), fresh(step.out, "image")
-        mirrored = (
-            steps.Join(line, step.link_b, step.link_c),
-            steps.Perpendicular(across, step.link_s, line),
-            steps.MeetLines(foot, line, across),
-            steps.Carry(image, foot, step.link_s, foot),
-            steps.Similar(
-                step.out,
-                step.plan_b,
-                step.plan_c,
-                image,
-                step.link_b,
-                step.link_c,
-                step.side,
-                step.span,
-                step.arm,
-            ),
-        )
-        yield Change("V3", where, {step.out: mirrored})
+    """V3: the ratio from the other end; the triangle mirrored: on one plan, or on both."""
+    for make in (_reversed, _mirrored):
+        plans: dict[PointName, dict[Name, tuple[Step, ...]]] = {}
+        for step in scene.steps:
+            if isinstance(step, steps.Similar):
+                where = scene.draft.letters.get(step.out, str(step.out)).upper()
+                changed = {step.out: make(step)}
+                yield Change("V3", where, changed)
+                plans.setdefault(step.link_s, {}).update(changed)
+                if len(plans[step.link_s]) > 1:
+                    yield Change("V3", where, plans[step.link_s])
+
+
+def _reversed(step: steps.Similar) -> tuple[Step, ...]:
+    ends = (step.plan_c, step.plan_b, step.link_s, step.link_b, step.link_c)
+    return (steps.Similar(step.out, *ends, step.side, step.span, step.arm),)
+
+
+def _mirrored(step: steps.Similar) -> tuple[Step, ...]:
+    line, across = LineName(f"{step.out} base"), LineName(f"{step.out} across")
+    foot, image = fresh(step.out, "foot"), fresh(step.out, "image")
+    ends = (step.plan_b, step.plan_c, image, step.link_b, step.link_c)
+    return (
+        steps.Join(line, step.link_b, step.link_c),
+        steps.Perpendicular(across, step.link_s, line),
+        steps.MeetLines(foot, line, across),
+        steps.Carry(image, foot, step.link_s, foot),
+        steps.Similar(step.out, *ends, step.side, step.span, step.arm),
+    )
 
 
 def sliding_forgotten(scene: Scene) -> Iterator[Change]:

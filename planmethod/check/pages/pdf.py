@@ -7,25 +7,22 @@ words are measured once here, and lines broken where they are full.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache, lru_cache
+from functools import lru_cache
 from io import BytesIO
 from typing import Any, TypeAlias
 
-from reportlab import rl_config
 from reportlab.lib import colors
 from reportlab.lib.pagesizes import A4, landscape
 from reportlab.pdfbase import pdfmetrics
-from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.pdfgen.canvas import Canvas
 
 from planmethod.check.pages.speech import clean
 from planmethod.pattern import pattern
+from planmethod.render.backends.pdf import registered
 from planmethod.render.ink.lettering import STYLES, OutlineLettering
 
 Word: TypeAlias = tuple[tuple[str, str], ...]
 """Pieces of text without a space, each with its level: "", "_" or "^"."""
-
-rl_config.useA85 = 0  # text in place of bytes, which takes longer than all the drawing
 
 MM = 72.0 / 25.4
 MARGIN = 12.0 * MM
@@ -43,16 +40,9 @@ HEAD = colors.HexColor("#f4f4f4")
 _INDEX = pattern(r"([_^])\{([^{}]*)\}")
 
 
-@cache
-def font() -> str:
-    """Return the name of the lettering, registered when it is first asked for."""
-    pdfmetrics.registerFont(TTFont(LETTERING.name, str(LETTERING.font_file)))
-    return LETTERING.name
-
-
 @lru_cache(maxsize=10_000)
 def _width(text: str) -> float:
-    return float(pdfmetrics.stringWidth(text, font(), 1.0))
+    return float(pdfmetrics.stringWidth(text, registered(LETTERING), 1.0))
 
 
 def _measured(word: Word, size: float) -> float:
@@ -127,7 +117,11 @@ class Document:
         self.width, self._top = size[0] - 2 * MARGIN, size[1] - MARGIN
         # Without a font of its own a Helvetica that nobody uses stays in the file, not embedded.
         self.sheet: Any = Canvas(
-            self._file, pagesize=size, invariant=1, pageCompression=1, initialFontName=font()
+            self._file,
+            pagesize=size,
+            invariant=1,
+            pageCompression=1,
+            initialFontName=registered(LETTERING),
         )
         self.sheet.setTitle(title)
         self.sheet.setAuthor("planmethod")
@@ -287,7 +281,7 @@ class Document:
     def _take(self, size: float, rise: float) -> None:
         """Go on with letters of another size, and raised: only where they differ."""
         if size != self._size:
-            self._text.setFont(font(), size)
+            self._text.setFont(registered(LETTERING), size)
         if rise != self._rise:
             self._text.setRise(rise)
         self._size, self._rise = size, rise

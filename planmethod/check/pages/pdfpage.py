@@ -9,12 +9,12 @@ from reportlab.lib import colors
 
 from planmethod.check.model import Verdict
 from planmethod.check.pages.overlay import Overlay
-from planmethod.check.pages.pdf import MARGIN, MM, NOTE, Document, font
+from planmethod.check.pages.pdf import LETTERING, MARGIN, MM, NOTE, Document
 from planmethod.check.pages.student import GAP, Page
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording.language import Language
 from planmethod.render.backends.canvas import Options, draw_sheet
-from planmethod.render.backends.pdf import PdfCanvas, _registered
+from planmethod.render.backends.pdf import PdfCanvas, registered
 from planmethod.render.ink.drawing import Fill, Ink, Pen, Stroke
 from planmethod.render.ink.lettering import OutlineLettering
 
@@ -101,7 +101,7 @@ class PlanCanvas(PdfCanvas):
 
     def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Take the lettering."""
-        self._font, self._lettering = _registered(lettering), lettering
+        self._font, self._lettering = registered(lettering), lettering
         self._pdf.setLineJoin(1)
 
     def _take_pen(self, pen: Pen) -> None:
@@ -136,5 +136,5 @@ def _draw_own(sheet: Any, plan: Overlay) -> None:
             sheet.setLineWidth(0.3)
             sheet.circle(at.real, at.imag, 3.0, fill=1)
             sheet.setFillColor(OFF)
-            sheet.setFont(font(), 4.6)
+            sheet.setFont(registered(LETTERING), 4.6)
             sheet.drawCentredString(at.real, at.imag - 1.55, str(own.number))

@@ -16,6 +16,15 @@ from planmethod.construct.steps import Name, Step, operands
 from planmethod.record import dataclass
 
 
+def lifted(tape: Tape, value: Number) -> Symbol:
+    """Return a number of a tape as it is, or given data as one."""
+    if isinstance(value, Symbol):
+        return value
+    if isinstance(value, complex):
+        return Symbol(tape, value.real, value.imag)
+    return Symbol(tape, float(value))
+
+
 class Symbol:
     """Real or complex number of a tape.
 
@@ -32,13 +41,6 @@ class Symbol:
     def __init__(self, tape: Tape, re: Ref, im: Ref | None = None, size: Ref | None = None) -> None:
         self.tape, self.re, self.im, self.size = tape, re, im, size
 
-    def _other(self, value: Number) -> Symbol:
-        if isinstance(value, Symbol):
-            return value
-        if isinstance(value, complex):
-            return Symbol(self.tape, value.real, value.imag)
-        return Symbol(self.tape, float(value))
-
     def _parts(self) -> tuple[Ref, Ref]:
         return self.re, 0.0 if self.im is None else self.im
 
@@ -46,7 +48,7 @@ class Symbol:
         return Symbol(self.tape, re, None if real else im, size)
 
     def __add__(self, value: Number) -> Symbol:
-        other, tape = self._other(value), self.tape
+        other, tape = lifted(self.tape, value), self.tape
         (a, b), (c, d) = self._parts(), other._parts()
         real = self.im is None and other.im is None
         return self._new(tape.add(a, c), 0.0 if real else tape.add(b, d), real)
@@ -54,20 +56,20 @@ class Symbol:
     __radd__ = __add__
 
     def __sub__(self, value: Number) -> Symbol:
-        other, tape = self._other(value), self.tape
+        other, tape = lifted(self.tape, value), self.tape
         (a, b), (c, d) = self._parts(), other._parts()
         real = self.im is None and other.im is None
         return self._new(tape.sub(a, c), 0.0 if real else tape.sub(b, d), real)
 
     def __rsub__(self, value: Number) -> Symbol:
-        return self._other(value) - self
+        return lifted(self.tape, value) - self
 
     def __neg__(self) -> Symbol:
         a, b = self._parts()
         return self._new(self.tape.neg(a), self.tape.neg(b), self.im is None, self.size)
 
     def __mul__(self, value: Number) -> Symbol:
-        other, tape = self._other(value), self.tape
+        other, tape = lifted(self.tape, value), self.tape
         (a, b), (c, d) = self._parts(), other._parts()
         size = None
         if self.size is not None and other.size is not None:
@@ -82,7 +84,7 @@ class Symbol:
     __rmul__ = __mul__
 
     def __truediv__(self, value: Number) -> Symbol:
-        other, tape = self._other(value), self.tape
+        other, tape = lifted(self.tape, value), self.tape
         if other.im is None:
             a, b = self._parts()
             re = tape.div(a, other.re)
@@ -91,7 +93,7 @@ class Symbol:
         return self * other.conjugate() / (square * square)
 
     def __rtruediv__(self, value: Number) -> Symbol:
-        return self._other(value) / self
+        return lifted(self.tape, value) / self
 
     def conjugate(self) -> Symbol:
         """Return the complex conjugate."""
@@ -165,11 +167,7 @@ class Symbolic(Exact):
 
     def lift(self, value: Number) -> Number:
         """Turn given data into a symbol."""
-        if isinstance(value, Symbol):
-            return value
-        if isinstance(value, complex):
-            return Symbol(self.tape, value.real, value.imag)
-        return Symbol(self.tape, float(value))
+        return lifted(self.tape, value)
 
     def root(self, value: Number) -> Number:
         """Return the square root, 0 of what is negative."""

@@ -16,8 +16,6 @@ class ForceWording:
     ``way_...`` phrases.
     """
 
-    lang: str
-
     # Loads
     title_loads: str
     scale: str

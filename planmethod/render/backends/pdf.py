@@ -27,7 +27,8 @@ _CAPS = {"butt": 0, "round": 1}
 
 
 @cache
-def _registered(lettering: OutlineLettering) -> str:
+def registered(lettering: OutlineLettering) -> str:
+    """Return the name of a lettering, registered when it is first asked for."""
     pdfmetrics.registerFont(TTFont(lettering.name, str(lettering.font_file)))
     return lettering.name
 
@@ -46,7 +47,7 @@ class PdfCanvas(Canvas):
 
     def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a page whose unit is the millimetre; the first one begins the file."""
-        self._font = _registered(lettering)
+        self._font = registered(lettering)
         self._lettering = lettering
         size = (width * _MM, height * _MM)
         if self._pdf is None:

@@ -58,12 +58,13 @@ def misleading(
     yield from _long_leaders(items)
     yield from _nearer_to_others(writings, arrows)
     yield from _run_into(items, arrows)
-    inside = [one for one in writings if any(_holds(view.box, one.where) for view in views)]
+    inside = [one for one in writings if any(holds(view.box, one.where) for view in views)]
     yield from _words(inside)
     yield from _fractions(items, inside)
 
 
-def _holds(box: Bounds, place: complex) -> bool:
+def holds(box: Bounds, place: complex) -> bool:
+    """Tell whether a place is in a box."""
     return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
 
 

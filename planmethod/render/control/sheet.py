@@ -20,7 +20,7 @@ from itertools import pairwise
 from math import tau
 
 from planmethod.record import replace
-from planmethod.render.control.misleading import misleading
+from planmethod.render.control.misleading import holds, misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of
 from planmethod.render.control.unused import ink_points, largest_empty, share_of
@@ -95,16 +95,12 @@ def _inspected(drawing: Drawing) -> list[Finding]:
 def _attributed(finding: Finding, views: Iterable[View], inner: Bounds) -> Finding:
     """Return a finding with the view that its place is in, or the title block."""
     for view in views:
-        if _holds(view.box, finding.where):
+        if holds(view.box, finding.where):
             return replace(finding, view=view.kind)
     right, low = inner[2], inner[1]
-    if _holds((right - STAMP_WIDTH, low, right, low + STAMP_HEIGHT), finding.where):
+    if holds((right - STAMP_WIDTH, low, right, low + STAMP_HEIGHT), finding.where):
         return replace(finding, view=STAMP)
     return finding
-
-
-def _holds(box: Bounds, place: complex) -> bool:
-    return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
 
 
 def _meet(one: Bounds, two: Bounds) -> bool:
@@ -150,7 +146,7 @@ def run_into_graphs(items: Sequence[Item], views: Sequence[View]) -> Iterator[Fi
         found = [_inside(item, box) for item, ink in others if _meet(box, ink)]
         depth, where = max(found, key=lambda one: one[0], default=(0.0, 0j))
         if depth > _TOUCH:
-            kind = next((view.kind for view in views if _holds(view.box, where)), "")
+            kind = next((view.kind for view in views if holds(view.box, where)), "")
             yield Finding("PM-D13", where, depth, 0.0, {}, view=kind)
 
 
@@ -165,7 +161,7 @@ def _inside(item: Item, box: Bounds) -> tuple[float, complex]:
     found = (
         (min(p.real - box[0], box[2] - p.real, p.imag - box[1], box[3] - p.imag), p)
         for p in ink_points(item)
-        if _holds(box, p)
+        if holds(box, p)
     )
     return max(found, key=lambda one: one[0], default=(0.0, 0j))
 
@@ -206,7 +202,7 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
         if not letters:
             continue
         said = (
-            _holds(view.box, writing.where)
+            holds(view.box, writing.where)
             and writing.shown.replace(" ", "").startswith(f"{letters}=")
             for writing in writings
         )

@@ -114,7 +114,7 @@ def check_fields(fields: Iterable[str]) -> None:
 def filled(text: str, cell: Cell, tag: str = STAMP, *, shrink_first: bool = True) -> list[Item]:
     """Put a text into its cell; in narrow cells less white is left at the sides."""
     wide = cell.box[2] - cell.box[0]
-    pad = 0.2 if wide <= 7 else 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5
+    pad = 0.45 if wide <= 7 else 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5
     # 2.5 mm is the smallest for drawings; 1.8, the smallest of all, is better than a cut surname.
     heights = (*smaller_heights(cell.height), HEIGHTS[0])
     return fit(text, cell.box, heights, align=cell.align, pad=pad, tag=tag,

@@ -3,7 +3,6 @@
 from planmethod.note.wording.force_model import ForceWording
 
 FORCES = ForceWording(
-    lang="en",
     title_loads="Forces on the links",
     scale="We take the scale of the force plans {scale}, one for all of them.",
     of_link="Link {link}:",

@@ -3,7 +3,6 @@
 from planmethod.note.wording.force_model import ForceWording
 
 FORCES = ForceWording(
-    lang="ru",
     title_loads="Силы, действующие на звенья",
     scale="Принимаем масштаб планов сил {scale}, один для всех планов.",
     of_link="Звено {link}:",

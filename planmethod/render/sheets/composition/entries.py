@@ -9,7 +9,7 @@ from typing import Any
 
 from planmethod.languages import say
 from planmethod.plans.model import RATES, PlanKind
-from planmethod.problem.fields import Faults, Table, read_keys, read_text
+from planmethod.problem.fields import Faults, Table, read_keys, read_text, read_whole
 from planmethod.problem.names import is_label
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composition.values import (
@@ -22,7 +22,6 @@ from planmethod.render.sheets.composition.values import (
     read_paragraph,
     read_size,
     read_switch,
-    read_whole,
 )
 from planmethod.render.sheets.model import Entry
 

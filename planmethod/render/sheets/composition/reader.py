@@ -13,6 +13,7 @@ from planmethod.problem.fields import (
     Table,
     read_keys,
     read_table,
+    read_whole,
 )
 from planmethod.problem.names import joined, near_hint, segment, short
 from planmethod.problem.source import parse, read_source
@@ -26,7 +27,6 @@ from planmethod.render.sheets.composition.values import (
     read_list,
     read_size,
     read_switch,
-    read_whole,
 )
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text
 from planmethod.render.sheets.model import FORMATS, Composition, Entry, Sizes

@@ -73,14 +73,6 @@ def read_switch(faults: Faults, path: str, value: object) -> bool:
     return False
 
 
-def read_whole(faults: Faults, path: str, value: object, low: int, high: int) -> int | None:
-    """Read a whole number within bounds."""
-    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        faults.expected(path, say("a whole number from {} to {}", low, high), value)
-        return None
-    return value
-
-
 def read_choice(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> str | None:
     """Read one of the known words."""
     if isinstance(value, str) and value in known:
