@@ -83,7 +83,9 @@ def test_the_omega_of_the_crank_brings_its_sense_into_the_coriolis_acceleration_
 
 def test_a_point_divided_from_the_wrong_end_on_both_plans_is_one_mistake() -> None:
     both = next(
-        e for e in by_code("levers/six-link", "V3") if e.where == "H2" and len(e.change.steps) == 2
+        e
+        for e in by_code("levers/six-link", "V3")
+        if e.where == "H2" and e.change and len(e.change.steps) == 2
     )
     values = {name: abs(both.values[name]) for name in ("v_H2", "v_H", "a_H2")}
     (found,) = checked("levers/six-link", **values).diagnosis

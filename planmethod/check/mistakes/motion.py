@@ -65,7 +65,7 @@ def similarity_wrong(scene: Scene) -> Iterator[Change]:
         for step in scene.steps:
             if isinstance(step, steps.Similar):
                 where = scene.draft.letters.get(step.out, str(step.out)).upper()
-                changed = {step.out: make(step)}
+                changed: dict[Name, tuple[Step, ...]] = {step.out: make(step)}
                 yield Change("V3", where, changed)
                 plans.setdefault(step.link_s, {}).update(changed)
                 if len(plans[step.link_s]) > 1:
