@@ -53,7 +53,7 @@ tasks: $(VENV)/.ready
 
 # The pictures of the documentation; the resolutions keep each below 150 kB.
 gallery: $(VENV)/.ready
-	$(BIN)/planmethod sheet --format png --dpi 70 -o docs/gallery problems/linkages/ex3.toml problems/levers/task12.toml
+	$(BIN)/planmethod sheet --format png --dpi 62 -o docs/gallery problems/linkages/ex3.toml problems/levers/task12.toml
 	$(BIN)/planmethod sheet --format png --dpi 90 -o docs/gallery problems/linkages/ex1.toml
 	$(BIN)/planmethod sheet --layout forces --format png --dpi 45 -o docs/gallery problems/levers/six-link.toml
 	$(BIN)/planmethod sheet --layout forces-cycle --phi 98.918918918919:429:30 --format png --dpi 45 -o docs/gallery problems/press/press.toml

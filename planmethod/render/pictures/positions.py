@@ -24,6 +24,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
+from planmethod.solved.reading import remembered
 from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
@@ -211,7 +212,8 @@ def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
     return len(indices) > FEW or solution.problem.cycle is not None
 
 
-def bold_position(solution: Solution, indices: Sequence[int]) -> int:
+@remembered
+def bold_position(solution: Solution, indices: tuple[int, ...]) -> int:
     """Return the position that shows the mechanism best.
 
     Of those in which no two joined links lie nearly in one line, and the output link does not

@@ -221,7 +221,8 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
     own = {
         i: sum(solution.own_scale(k, i) != s for k, s in solution.scales.items()) for i in indices
     }
-    return bold_position(solution, [i for i in indices if own[i] == min(own.values())])
+    least = min(own.values())
+    return bold_position(solution, tuple(i for i in indices if own[i] == least))
 
 
 def _with_scale(
