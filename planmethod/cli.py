@@ -93,12 +93,13 @@ class Commanded(Spoken, click.Group):
 @click.option(
     "--lang",
     type=click.Choice(LANGUAGES),
-    expose_value=False,
     help="Language of messages and help, before the command or after it.",
 )
 @click.pass_context
-def cli(ctx: click.Context) -> None:
+def cli(ctx: click.Context, lang: str | None) -> None:
     """Draw and compute linkages by the graphical plan method (метод планов)."""
+    if lang is not None:
+        ctx.default_map = dict.fromkeys(COMMANDS, {"lang": lang})
     if ctx.invoked_subcommand is None:
         click.echo(say(FIRST))
 
