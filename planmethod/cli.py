@@ -99,7 +99,7 @@ class Commanded(Spoken, click.Group):
 def cli(ctx: click.Context, lang: str | None) -> None:
     """Draw and compute linkages by the graphical plan method (метод планов)."""
     if lang is not None:
-        ctx.default_map = dict.fromkeys(COMMANDS, {"lang": lang})
+        ctx.default_map = {name: {"lang": lang} for name in COMMANDS}
     if ctx.invoked_subcommand is None:
         click.echo(say(FIRST))
 
