@@ -101,8 +101,8 @@ class Cause(Enum):
     )
     ARC = (
         "Cannot place {out}{at}: the arc from {p[0]} ({l[0]}) does not reach the guide of "
-        "{out}. Check l_{p[0]}{out} and the place of the guide.",
-        "",
+        "{out}. Check l_{p[0]}{out} and the place of the guide.{own}",
+        " It misses by {l[1]}{turn}.",
     )
     TANGENT = (
         "Cannot turn the slotted link about {p[0]}{at}: its line stands off {p[0]} by {l[0]}{own}. "
@@ -163,8 +163,9 @@ class Failure:
     points : tuple of str
         Points that it was to be found from.
     lengths : tuple of float
-        As the sentence needs them, m: radii, the distance of the centres, what is missing; and
-        the most that is missing over a turn, with the crank's position there, degrees.
+        As the sentence needs them, m: radii, the distance of the centres, what is missing.
+    over_turn : tuple of float
+        The most that is missing over a turn, m, and the crank's position there, degrees.
     plan : PlanKind
     margin : float
         Of the steps of the position.
@@ -179,6 +180,7 @@ class Failure:
     out: str = ""
     points: tuple[str, ...] = ()
     lengths: tuple[float, ...] = ()
+    over_turn: tuple[float, ...] = ()
     plan: PlanKind = PlanKind.POSITION
     margin: float = 1.0
     problem: str = ""
@@ -222,10 +224,10 @@ class Failure:
         return say(sentence, **facts, own=say(own, **facts) if whole else "")
 
     def _over_turn(self) -> str:
-        if len(self.lengths) < 6:
+        if not self.over_turn:
             return ""
-        at = self.place.coordinate.told(self.lengths[5], self.place.unit)
-        most = told_length(self.lengths[4], self.place.unit)
+        at = self.place.coordinate.told(self.over_turn[1], self.place.unit)
+        most = told_length(self.over_turn[0], self.place.unit)
         return say(", by {} at the most over a turn (at {})", most, at)
 
 

@@ -74,22 +74,31 @@ def explain(
         found = Failure(Cause.NO_DIRECTION, place, points=ends)
     else:
         found = _failure(step, place, draft, real, point)
-    if read_at is not None and found.cause is Cause.ARCS and problem.drive.is_crank:
-        miss, at = _largest_miss(found, read_at(_TURN))
-        found = replace(found, lengths=(*found.lengths, miss, at))
+    if found.cause in (Cause.ARCS, Cause.ARC):
+        miss = float(_misses(step, reading)[index])
+        found = replace(found, lengths=(*found.lengths, miss))
+        if read_at is not None and problem.drive.is_crank:
+            over_turn = np.nan_to_num(_misses(step, read_at(_TURN)), nan=-np.inf)
+            k = int(np.argmax(over_turn))
+            if over_turn[k] >= miss:  # or all of it lies between the degrees
+                found = replace(found, over_turn=(float(over_turn[k]), float(_TURN[k])))
     return replace(found, alike=alike, others=bad.size - 1 - alike, count=len(positions))
 
 
 _TURN = np.arange(0.0, 360.0)  # where arcs are measured that do not meet, degrees
 
 
-def _largest_miss(found: Failure, reading: Reading) -> tuple[float, float]:
-    """Return the largest miss of two arcs in many positions, m, and where, degrees."""
-    one, two = (reading.point(PointName(point)) for point in found.points)
-    r, q, gap = *found.lengths[:2], np.abs(two - one)
-    miss = np.nan_to_num(np.maximum(gap - r - q, abs(r - q) - gap), nan=-np.inf)
-    k = int(np.argmax(miss))
-    return float(miss[k]), float(_TURN[k])
+def _misses(step: Step, reading: Reading) -> Reals:
+    """Return by how much two arcs, or an arc and a line, miss each other, m, shape (n,)."""
+    if isinstance(step, steps.MeetLineCircle):
+        start, along = reading.value[step.line]
+        away = reading.point(step.centre) - start
+        distance = np.abs((np.conj(along / np.abs(along)) * away).imag)
+        return np.asarray(distance - reading.number(step.radius))
+    assert isinstance(step, steps.MeetCircles)
+    one, two = reading.number(step.radius1), reading.number(step.radius2)
+    gap = np.abs(reading.point(step.centre2) - reading.point(step.centre1))
+    return np.asarray(np.maximum(gap - one - two, np.abs(one - two) - gap))
 
 
 def _without_length(
@@ -125,9 +134,8 @@ def _failure(
     match step:
         case steps.MeetCircles(out, a, r, b, q, _):
             gap, one, two = abs(point(b) - point(a)), real(r), real(q)
-            miss = max(gap - one - two, abs(one - two) - gap)
             cause = Cause.SAME_ARCS if gap == 0 and one == two else Cause.ARCS
-            return Failure(cause, place, out, (a, b), (one, two, gap, miss))
+            return Failure(cause, place, out, (a, b), (one, two, gap))
         case steps.MeetLineCircle(out, _, a, r, _):
             return Failure(Cause.ARC, place, out, (a,), (real(r),))
         case steps.Touch(_, a, r, b, _):

@@ -334,7 +334,8 @@ def test_an_arc_that_does_not_reach_the_guide() -> None:
     message = refused(slider_crank('C = "right of B"', above=0.5))
     assert message == (
         "Cannot place C at phi = 60 deg: the arc from B (0.3 m) does not reach the "
-        "guide of C. Check l_BC and the place of the guide."
+        "guide of C. Check l_BC and the place of the guide. It misses by 0.1134 m, by 0.3 m at the "
+        "most over a turn (at phi = 270 deg)."
     )
 
 
