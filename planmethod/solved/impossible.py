@@ -89,16 +89,20 @@ _TURN = np.arange(0.0, 360.0)  # where arcs are measured that do not meet, degre
 
 
 def _misses(step: Step, reading: Reading) -> Reals:
-    """Return by how much two arcs, or an arc and a line, miss each other, m, shape (n,)."""
-    if isinstance(step, steps.MeetLineCircle):
-        start, along = reading.value[step.line]
-        away = reading.point(step.centre) - start
-        distance = np.abs((np.conj(along / np.abs(along)) * away).imag)
-        return np.asarray(distance - reading.number(step.radius))
-    assert isinstance(step, steps.MeetCircles)
-    one, two = reading.number(step.radius1), reading.number(step.radius2)
-    gap = np.abs(reading.point(step.centre2) - reading.point(step.centre1))
-    return np.asarray(np.maximum(gap - one - two, np.abs(one - two) - gap))
+    """Return by how much two arcs, or an arc and a line, miss each other, m, shape (n,).
+
+    NaN where a line has no direction or an earlier step found no point.
+    """
+    with np.errstate(invalid="ignore"):
+        if isinstance(step, steps.MeetLineCircle):
+            start, along = reading.value[step.line]
+            away = reading.point(step.centre) - start
+            distance = np.abs((np.conj(along / np.abs(along)) * away).imag)
+            return np.asarray(distance - reading.number(step.radius))
+        assert isinstance(step, steps.MeetCircles)
+        one, two = reading.number(step.radius1), reading.number(step.radius2)
+        gap = np.abs(reading.point(step.centre2) - reading.point(step.centre1))
+        return np.asarray(np.maximum(gap - one - two, np.abs(one - two) - gap))
 
 
 def _without_length(
