@@ -202,7 +202,7 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
         for line in read(render(drawing, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
     ]
     exact = [
-        segment.exact[0] * solution.scales[kind].per_mm / solution.own_scale(kind, 0).per_mm
+        segment.exact[0]
         for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
         for segment in solution.segments(kind)
     ]
