@@ -161,6 +161,9 @@ OUTLIER = 5.0
 dead position and is drawn at a scale of its own."""
 
 
+MOST_DRAWN = 120
+"""Most positions drawn in one call: ten sheets of a dozen. Of more no plan has its own scale."""
+
 BETWEEN = 6.0
 """White between the plans of a row, and between rows, mm."""
 

@@ -28,7 +28,7 @@ from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
-from planmethod.solved.scaling import Views, choose_scales, choose_views, own_scales
+from planmethod.solved.scaling import MOST_DRAWN, Views, choose_scales, choose_views, own_scales
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
@@ -215,7 +215,8 @@ class Solution(Remembering):
         scale that the file gives only a sheet leaves what goes beyond its views.
         """
         found: dict[str, Number] = {s.symbol: s.per_mm for s in self.scales.values()}
-        for kind in RATES if self._scales is None else ():
+        drawn = self._scales is None and len(self.positions) <= MOST_DRAWN
+        for kind in RATES if drawn else ():
             common = self.scales[kind]
             if self._views is None and getattr(self.problem.scales, common.symbol) is not None:
                 continue

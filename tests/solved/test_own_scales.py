@@ -34,7 +34,7 @@ def test_a_plan_is_read_at_the_scale_at_which_it_is_drawn() -> None:
     own = [together.own_scale(kind, i).per_mm for i in range(3)]
     assert own == [1.0, 1.0, 2.0]
     scales = {k: together.own_scale(k, 0) for k in PlanKind if k in together.scales}
-    alone = Solution(problem, positions=[30.0], scales=scales)
+    alone = Solution(problem, positions=[30.0, 30.0], scales=scales)
     for one, other in zip(together.segments(kind), alone.segments(kind), strict=True):
         assert one.exact[0] == pytest.approx(other.exact[0], rel=1e-12)
         assert one.read[0] == pytest.approx(other.read[0], rel=1e-12)

@@ -24,13 +24,10 @@ from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import Views
+from planmethod.solved.scaling import MOST_DRAWN, Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
-
-MOST_POSITIONS = 120
-"""Most positions drawn in one call: ten sheets of a dozen plans."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,12 +164,12 @@ def kinematics_sheets(
     if positions is None and made is not None and made.turn:
         positions = turn_of(Solution(problem)).positions.tolist()
     asked = problem.drive.positions if positions is None else tuple(positions)
-    if len(asked) > MOST_POSITIONS:
+    if len(asked) > MOST_DRAWN:
         raise LayoutError(
             "{}: sheets are drawn for at most {} positions, {} are asked. Ask fewer "
             "(--phi 0:360:30); for tables take solve --csv.",
             problem.name,
-            MOST_POSITIONS,
+            MOST_DRAWN,
             len(asked),
         )
     if made is None:
