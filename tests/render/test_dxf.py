@@ -9,7 +9,6 @@ import subprocess
 import sys
 from cmath import rect
 from collections import Counter
-from collections.abc import Callable
 from io import BytesIO, StringIO
 from math import pi, tau
 from pathlib import Path
@@ -22,7 +21,7 @@ from cases import each, thinned
 from click.testing import CliRunner, Result
 from PIL import Image
 from reading import Path as Painted
-from reading import Run, read_dxf
+from reading import Run, read_dxf, solved_while
 from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of
 
 from planmethod.cli import cli
@@ -37,7 +36,6 @@ from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, St
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.style import PENS, sweep
 from planmethod.render.pictures.enlarged import ENLARGED
-from planmethod.render.sheets import kinematics
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.render.symbols import arrowhead, revolute, turn_arrow, vector_arrow
@@ -173,18 +171,6 @@ def turn(angle: float) -> complex:
 
 
 # What is measured ---------------------------------------------------------------------------------
-
-
-def solved_while(draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch) -> tuple[Any, Any]:
-    """Return the sheets and the last solution that was made for them."""
-    made: list[Solution] = []
-
-    def kept(*args: Any, **kwargs: Any) -> Solution:
-        made.append(Solution(*args, **kwargs))
-        return made[-1]
-
-    patch.setattr(kinematics, "Solution", kept)
-    return draw(), made[-1]
 
 
 @pytest.mark.parametrize("name", SIX)

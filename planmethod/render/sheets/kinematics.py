@@ -186,11 +186,14 @@ def kinematics_sheets(
     scales = problem.scales
     # One decision: the scales stay on a larger paper, if the smaller one had no room after all.
     tasks = [task if views.kept else replace(task, views=views)]
-    if (made.turn or len(asked) > FEW) and (scales.mu_v, scales.mu_a) != (None, None):
-        # Scales for one position may be too fine for a dozen plans on one sheet.
-        free = replace(problem, scales=replace(scales, mu_v=None, mu_a=None))
-        tasks.append(replace(task, problem=free))
-    tries = chain(*(product(papers, made.at_most(len(asked)), some) for some in (tasks, [task])))
+    # Scales for one position may be too fine for a dozen plans on one sheet, or for another one.
+    free = replace(task, problem=replace(problem, scales=replace(scales, mu_v=None, mu_a=None)))
+    given = (scales.mu_v, scales.mu_a) != (None, None)
+    if given and (made.turn or len(asked) > FEW):
+        tasks.append(free)
+    last = [free] if given and task.positions != problem.drive.positions else []
+    turns = (product(papers, made.at_most(len(asked)), some) for some in (tasks, [task], last))
+    tries = chain.from_iterable(turns)
 
     def later(name: str) -> Room:
         return replace(furniture, form="2a").room(paper_format(name), 2)
